@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from enum import auto
 from pathlib import Path
-from typing import Self
+from typing import Any, Self
 
 from rocking.remarks import Kind, Remark, Sentence
 
@@ -49,9 +49,12 @@ class RockingError(Exception):
     value: object = None
 
     @classmethod
-    def naming(cls, field: str, value: object, sentence: str) -> Self:
-        """Return the error that the `value` of a field is refused; sentence: it, what is allowed and what to do."""
-        error = cls(sentence)
+    def naming(cls, field: str, value: object, sentence: str, *more: Any) -> Self:
+        """Return the error that the `value` of a field is refused; sentence: it, what is allowed and what to do.
+
+        more: what else the class takes.
+        """
+        error = cls(sentence, *more)
         error.field = field
         error.value = value
         return error

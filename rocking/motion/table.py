@@ -377,9 +377,11 @@ def side_table(side: Side, apart: bool = False) -> SideTable:
                 table = _tabulated(side, arc, inverse, last, apart)
             if table is not None:
                 return table
-    raise MotionError(
+    raise MotionError.naming(
+        "mechanism",
+        last,
         f"the mechanism's functions cannot be tabulated to {ACCURACY:g} of their maximum up to a rotation of "
-        f"{last!r} rad; they must be smooth up to there."
+        f"{last!r} rad; they must be smooth up to there.",
     )
 
 

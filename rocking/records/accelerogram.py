@@ -172,7 +172,9 @@ class Accelerogram(Drawn):
         with about(self.source.path) if self.source.path else nullcontext():
             for name in ("component", "station", "event", "network", "location"):
                 if UNPRINTABLE.search(str(text := getattr(self, name))):
-                    raise RecordError(f"{name} is {text!r}, but must hold printable characters only.")
+                    raise RecordError.naming(
+                        name, text, f"{name} is {text!r}, but must hold printable characters only."
+                    )
             object.__setattr__(self, "acceleration", _samples(self.acceleration))
             object.__setattr__(self, "time_step", positive(RecordError, "time_step", self.time_step, "s"))
             object.__setattr__(self, "scale_factor", finite(RecordError, "scale_factor", self.scale_factor))
@@ -307,7 +309,9 @@ class Accelerogram(Drawn):
 
 def _samples(values: np.ndarray) -> np.ndarray:
     if np.ma.is_masked(values):
-        raise RecordError("the samples are masked in places; fill or cut the gap before use.")
+        raise RecordError.naming(
+            "acceleration", "masked", "the samples are masked in places; fill or cut the gap before use."
+        )
     try:
         array = np.asarray(values)
         if array.dtype.kind not in "iufO":
@@ -316,12 +320,22 @@ def _samples(values: np.ndarray) -> np.ndarray:
         frozen = array.dtype == np.float64 and array.base is None and not array.flags.writeable
         samples = array if frozen else np.array(array, dtype=np.float64)
     except (TypeError, ValueError, OverflowError):
-        raise RecordError("the samples are not all real numbers; give a one-dimensional array.") from None
+        raise RecordError.naming(
+            "acceleration",
+            type(values).__name__,
+            "the samples are not all real numbers; give a one-dimensional array.",
+        ) from None
     if samples.ndim != 1 or samples.size < 2:
-        raise RecordError(f"the samples have shape {samples.shape}, but must be one row of at least 2.")
+        raise RecordError.naming(
+            "acceleration",
+            samples.shape,
+            f"the samples have shape {samples.shape}, but must be one row of at least 2.",
+        )
     if not np.isfinite(samples).all():
         bad = np.flatnonzero(~np.isfinite(samples))
         first = f"sample {bad[0]} is {samples[bad[0]]}, one of {bad.size} that are not finite"
-        raise RecordError(f"{first}; fill or cut the gap before use.")
+        raise RecordError.naming(
+            "acceleration", float(samples[bad[0]]), f"{first}; fill or cut the gap before use."
+        )
     samples.flags.writeable = False
     return samples

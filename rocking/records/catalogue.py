@@ -127,7 +127,7 @@ class CatalogueRecord:
                 except RockingError as error:
                     defects.append(str(error))
         if defects:
-            raise CatalogueError(" ".join(defects))
+            raise CatalogueError.naming("record", defects, " ".join(defects))
 
     @property
     def is_remote(self) -> bool:
@@ -242,7 +242,9 @@ def load_catalogue(path: str | Path) -> tuple[CatalogueRecord, ...]:
         number = "a defect" if len(defects) == 1 else f"{len(defects)} defects"
         rest = len(defects) - _MOST_TOLD
         more = [f"and {rest} more"] if rest > 0 else []
-        raise CatalogueError(f"{path.name} has {number}: " + " | ".join([*defects[:_MOST_TOLD], *more]))
+        raise CatalogueError.naming(
+            "catalogue", defects, f"{path.name} has {number}: " + " | ".join([*defects[:_MOST_TOLD], *more])
+        )
     return tuple(records)
 
 
@@ -260,7 +262,9 @@ def read_rows(path: Path) -> list[tuple[int, dict[str, str]]]:
     """Return line and cells of each row of the catalogue at `path`. Raises CatalogueError for what is no catalogue."""
     rows = read_edited(path, CatalogueError, COLUMNS, ("id", "file"), _NUMBERS)
     if not rows:
-        raise CatalogueError(f"{path.name}: the catalogue has no rows; give at least one record.")
+        raise CatalogueError.naming(
+            "catalogue", rows, f"{path.name}: the catalogue has no rows; give at least one record."
+        )
     return rows
 
 
@@ -277,7 +281,9 @@ def record_of_row(row: Mapping[str, str], folder: Path) -> CatalogueRecord:
     for name, each in described_values(CatalogueRecord).items():
         if cell := (row.get(each.key) or "").strip():
             if each.kind is not str and not is_number(cell):
-                raise CatalogueError(f"{each.key} is {shown(cell)}, but must be a number{number_hint(cell)}.")
+                raise CatalogueError.naming(
+                    each.key, cell, f"{each.key} is {shown(cell)}, but must be a number{number_hint(cell)}."
+                )
             values[name] = float(cell) if each.kind is not str else plain(cell) if name in _PROSE else cell
     return CatalogueRecord(**values)
 

@@ -39,14 +39,18 @@ def path_of(record: CatalogueRecord, file: RecordFile, mirror: str | Path | None
         try:
             return Path(get_example_file(record.example_name))
         except (OSError, ValueError):
-            raise RecordError(f"obspy installs no example file {record.example_name!r}.") from None
+            raise RecordError.naming(
+                "file", record.example_name, f"obspy installs no example file {record.example_name!r}."
+            ) from None
     if path := beside_catalogue(record, file.name, mirror):
         return path
     if record.is_remote:
         source = record.source_repository, record.source_commit, file.source_path
         return download(file.name, *source, sha256=file.sha256)
     places = " or ".join(str(folder) for folder in (mirror, record.folder) if folder)
-    raise RecordError(f"file {file.name!r} is not in {places}; mend the catalogue or add the file.")
+    raise RecordError.naming(
+        "file", file.name, f"file {file.name!r} is not in {places}; mend the catalogue or add the file."
+    )
 
 
 def local_files(record: CatalogueRecord, mirror: str | Path | None = None) -> list[Path]:
@@ -116,7 +120,7 @@ def beside_catalogue(record: CatalogueRecord, file: str, mirror: str | Path | No
         if not (archive or path).is_file():
             continue
         if not path.resolve().is_relative_to(Path(folder).resolve()):
-            raise RecordError(f"file {file!r} leads out of {folder}; keep it inside.")
+            raise RecordError.naming("file", file, f"file {file!r} leads out of {folder}; keep it inside.")
         return path
     return None
 
@@ -143,7 +147,7 @@ def download(file: str, repository: str, commit: str, path: str, *, sha256: str 
     except Exception as error:
         why = first_line(getattr(error, "reason", None) or error)
         failed = f"file {file!r} cannot be fetched from {address}, {why}"
-        raise RecordError(f"{failed}; try again or give a mirror folder.") from error
+        raise RecordError.naming("file", file, f"{failed}; try again or give a mirror folder.") from error
 
 
 class _Direct(urllib.request.HTTPRedirectHandler):

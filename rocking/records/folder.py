@@ -83,7 +83,9 @@ def catalogue_of_folder(
     """
     folder = Path(folder)
     if not folder.is_dir():
-        raise RecordError(f"{folder}: this is no folder; give the folder that holds the records.")
+        raise RecordError.naming(
+            "folder", folder, f"{folder}: this is no folder; give the folder that holds the records."
+        )
     rows = [dict(row) for row in standing]
     rows_of = {_bare(name): row for row in rows for name in row["file"].split(";")}
     layouts = Layouts(answers or folder)

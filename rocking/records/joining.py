@@ -54,7 +54,9 @@ def why_apart(channels: Sequence[ComponentFacts], samples: Collection[int]) -> R
 def joined(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
     """Return the channels of several files on their common span. Raises RecordError when they do not fit together."""
     if why := why_apart(channels, [channel.acceleration.size for channel in channels]):
-        raise RecordError(f"its files do not fit together: {why}; give each file a row of its own.")
+        raise RecordError.naming(
+            "files", str(why), f"its files do not fit together: {why}; give each file a row of its own."
+        )
     if all(channel.start_time for channel in channels):
         return _on_common_span(channels)
     return _to_the_shortest(channels)
@@ -68,10 +70,16 @@ def _on_common_span(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
     first = np.round(late).astype(int).tolist()
     off = np.abs(late - first).max()
     if off > _OFF_GRID:
-        raise RecordError(f"resample the files: their samples lie {off:.2g} of a step between one another.")
+        raise RecordError.naming(
+            "start_time",
+            off,
+            f"resample the files: their samples lie {off:.2g} of a step between one another.",
+        )
     size = min(channel.acceleration.size - place for channel, place in zip(channels, first, strict=True))
     if size < 2:
-        raise RecordError("the files have no span of time in common; give each file a row of its own.")
+        raise RecordError.naming(
+            "samples", size, "the files have no span of time in common; give each file a row of its own."
+        )
     begin = channels[int(np.argmax(starts))].start_time
     sentence = f"Cut to the span common to the station's files, {size * step:g} s from {begin} on."
     cut = []

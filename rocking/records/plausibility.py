@@ -84,9 +84,11 @@ def agree_with_header(
         near = min(apart, key=apart.__getitem__)
         is_unit = apart[near] < _NEAR
         factor = f"{near:g} ({_FACTORS[near]})" if is_unit else f"{ratio:.4g} that no unit explains"
-        raise RecordError(
+        raise RecordError.naming(
+            "peak",
+            stated,
             f"peak acceleration of {record.component or 'the samples'} is {peak_read:.6g} m/s², but the file's header "
-            f"states {stated:.6g} m/s², a factor {factor}; the two must agree within 1 %."
+            f"states {stated:.6g} m/s², a factor {factor}; the two must agree within 1 %.",
         )
     if off > max(_ROUNDING * stated, digit):
         record = record.warned(
@@ -168,15 +170,21 @@ def _refuse_peak(record: Accelerogram, found: str, limit: str, form: str) -> NoR
     fits = _fitting_factors(record.peak_acceleration / GRAVITY)
     beyond = f"{found} read as {record.source.unit or 'm/s2'}, above {limit}"
     if form in OF_COUNTS:
-        raise RecordError(
+        raise RecordError.naming(
+            "peak",
+            found,
             f"{beyond}: the samples may be counts of the recorder; {advice('inventory')} "
-            f"and no unit{f'; divided {fits} they would be plausible as acceleration' if fits else ''}."
+            f"and no unit{f'; divided {fits} they would be plausible as acceleration' if fits else ''}.",
         )
     if fits:
-        raise RecordError(f"{beyond}; divided {fits} it would be plausible; declare the true unit.")
-    raise RecordError(
+        raise RecordError.naming(
+            "peak", found, f"{beyond}; divided {fits} it would be plausible; declare the true unit."
+        )
+    raise RecordError.naming(
+        "peak",
+        found,
         f"{beyond}, and no factor between units explains it: counts of the recorder, perhaps; multiply them by their "
-        "calibration, or use the calibrated file of the record."
+        "calibration, or use the calibrated file of the record.",
     )
 
 
@@ -449,7 +457,9 @@ def refuse_other_quantity(file: str, text: str) -> None:
     """Raise RecordError when `text`, a header, or the ending of the name `file` speaks of another quantity."""
     suffix = next((word for end, word in _SUFFIXES.items() if file.lower().endswith(end)), None)
     if quantity := other_quantity(text) or suffix:
-        raise RecordError(f"this is a file of {quantity}; use the acceleration of the same record.")
+        raise RecordError.naming(
+            "quantity", quantity, f"this is a file of {quantity}; use the acceleration of the same record."
+        )
 
 
 _SPECTRUM = re.compile(
@@ -468,7 +478,11 @@ def refuse_spectrum(header: Sequence[str]) -> None:
     if any(_OF_MOTION.search(line) for line in header):
         return
     if said := next((match[0] for line in header if (match := _SPECTRUM.search(line))), ""):
-        raise RecordError(f"this is a spectrum ({said}); use the record of acceleration against time.")
+        raise RecordError.naming(
+            "quantity",
+            "spectrum",
+            f"this is a spectrum ({said}); use the record of acceleration against time.",
+        )
 
 
 _QUANTITY_IN_NAME = re.compile(r"(?<![a-z])(vel(?:ocity|oc)?|disp(?:l|lacement)?)(?![a-z])", re.I)
@@ -479,7 +493,9 @@ def refuse_by_name(file: str) -> None:
     word = _QUANTITY_IN_NAME.search(file)
     if word and not _ACCELERATION.search(file):
         quantity = "velocity" if word[1][0] in "vV" else "displacement"
-        raise RecordError(
+        raise RecordError.naming(
+            "quantity",
+            quantity,
             f"its name speaks of {quantity}, and nothing in it of acceleration; use the acceleration of the same "
-            "record, or rename the file if it is that."
+            "record, or rename the file if it is that.",
         )

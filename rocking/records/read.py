@@ -99,7 +99,9 @@ def read(
     ['N28W', 'S62W', 'Up']
     """
     if not isinstance(path, str | os.PathLike):
-        raise RecordError(f"path is {shown(path)}, but must be the path of a file, as a text or a Path.")
+        raise RecordError.naming(
+            "path", path, f"path is {shown(path)}, but must be the path of a file, as a text or a Path."
+        )
     path = Path(path)
     stationxml = Path(inventory) if inventory else None
     options = Options(unit, time_step, stationxml, path.parent, response)
@@ -123,7 +125,7 @@ def _read_archive(path: Path, options: Options) -> list[Accelerogram]:
                 refused.append((name, error))
         if not records:
             reasons = [error for _, error in refused] or [
-                RecordError("the archive holds no file; fetch it again.")
+                RecordError.naming("files", 0, "the archive holds no file; fetch it again.")
             ]
             raise next((error for error in reasons if isinstance(error, UndeclaredError)), reasons[0])
     if refused:
@@ -158,7 +160,7 @@ def read_content(
         text = bare_text(content)
         reader = reader or recognise(text)
         if isinstance(reader.read, str):
-            raise RecordError(reader.read)
+            raise RecordError.naming("format", reader.name, reader.read)
         try:
             read_by = reader.read(text, replace(options, file=name))
         except RecordError:
@@ -166,7 +168,9 @@ def read_content(
             raise
         records = distinct_channels(_named_by_file(read_by, name))
         if not records:
-            raise RecordError("the file holds no channel of acceleration; use the acceleration file.")
+            raise RecordError.naming(
+                "channels", 0, "the file holds no channel of acceleration; use the acceleration file."
+            )
         is_doubled = b"\r\r\n" in content[:2000] and text is not content
         notes = [Remark(RecordKind.LINE_ENDS_DOUBLED)] if is_doubled else []
         of_rows = repeated_rows(records)
@@ -264,26 +268,32 @@ _TOLD = tuple((re.compile(pattern, re.I), sentence) for pattern, sentence in (
 def recognise(content: bytes) -> Format:
     """Return the one format that recognises `content`. Raises UnknownFormatError when none or several do."""
     if not content.strip(b"\0 \n"):
-        raise RecordError("the file is empty; fetch it again.")
+        raise RecordError.naming("size", 0, "the file is empty; fetch it again.")
     if content.startswith(_PICKLE + _PICKLED):
-        raise UnknownFormatError("this is a pickled Python object, which could run code; it is never opened.")
+        raise UnknownFormatError.naming(
+            "format", "pickle", "this is a pickled Python object, which could run code; it is never opened."
+        )
     forms = [form for form in FORMATS if not form.yields and form.recognise(content)]
     for pattern, sentence in _TOLD if not forms else ():
         if pattern.match(content[:400]):
-            raise UnknownFormatError(sentence)
+            raise UnknownFormatError.naming("format", content[:8], sentence)
     # Bare numbers last: what stands above them, and how, takes longer than all the other first lines together.
     forms = forms or [form for form in FORMATS if form.yields and form.recognise(content)]
     if len(forms) == 1:
         return forms[0]
     if forms:
         names = ", ".join(form.name for form in forms)
-        raise UnknownFormatError(f"several readers recognise this file ({names}); none is preferred.")
+        raise UnknownFormatError.naming(
+            "format", names, f"several readers recognise this file ({names}); none is preferred."
+        )
     head = content.lstrip()[:40] or b" "
     words = head.decode("latin-1").splitlines()[0].strip()
-    raise UnknownFormatError(
+    raise UnknownFormatError.naming(
+        "format",
+        words,
         f"no reader recognises this file, which begins with {(words if words.isprintable() else head[:8])!r}; "
         f"rocking read --details says why. {_BY_OBSPY}.",
-        details=tuple(f"{form.name}: no {form.signature}" for form in FORMATS),
+        tuple(f"{form.name}: no {form.signature}" for form in FORMATS),
     )
 
 
@@ -300,9 +310,15 @@ def unpack(raw: bytes, name: str) -> bytes:
     try:
         content = gzip.GzipFile(fileobj=BytesIO(raw)).read(LARGEST_FILE + 1)
     except (OSError, EOFError, zlib.error) as error:
-        raise RecordError(f"{name}: damaged gzip file, {error}; fetch it again.") from None
+        raise RecordError.naming(
+            "format", "gzip", f"{name}: damaged gzip file, {error}; fetch it again."
+        ) from None
     if len(content) > LARGEST_FILE:
-        raise RecordError(f"{name}: the gzip file unpacks to more than {LARGEST_FILE} bytes; cut it first.")
+        raise RecordError.naming(
+            "size",
+            len(content),
+            f"{name}: the gzip file unpacks to more than {LARGEST_FILE} bytes; cut it first.",
+        )
     return content
 
 
@@ -316,9 +332,11 @@ def bytes_of(path: Path, largest: int = LARGEST_FILE) -> bytes:
     if is_archive(path):
         with about(printable(path.name)):
             count = len(members(path))
-        raise RecordError(
+        raise RecordError.naming(
+            "file",
+            path.name,
             f"{printable(path.name)}: this is an archive of {count} files; name each of them, as "
-            f"{printable(path.name)}/member, or list the folder with rocking catalogue."
+            f"{printable(path.name)}/member, or list the folder with rocking catalogue.",
         )
     return read_whole(path, largest, RecordError, printable(str(path)))
 
@@ -350,7 +368,9 @@ def distinct_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
         same = a.component == b.component and a.peak_acceleration > 0
         if same and np.array_equal(a.acceleration, b.acceleration):
             name = f"channel {k} ({a.component or 'not named'})"
-            raise RecordError(f"{name} repeats channel {i}: the file is appended to itself; fetch it again.")
+            raise RecordError.naming(
+                "channel", k, f"{name} repeats channel {i}: the file is appended to itself; fetch it again."
+            )
     shared = Counter(record.component for record in records if record.component)
     named = [
         record if record.component else replace(record, component=f"channel {place}")

@@ -242,8 +242,10 @@ class Sample:
 
     def __post_init__(self) -> None:
         if len(self.stations) != len(self.events):
-            raise ConfigurationError(
-                f"events names {len(self.events)}, but must name one for each of {len(self.stations)} records."
+            raise ConfigurationError.naming(
+                "events",
+                len(self.events),
+                f"events names {len(self.events)}, but must name one for each of {len(self.stations)} records.",
             )
 
     @classmethod
@@ -264,8 +266,10 @@ class Sample:
         """
         for name, given in (("stations", stations), ("events", events)):
             if given is not None and len(given) != len(records):
-                raise ConfigurationError(
-                    f"{name} names {len(given)}, but must name one for each of {len(records)} records."
+                raise ConfigurationError.naming(
+                    name,
+                    len(given),
+                    f"{name} names {len(given)}, but must name one for each of {len(records)} records.",
                 )
         of_records = list(map(str, events)) if events is not None else earthquakes_of(records)
         own = list(map(str, stations)) if stations is not None else stations_of(records, of_records, rows)

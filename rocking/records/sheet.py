@@ -37,19 +37,27 @@ def table_of_workbook(raw: bytes) -> bytes:
     try:
         parts = zipfile.ZipFile(io.BytesIO(raw)).infolist()
         if max(part.file_size for part in parts) > _LARGEST_PART:
-            raise RecordError(
-                f"a part of the workbook unpacks to more than {_LARGEST_PART} bytes; {_ADVICE}."
+            raise RecordError.naming(
+                "size",
+                _LARGEST_PART,
+                f"a part of the workbook unpacks to more than {_LARGEST_PART} bytes; {_ADVICE}.",
             )
         book = load_workbook(io.BytesIO(raw), read_only=True, data_only=True)
         tables = {sheet.title: _table(sheet.iter_rows(values_only=True)) for sheet in book.worksheets}
     except RecordError:
         raise
     except Exception as error:  # zipfile and openpyxl raise what they like for what is damaged
-        raise RecordError(f"the workbook cannot be read, {type(error).__name__}; {_ADVICE}.") from error
+        raise RecordError.naming(
+            "format", "workbook", f"the workbook cannot be read, {type(error).__name__}; {_ADVICE}."
+        ) from error
     named = {title: table for title, table in tables.items() if table}
     if len(named) != 1:
         held = f"the sheets {', '.join(named)} hold" if named else "no sheet of the workbook holds"
-        raise RecordError(f"{held} times and accelerations with their units in names above them; {_ADVICE}.")
+        raise RecordError.naming(
+            "sheets",
+            tuple(named),
+            f"{held} times and accelerations with their units in names above them; {_ADVICE}.",
+        )
     return next(iter(named.values()))
 
 

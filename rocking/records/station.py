@@ -46,7 +46,11 @@ def open_station(record: CatalogueRecord, mirror: str | Path | None = None) -> S
     with about(record.id):
         inventory = beside_catalogue(record, record.inventory, mirror) if record.inventory else None
         if record.inventory and inventory is None:
-            raise RecordError(f"inventory {record.inventory!r} is missing; mend the row or add the file.")
+            raise RecordError.naming(
+                "inventory",
+                record.inventory,
+                f"inventory {record.inventory!r} is missing; mend the row or add the file.",
+            )
         channels: list[Accelerogram] = []
         for file in record.files:
             channels += _channels_of(record, file, inventory, mirror)
@@ -67,7 +71,7 @@ def _channels_of(
     sha256 = sha256_of_bytes(raw)
     if file.sha256 and sha256 != file.sha256:
         hashes = f"file {path} has sha256 {sha256}, but the catalogue says {file.sha256}"
-        raise RecordError(f"{hashes}; it is another version.")
+        raise RecordError.naming("sha256", sha256, f"{hashes}; it is another version.")
     layouts = Layouts(record.folder, PurePosixPath(file.name).parent.as_posix())
     options = Options(record.unit or None, record.time_step, inventory, path.parent, layouts=layouts)
     with through("catalogue"):
@@ -140,7 +144,9 @@ def _horizontal(
     horizontal = [channel for channel in surface if channel is not vertical and not channel.vertical]
     if not horizontal:
         held = _listed(channels)
-        raise RecordError(f"the file holds no horizontal component, only {held}; name one.")
+        raise RecordError.naming(
+            "component", held, f"the file holds no horizontal component, only {held}; name one."
+        )
     return horizontal
 
 
@@ -148,7 +154,9 @@ def _called(name: str, channels: Sequence[Accelerogram]) -> Accelerogram:
     """Return the first channel of that name. Raises RecordError where no file holds it."""
     named = next((channel for channel in channels if channel.component == name), None)
     if named is None:
-        raise RecordError(f"component is {name!r}, but the file holds {_listed(channels)}.")
+        raise RecordError.naming(
+            "component", name, f"component is {name!r}, but the file holds {_listed(channels)}."
+        )
     return named
 
 

@@ -30,13 +30,19 @@ def joined(result: Any) -> Any:
     try:
         result = result.merge(method=0)
     except Exception as error:
-        raise RecordError(f"the pieces of a channel do not join, {first_line(error)}.") from error
+        raise RecordError.naming(
+            "channel", first_line(error), f"the pieces of a channel do not join, {first_line(error)}."
+        ) from error
     for trace in result:
         if trace.data.dtype.kind not in "iuf":
-            raise RecordError(f"channel {trace.id} holds text and no samples; leave it out.")
+            raise RecordError.naming(
+                "channel", trace.id, f"channel {trace.id} holds text and no samples; leave it out."
+            )
         if np.ma.is_masked(trace.data):
             at = int(np.flatnonzero(np.ma.getmaskarray(trace.data))[0]) * trace.stats.delta
-            raise RecordError(f"channel {trace.id} has a gap at {at:g} s; give a record without gaps.")
+            raise RecordError.naming(
+                "channel", trace.id, f"channel {trace.id} has a gap at {at:g} s; give a record without gaps."
+            )
         trace.data = np.ma.getdata(trace.data)
     result.traces.sort(key=lambda trace: order.index(trace.id))  # which joining sorts by name
     return result
@@ -87,24 +93,32 @@ def calibrated(trace: Any, inventory: Any, response: str) -> Calibrated:
         units = str(of.instrument_sensitivity.input_units)
         gain = float(of.instrument_sensitivity.value)
     except Exception as error:
-        raise RecordError(f"the StationXML holds no response of {trace.id} at {stats.starttime}.") from error
+        raise RecordError.naming(
+            "inventory", trace.id, f"the StationXML holds no response of {trace.id} at {stats.starttime}."
+        ) from error
     try:
         factor, order = measured_as(units)
     except ValueError as error:
-        raise RecordError(f"{error}; use a channel of acceleration or velocity.") from None
+        raise RecordError.naming(
+            "quantity", units, f"{error}; use a channel of acceleration or velocity."
+        ) from None
     doubts = _check_gain(gain, of, trace.id, response)
     staged = bool(getattr(of, "response_stages", None))
     if response == "sensitivity" and (order == 0 or (order == 1 and not staged)):
         return replace(_by_sensitivity(trace, gain / factor, order), warnings=doubts)
     if not staged:
-        raise RecordError(
+        raise RecordError.naming(
+            "response",
+            "stages",
             f"the response of {trace.id} has no stages, of which its full removal consists; give a StationXML that has "
-            "them, or take response: sensitivity."
+            "them, or take response: sensitivity.",
         )
     if factor != 1:
-        raise RecordError(
+        raise RecordError.naming(
+            "response",
+            units,
             f"the response of {trace.id} is in {units}, which its full removal does not convert; give a StationXML in "
-            "M/S or M/S**2, or take response: sensitivity."
+            "M/S or M/S**2, or take response: sensitivity.",
         )
     return _by_response(trace, inventory)
 
@@ -131,7 +145,9 @@ def _by_response(trace: Any, inventory: Any) -> Calibrated:
             how = {"output": "ACC", "pre_filt": band, "water_level": None}
             clean = trace.copy().remove_response(inventory=inventory, **how)
     except Exception as error:
-        raise RecordError(f"the response of {trace.id} cannot be removed, {error}.") from error
+        raise RecordError.naming(
+            "response", trace.id, f"the response of {trace.id} cannot be removed, {error}."
+        ) from error
     limits = " and ".join(f"{band[i]:g}-{band[i + 1]:g} Hz" for i in (0, 2))
     removed = f"full instrument response removed to acceleration between {limits}"
     is_unlike = any("sensitivities" in line for line in lines)
@@ -165,9 +181,11 @@ def _check_gain(gain: float, response: Any, name: str, removal: str) -> tuple[Re
     At another frequency than theirs it may differ, which a remark tells; the full removal uses the stages alone.
     """
     if not 0 < abs(gain) < LARGEST_GAIN:
-        raise RecordError(
+        raise RecordError.naming(
+            "sensitivity",
+            gain,
             f"the overall sensitivity is {gain:g}, but must be above 0 and below {LARGEST_GAIN:g}; the StationXML is "
-            "damaged: fetch it again."
+            "damaged: fetch it again.",
         )
     staged = [each for each in response.response_stages or () if each.stage_gain]
     product = float(np.prod([float(each.stage_gain) for each in staged])) if staged else gain
@@ -179,9 +197,11 @@ def _check_gain(gain: float, response: Any, name: str, removal: str) -> tuple[Re
     if at is not None and any(other > 0 and abs(other / at - 1) > _SAME_FREQUENCY for other in others if at):
         return (Remark.of(RecordKind.SENSITIVITY_ELSEWHERE, name, at_hz=float(at), off=off),)
     if staged:
-        raise RecordError(
+        raise RecordError.naming(
+            "sensitivity",
+            gain,
             f"the overall sensitivity is {gain:g}, but the gains of its stages multiply to {product:g}, more than 5 % "
-            "off: the StationXML contradicts itself; ask the network which one holds."
+            "off: the StationXML contradicts itself; ask the network which one holds.",
         )
     return ()
 
@@ -251,8 +271,10 @@ def unit_left_by(trace: Any) -> str | None:
     except (AttributeError, ValueError):
         return None
     if order:
-        raise RecordError(
-            f"its sensitivity was removed, which leaves {units}; give acceleration: remove_response(output='ACC')."
+        raise RecordError.naming(
+            "quantity",
+            units,
+            f"its sensitivity was removed, which leaves {units}; give acceleration: remove_response(output='ACC').",
         )
     return {1.0: "m/s2", 1e-2: "cm/s2", 1e-3: "mm/s2", 1e-9: "nm/s2", GRAVITY: "g"}.get(factor)
 

@@ -36,7 +36,8 @@ def read_edited(
         rows = [(reader.line_num, row) for row in reader]
         names = list(reader.fieldnames or ())
     except (ValueError, csv.Error) as fault:
-        raise error(f"{path}: the {path.stem} cannot be read as UTF-8 CSV, {fault}.") from None
+        sentence = f"{path}: the {path.stem} cannot be read as UTF-8 CSV, {fault}."
+        raise error.naming("file", path.name, sentence) from None
     defects = [_unknown(name, columns) for name in names if name not in columns]
     defects += [f"column {shown(name)} stands {n} times" for name, n in Counter(names).items() if n > 1]
     defects += [f"column {shown(name)} is missing" for name in required if name not in names]
@@ -47,7 +48,7 @@ def read_edited(
     ]
     if defects:
         allowed = f"; the columns are {', '.join(columns)}" if len(columns) <= _MOST_TOLD else ""
-        raise error(f"{path.name}: {'; '.join(defects)}{allowed}.")
+        raise error.naming("columns", defects, f"{path.name}: {'; '.join(defects)}{allowed}.")
     if separator == ";":
         for _, row in rows:
             row |= {name: row[name].replace(",", ".") for name in numbers if row.get(name)}

@@ -41,9 +41,11 @@ def read_whole(path: Path, largest: int, error: type[RockingError], name: str = 
             content = stream.read(largest + 1)
     except (OSError, ValueError) as reason:
         why = getattr(reason, "strerror", None) or reason
-        raise error(f"{name}: the file cannot be opened, {why}; give the path of a file.") from None
+        sentence = f"{name}: the file cannot be opened, {why}; give the path of a file."
+        raise error.naming("file", path.name, sentence) from None
     if len(content) > largest:
-        raise error(f"{name}: the file is larger than {largest} bytes, the most that is read.")
+        sentence = f"{name}: the file is larger than {largest} bytes, the most that is read."
+        raise error.naming("size", len(content), sentence)
     return content
 
 
@@ -139,4 +141,5 @@ def _sync(path: Path) -> None:
 
 def _unwritten(path: Path, error: OSError) -> RockingError:
     reason = error.strerror or str(error)
-    return RockingError(f"{path} cannot be written: {reason}; mend that, then start again.")
+    sentence = f"{path} cannot be written: {reason}; mend that, then start again."
+    return RockingError.naming("file", path.name, sentence)

@@ -302,11 +302,12 @@ def csv_lines(row_class: type[R], rows: Iterable[R]) -> Iterator[str]:
     writer = csv.writer(SimpleNamespace(write=line.append), lineterminator="\n")
     writer.writerow(names)
     yield line.pop()
-    for each in rows:
-        if type(each) is not row_class:
-            kind = type(each).__name__
-            raise RockingError(f"{row_class.table.file_name}: {kind} is not {row_class.__name__}.")
-        writer.writerow([cell(getattr(each, name)) for name in names])
+    for table_row in rows:
+        if type(table_row) is not row_class:
+            kind = type(table_row).__name__
+            sentence = f"{row_class.table.file_name}: {kind} is not {row_class.__name__}."
+            raise RockingError.naming("row", kind, sentence)
+        writer.writerow([cell(getattr(table_row, name)) for name in names])
         yield line.pop()
 
 
@@ -328,18 +329,23 @@ def read_rows(row_class: type[R], path: Path) -> Iterator[R]:
 def _read_values(row_class: type[Row], path: Path, names: Collection[str]) -> Iterator[list[Any]]:
     """Yield the values of the columns `names` in each row of a CSV file; raises RockingError as read_rows does."""
     columns = row_class.table.columns
-    chosen = [(place, each) for place, each in enumerate(columns) if each.name in names]
+    chosen = [(place, one) for place, one in enumerate(columns) if one.name in names]
     with readable(path) as stream:
         lines = csv.reader(stream)
         check_columns(row_class.table, next(lines, []), path)
         for cells in lines:
             if len(cells) != len(columns):
                 counts = f"has {len(cells)} cells, but must have {len(columns)}"
-                raise RockingError(f"{path}, line {lines.line_num}, {counts}.")
+                sentence = f"{path}, line {lines.line_num}, {counts}."
+                raise RockingError.naming("cells", len(cells), sentence)
+            values: list[Any] = []
             try:
-                values = [value_of(each, cells[place]) for place, each in chosen]
+                for place, wanted in chosen:
+                    values.append(value_of(wanted, cells[place]))
             except ValueError as error:
-                raise RockingError(f"{path}, line {lines.line_num}, {error}.") from None
+                place, wanted = chosen[len(values)]
+                sentence = f"{path}, line {lines.line_num}, {error}."
+                raise RockingError.naming(wanted.name, cells[place], sentence) from None
             yield values
 
 
@@ -354,7 +360,8 @@ def readable(path: Path) -> Iterator[Any]:
             yield stream
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        raise RockingError(f"{path} cannot be read: {reason}; make the table again.") from error
+        sentence = f"{path} cannot be read: {reason}; make the table again."
+        raise RockingError.naming("file", path.name, sentence) from error
 
 
 def check_columns(table: Table, names: Iterable[str], path: Path) -> None:
@@ -362,8 +369,11 @@ def check_columns(table: Table, names: Iterable[str], path: Path) -> None:
     expected = list(table.column_names)
     if columns != expected:
         wrong = sorted(set(columns) ^ set(expected)) or ["in another order"]
-        raise RockingError(
-            f"{path}, line 1: the columns are not those of {table.name} ({', '.join(wrong[:6])}); make the table again."
+        raise RockingError.naming(
+            "columns",
+            wrong,
+            f"{path}, line 1: the columns are not those of {table.name} ({', '.join(wrong[:6])}); make the table "
+            "again.",
         )
 
 

@@ -448,13 +448,15 @@ MADE_BINARY: dict[str, tuple[Callable[[], bytes], float, Options]] = {
 }
 """The same for formats that are no text."""
 
-MADE_REFUSED: dict[str, tuple[str, str]] = {
-    "PEER AT2: VT2": (peer().replace("ACCELERATION TIME SERIES IN UNITS OF G", "VELOCITY IN CM/S"), "velocity"),
-    "CSMIP V3 spectra": ("Response and Fourier Amplitude Spectra\n 1 2 3\n", "spectra"),
-    "CSS wfdisc": (of_obspy("css/tests/data/test_css.wfdisc").decode(), "holds no samples"),
-    "StationXML": ('<?xml version="1.0"?>\n<FDSNStationXML></FDSNStationXML>\n', "no samples"),
+MADE_REFUSED: dict[str, tuple[str, str, str]] = {
+    "PEER AT2: VT2": (
+        peer().replace("ACCELERATION TIME SERIES IN UNITS OF G", "VELOCITY IN CM/S"), "quantity", "velocity",
+    ),
+    "CSMIP V3 spectra": ("Response and Fourier Amplitude Spectra\n 1 2 3\n", "format", "CSMIP V3 spectra"),
+    "CSS wfdisc": (of_obspy("css/tests/data/test_css.wfdisc").decode(), "format", "CSS wfdisc"),
+    "StationXML": ('<?xml version="1.0"?>\n<FDSNStationXML></FDSNStationXML>\n', "format", "StationXML"),
 }  # fmt: skip
-"""Format, and what is special after a colon → (a file of what is no acceleration, the word by which it is refused)."""
+"""Format, and what is special after a colon → (a file of what is no acceleration, the field and value refused)."""
 
 
 OF_OBSPY = {

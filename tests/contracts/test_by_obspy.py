@@ -14,6 +14,7 @@ from rocking.records import read
 from rocking.records.formats import Options
 from rocking.records.kinds import RecordKind
 from rocking.records.read import read_content, recognise
+from tests.refusals import refused
 
 FOLDERS = {
     "nied": 1, "gse2": 9, "ascii": 12, "win": 14, "seisan": 10, "css": 0, "reftek": 4, "kinemetrics": 3, "sac": 9,
@@ -67,7 +68,7 @@ def test_its_own_files_are_read_or_refused_in_one_sentence(folder: str) -> None:
 def test_each_is_recognised_by_one_reader_and_asks_for_its_response(name: str) -> None:
     content = of_obspy(OF_OBSPY[name])
     assert recognise(content).name == name
-    with pytest.raises(UndeclaredError, match="StationXML"):
+    with refused(UndeclaredError, "unit"):
         read_content(content, "f", Options(folder=Path("/nowhere")))
 
 
@@ -86,9 +87,9 @@ def test_the_unit_of_a_list_of_samples(form: str) -> None:
     content = by_obspy(form).replace(b"FLOAT, ", b"FLOAT, Counts")
     (record,) = read_content(content.replace(b"Counts", b"M/S**2"), "f", Options())
     assert np.abs(record.acceleration - TRUE).max() < 1e-7 and record.time_step == STEP
-    with pytest.raises(RecordError, match="velocity"):
+    with refused(RecordError, "quantity", "velocity"):
         read_content(content.replace(b"Counts", b"M/S"), "f", Options())
-    with pytest.raises(UndeclaredError, match="'VOLTS'"):
+    with refused(UndeclaredError, "unit"):
         read_content(content.replace(b"Counts", b"VOLTS"), "f", Options())
 
 
@@ -97,7 +98,7 @@ def test_a_list_of_samples_that_is_cut_is_refused(form: str) -> None:
     """obspy reads what is left without a word."""
     content = by_obspy(form)
     cut = content[: content.rindex(b"\n", 0, -2) + 1]
-    with pytest.raises(RecordError, match=f"declares {TRUE.size} samples, but"):
+    with refused(RecordError, "samples"):
         read_content(cut, "f", Options(unit="m/s2"))
 
 
@@ -107,9 +108,9 @@ def test_a_file_of_win_without_a_second_is_refused() -> None:
     (record,) = read_content(whole, "f", Options(unit="mm/s2"))
     assert np.abs(record.acceleration - TRUE).max() <= 5.1e-4 and record.time_step == 0.1
     block = len(whole) // 4
-    with pytest.raises(RecordError, match="do not follow one another"):
+    with refused(RecordError, "seconds", 3):
         read_content(whole[:block] + whole[2 * block :], "f", Options(unit="mm/s2"))
-    with pytest.raises(RecordError, match="is cut"):
+    with refused(RecordError, "seconds", 4):
         read_content(whole[: 3 * block + 20], "f", Options(unit="mm/s2"))
 
 
@@ -121,7 +122,7 @@ def test_where_a_channel_of_win_points_is_in_doubt() -> None:
 
 def test_text_in_place_of_samples_is_refused() -> None:
     content = of_obspy("mseed/tests/data/encoding/smallASCII_bigEndian.mseed")
-    with pytest.raises(RecordError, match="holds text and no samples"):
+    with refused(RecordError, "channel", "XX.TEST..BHE"):
         read_content(content, "f", Options(unit="m/s2"))
 
 
@@ -130,7 +131,7 @@ def test_a_line_that_would_end_the_process_is_refused() -> None:
     content = of_obspy("gse2/tests/data/loc_RJOB20050831023349.z")
     lines = content.split(b"\n")
     lines[20] += lines.pop(21) + lines.pop(21)
-    with pytest.raises(RecordError, match="at most 80"):
+    with refused(RecordError, "line", 240):
         read_content(b"\n".join(lines), "f", Options(unit="nm/s2"))
 
 

@@ -15,6 +15,7 @@ from rocking.records.formats.format import Layout, keyed
 from rocking.records.kinds import RecordKind
 from rocking.records.read import read_content
 from rocking.remarks import Remark
+from tests.refusals import refused
 
 FIELDS = ("component", "azimuth", "station", "network", "event", "processed", "high_pass_frequency")
 SAID: dict[str, list[tuple[Any, ...]]] = {
@@ -80,7 +81,7 @@ def test_what_a_header_says(name: str) -> None:
 def test_a_dash_of_typography_before_a_number_is_refused_by_name(name: str, dash: str) -> None:
     """The file with two headers is then of no known format."""
     before, after = re.split(r"-(?=[\d.])(?!.*-[\d.])", content_of(name).decode("latin-1"), flags=re.S)
-    with pytest.raises(RecordError, match=r"line \d+ of the samples holds '.*must be a plain decimal number"):
+    with refused(RecordError, "samples"):
         read_content(f"{before}{dash}{after}".encode(), "made", MADE[name][2])
 
 
@@ -267,5 +268,5 @@ def test_a_file_of_the_european_database_holds_velocity_beside_acceleration() ->
 @pytest.mark.parametrize("kind", ["uncorrected acceleration", "corrected velocity"])
 def test_another_series_of_the_european_database_is_refused_by_name(kind: str) -> None:
     other = made_files.esd().replace("corrected acceleration", kind)
-    with pytest.raises(RecordError, match="use the file of corrected acceleration"):
+    with refused(RecordError, "quantity"):
         read_text(other)

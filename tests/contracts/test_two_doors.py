@@ -17,6 +17,7 @@ from rocking.errors import RecordError, RockingError, UndeclaredError
 from rocking.records.formats import Options
 from rocking.records.kinds import RecordKind
 from rocking.records.read import read_content
+from tests.refusals import refused
 
 FACTS = (
     "component", "azimuth", "vertical", "borehole", "station", "network", "location", "processed", "latitude",
@@ -129,7 +130,7 @@ def test_the_scale_of_a_sac_file_is_applied_once() -> None:
     assert by_file.acceleration == pytest.approx(TRUE - TRUE.mean(), abs=1e-6)
     raw, scaled = obspy.read(io.BytesIO(content)), obspy.read(io.BytesIO(content), apply_calib=True)
     for stream in (raw, scaled):
-        with pytest.raises(UndeclaredError, match=r"its calibration is 0\.01") as asked:
+        with refused(UndeclaredError, "calibration") as asked:
             rocking.from_obspy(stream, unit="gal")
         assert asked.value.field == "calibration"
     (first,) = rocking.from_obspy(raw, unit="gal", calibration="apply")
@@ -168,7 +169,7 @@ def test_k_net_and_kinemetrics_need_neither_unit_nor_answer() -> None:
         (by_file,) = read_content(content, "made", Options())
         (by_stream,) = rocking.from_obspy(obspy.read(io.BytesIO(content)))
         assert by_stream.acceleration == pytest.approx(by_file.acceleration, rel=1e-12)
-        with pytest.raises(RecordError, match="leads to m/s²"):
+        with refused(RecordError, "unit", "g"):
             rocking.from_obspy(obspy.read(io.BytesIO(content)), unit="g")
         scaled = obspy.read(io.BytesIO(content), apply_calib=True)
         (done,) = rocking.from_obspy(scaled, calibration="done")
@@ -186,13 +187,13 @@ def test_a_sac_file_down_hole_is_one_by_both_ways(depth: float) -> None:
 def test_counts_that_are_multiplied_are_none_for_a_response() -> None:
     stream = obspy.read(io.BytesIO(sac(0.01)), apply_calib=True)
     inventory = obspy.read_inventory("records/CI.CCC.xml")
-    with pytest.raises(UndeclaredError, match="its calibration"):
+    with refused(UndeclaredError, "calibration"):
         rocking.from_obspy(stream, inventory)
-    with pytest.raises(RecordError, match="are no counts"):
+    with refused(RecordError, "calibration", "done"):
         rocking.from_obspy(stream, inventory, calibration="done")
 
 
 def test_the_unit_of_a_trace_of_this_package_is_not_overruled() -> None:
     record = rocking.Accelerogram(TRUE, STEP, "N")
-    with pytest.raises(RecordError, match="'m/s2' in the trace, but 'g' was declared"):
+    with refused(RecordError, "unit", "g"):
         rocking.from_obspy(record.to_obspy(), unit="g")

@@ -19,6 +19,7 @@ from hypothesis import strategies as st
 from rocking import tables
 from rocking.errors import RockingError
 from rocking.tables import Columns, Row, RowOf, cell, column, frame, read_rows, row, write_rows, write_whole
+from tests.refusals import refused
 from tests.unit.assessment.made_rows import filled
 
 
@@ -100,30 +101,33 @@ def test_a_frame_has_the_type_of_each_column(tmp_path: Path) -> None:
 
 
 def test_a_row_of_another_class_is_refused_and_nothing_is_written(tmp_path: Path) -> None:
-    with pytest.raises(RockingError, match=r"made\.csv: Head is not MadeRow"):
+    with refused(RockingError, "row", "Head"):
         write_rows(MadeRow, [made(), Head(record="", sha256="")], tmp_path / "made.csv")  # type: ignore[list-item]
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize(("old", "new", "sentence"), [
-    ("count,", "", r"line 1: the columns are not those of made \(count\)"),
-    ("count,", "many,", r"line 1: the columns are not those of made \(count, many\)"),
-    ("2.5", "fast", r"line 3, column speed_rad_s: 'fast' must be a number"),
-    (",17,", ",1.5,", r"line 3, column count: '1.5' must be a whole number"),
-    (",true,", ",yes,", r"line 3, column holds: 'yes' must be true or false"),
-    ("blue", "green", r"line 3, column colour: 'green' must be red hot, blue"),
-    (",blue,", ",,", r"line 3, column colour: '' must be red hot, blue"),
-    ("\ntwo", "\n1,2\ntwo", "line 3, has 2 cells, but must have 9"),
+@pytest.mark.parametrize(("old", "new", "field", "value"), [
+    ("count,", "", "columns", ["count"]),
+    ("count,", "many,", "columns", ["count", "many"]),
+    ("2.5", "fast", "speed_rad_s", "fast"),
+    (",17,", ",1.5,", "count", "1.5"),
+    (",true,", ",yes,", "holds", "yes"),
+    ("blue", "green", "colour", "green"),
+    (",blue,", ",,", "colour", ""),
+    ("\ntwo", "\n1,2\ntwo", "cells", 2),
 ])  # fmt: skip
-def test_a_defect_is_one_sentence_with_its_place(tmp_path: Path, old: str, new: str, sentence: str) -> None:
+def test_a_defect_is_one_sentence_with_its_place(
+    tmp_path: Path, old: str, new: str, field: str, value: object
+) -> None:
     path = tmp_path / "made.csv"
     write_rows(MadeRow, [made(), made("two", 2.5, count=17, holds=True, colour=Colour.BLUE)], path)
     text = path.read_text()
     assert old in text
     path.write_text(text.replace(old, new, 1))
     for reader in (read_rows, frame):
-        with pytest.raises(RockingError, match=rf"made\.csv, {sentence}"):
+        with refused(RockingError, field, value) as caught:
             list(reader(MadeRow, path))
+        assert str(caught.value).startswith(f"{path}, line {1 if field == 'columns' else 3}")
 
 
 def test_of_many_strange_columns_the_first_six_are_named(tmp_path: Path) -> None:
@@ -131,7 +135,7 @@ def test_of_many_strange_columns_the_first_six_are_named(tmp_path: Path) -> None
     write_rows(MadeRow, [made()], path)
     head, *others = path.read_text().split("\n")
     path.write_text("\n".join([",".join([head, "b", "a", "e", "d", "c", "g", "f"]), *others]))
-    with pytest.raises(RockingError, match=r"not those of made \(a, b, c, d, e, f\); make the table again"):
+    with refused(RockingError, "columns", list("abcdefg")):
         list(read_rows(MadeRow, path))
 
 
@@ -141,8 +145,9 @@ def test_what_is_no_table_is_refused_in_a_sentence(tmp_path: Path, content: byte
     if content is not None:
         path.write_bytes(content)
     for reader in (read_rows, frame):
-        with pytest.raises(RockingError, match="make the table again"):
+        with pytest.raises(RockingError) as caught:
             list(reader(MadeRow, path))
+        assert caught.value.field in ("file", "columns")
 
 
 def test_a_writer_that_is_interrupted_or_killed_leaves_the_old_file(tmp_path: Path) -> None:
@@ -192,7 +197,7 @@ def test_a_disk_that_takes_no_more_is_named_in_a_sentence(tmp_path: Path, monkey
         raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr(os, "fsync", full)
-    with pytest.raises(RockingError, match=r"made\.csv cannot be written: No space left on device; mend"):
+    with refused(RockingError, "file", "made.csv"):
         write_whole(tmp_path / "made.csv", b"x" * 5000)
     assert list(tmp_path.iterdir()) == []
 
@@ -221,7 +226,7 @@ def test_a_disk_that_fails_after_the_renaming_is_told_in_words(tmp_path: Path, m
         synced(handle)
 
     monkeypatch.setattr(os, "fsync", failing)
-    with pytest.raises(RockingError, match="cannot be written: Input/output error"):
+    with refused(RockingError, "file", "table.csv"):
         write_whole(tmp_path / "table.csv", b"content")
     assert not list(tmp_path.glob(".*"))
 

@@ -51,15 +51,21 @@ def _stream(content: bytes, form: str, **options: Any) -> Any:
         except Exception as error:
             reason, _, _ = first_line(error).partition(": <_io")  # what an address in memory follows
             reason = re.sub(r" '/[^']*'", "", reason)  # nor a name of our own
-            raise RecordError(f"damaged {form} file, {reason}; fetch it again.") from error
+            raise RecordError.naming(
+                "format", form, f"damaged {form} file, {reason}; fetch it again."
+            ) from error
     messages = [first_line(each.message) for each in caught] + [first_line(line) for line in lines]
     if form == "MSEED" and (damage := [text for text in messages if _DAMAGE.search(text)]):
-        raise RecordError(f"damaged {form} file, {damage[0]}; fetch it again.")
+        raise RecordError.naming("format", form, f"damaged {form} file, {damage[0]}; fetch it again.")
     samples = sum(trace.stats.npts for trace in result)
     if not samples:
-        raise RecordError(f"the {form} file holds no samples.")
+        raise RecordError.naming("samples", 0, f"the {form} file holds no samples.")
     if samples > LARGEST_SERIES:
-        raise RecordError(f"the file unpacks to {samples} samples, more than {LARGEST_SERIES}; cut it first.")
+        raise RecordError.naming(
+            "samples",
+            samples,
+            f"the file unpacks to {samples} samples, more than {LARGEST_SERIES}; cut it first.",
+        )
     notes += [Remark.of(RecordKind.TOLD_BY_OBSPY, text=text) for text in messages]
     for _, station, _, channel, _, begin, length, _ in result.get_gaps():
         if length < 0:
@@ -67,7 +73,7 @@ def _stream(content: bytes, form: str, **options: Any) -> Any:
             notes.append(Remark.of(RecordKind.BLOCKS_OVERLAP, of, overlap_s=float(-length), time=str(begin)))
     whole = joined(result)
     if not whole:
-        raise RecordError(f"the {form} file holds no samples.")
+        raise RecordError.naming("samples", 0, f"the {form} file holds no samples.")
     return whole, tuple(sorted(set(notes), key=str))
 
 
@@ -86,10 +92,18 @@ def _check_blocks(content: bytes) -> list[Remark]:
             at += get_record_information(io.BytesIO(content), offset=at)["record_length"]
     if at != len(content):
         record = f"the last record of {notes['record_length']} bytes"
-        raise RecordError(f"{record} is cut after {notes['excess_bytes']}; fetch the whole file.")
+        raise RecordError.naming(
+            "record",
+            notes["excess_bytes"],
+            f"{record} is cut after {notes['excess_bytes']}; fetch the whole file.",
+        )
     samples = sum(trace.stats.npts for trace in heads)
     if samples > LARGEST_SERIES:
-        raise RecordError(f"the file unpacks to {samples} samples, more than {LARGEST_SERIES}; cut it first.")
+        raise RecordError.naming(
+            "samples",
+            samples,
+            f"the file unpacks to {samples} samples, more than {LARGEST_SERIES}; cut it first.",
+        )
     marks = (content[place : place + 6] for place in range(0, len(content), notes["record_length"]))
     numbers = np.array([int(mark) for mark in marks if mark.isdigit()])
     leaps = np.flatnonzero((np.diff(numbers) != 1) & (numbers[1:] != 1))
@@ -118,7 +132,11 @@ _KNET_FIRST = re.compile("".join(f"{re.escape(name)}.*\n" for name in _KNET_KEYS
 def _read_knet(content: bytes, options: Options) -> list[Accelerogram]:
     rows = text.lines(content, len(_KNET_KEYS))
     if missing := [name for name in _KNET_KEYS if not any(row.startswith(name) for row in rows)]:
-        raise RecordError(f"the header has no line {missing[0]!r}; K-NET's has {len(_KNET_KEYS)} lines.")
+        raise RecordError.naming(
+            "header",
+            missing[0],
+            f"the header has no line {missing[0]!r}; K-NET's has {len(_KNET_KEYS)} lines.",
+        )
     head = "\n".join(rows)
     # Of "3920.5(gal)" obspy would take the whole part, and "1_0" for a number.
     scale = r"^Scale Factor\s*(\d+)\(gal\)/(\d+)\s*$"
@@ -190,14 +208,18 @@ def _check_sac(header: dict[str, float], data: np.ndarray, step: float) -> None:
     for key, value in measured.items():
         if allowed and key in header and not abs(header[key] - value) <= allowed:
             stated = f"the header states {key.upper()} = {header[key]:g}, but the samples reach {value:g}"
-            raise RecordError(f"{stated}; the file is damaged or its header another's; fetch it again.")
+            raise RecordError.naming(
+                key, header[key], f"{stated}; the file is damaged or its header another's; fetch it again."
+            )
     begin = header.get("b", 0.0)
     end = header.get("e", 0.0)
     # Single precision keeps seven digits of the times.
     allowed = 0.5 * step + 3e-7 * max(abs(begin), abs(end))
     if {"b", "e"} <= header.keys() and begin != end and abs(end - begin - step * (data.size - 1)) > allowed:
         stated = f"the header states an end at {end:g} s, but {data.size} samples every {step:g} s"
-        raise RecordError(f"{stated} from {begin:g} s end elsewhere; the file is damaged; fetch it again.")
+        raise RecordError.naming(
+            "e", header["e"], f"{stated} from {begin:g} s end elsewhere; the file is damaged; fetch it again."
+        )
 
 
 _TAG = struct.Struct(">cBBBLHHHH")
@@ -220,17 +242,23 @@ def _check_frames(content: bytes) -> None:
         _, _, _, _, kind, head, body, _, checksum = _TAG.unpack_from(content, at)
         frame = content[at + _TAG.size : at + _TAG.size + head + body]
         if len(frame) < head + body or checksum not in (0, sum(frame) & 0xFFFF) or (kind == 1) != (at == 0):
-            raise RecordError(f"the frame at byte {at} is cut or damaged: its sum differs; fetch it again.")
+            raise RecordError.naming(
+                "frame", at, f"the frame at byte {at} is cut or damaged: its sum differs; fetch it again."
+            )
         if kind == 2 and head >= _FRAME.size:
             seconds, milliseconds = _FRAME.unpack_from(frame)
             now = 1000 * seconds + milliseconds
             if before is not None and now - before != _FRAME_LENGTH:
                 late = f"the frame at byte {at} begins {now - before} ms after the one before, not {_FRAME_LENGTH} ms"
-                raise RecordError(f"{late}: frames are missing, repeated or out of order.")
+                raise RecordError.naming(
+                    "frame", at, f"{late}: frames are missing, repeated or out of order."
+                )
             before = now
         at += _TAG.size + head + body
     if content[at:].strip(b"\0"):
-        raise RecordError(f"what stands at byte {at} is no frame; the file is damaged, fetch it again.")
+        raise RecordError.naming(
+            "frame", at, f"what stands at byte {at} is no frame; the file is damaged, fetch it again."
+        )
 
 
 _FIXED_HEADER = re.compile(rb"[0-9 \0]{6}[DRQM][ \0]")
@@ -246,9 +274,11 @@ def _read_counts(form: str, content: bytes, options: Options) -> list[Accelerogr
     traces, warnings = _stream(content, form)
     for trace in traces if seconds else ():
         if trace.stats.npts != round(seconds * trace.stats.sampling_rate):
-            raise RecordError(
+            raise RecordError.naming(
+                "samples",
+                trace.stats.npts,
                 f"channel {trace.stats.channel} holds {trace.stats.npts} samples in {seconds} s at "
-                f"{trace.stats.sampling_rate:g} Hz: seconds of it are missing; fetch the file again."
+                f"{trace.stats.sampling_rate:g} Hz: seconds of it are missing; fetch the file again.",
             )
     unit = _stated_unit(traces, options)
     inventory = None if unit else _inventory(traces[0].stats, options)
@@ -268,9 +298,11 @@ def _read_gse(content: bytes, options: Options) -> list[Accelerogram]:
     lines = content.split(b"\n") if is_compressed else []
     bodies = (line for line in lines if not line.startswith(_GSE_HEADS))
     if longest := next((line for line in bodies if len(line) > _GSE_LINE), b""):
-        raise RecordError(
+        raise RecordError.naming(
+            "line",
+            len(longest),
             f"a line of the samples has {len(longest)} characters, but must have at most 80: the file is damaged; "
-            "fetch it again."
+            "fetch it again.",
         )
     return _read_counts("GSE2" if content.lstrip().startswith(b"WID2") else "GSE1", content, options)
 
@@ -295,9 +327,11 @@ def _check_lists(content: bytes, is_of_pairs: bool) -> None:
         text.check_plain(numbers)
         held = len(numbers.split())
         if held != declared:
-            raise RecordError(
+            raise RecordError.naming(
+                "samples",
+                held,
                 f"a head declares {declared} samples, but {held} stand below it: the file is cut or damaged; fetch the "
-                "whole file."
+                "whole file.",
             )
 
 
@@ -377,13 +411,15 @@ def parsed_inventory(content: bytes, name: str) -> Any:
     from obspy import read_inventory  # which takes a second to import
 
     if b"FDSNStationXML" not in content[:2000] or b"<!DOCTYPE" in content:
-        raise RecordError(f"{name} is not a plain StationXML file; give one.")
+        raise RecordError.naming("inventory", name, f"{name} is not a plain StationXML file; give one.")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             return read_inventory(io.BytesIO(content), format="STATIONXML")
     except Exception as error:
-        raise RecordError(f"damaged StationXML {name}, {str(error)[:200]}; fetch it again.") from error
+        raise RecordError.naming(
+            "inventory", name, f"damaged StationXML {name}, {str(error)[:200]}; fetch it again."
+        ) from error
 
 
 def may_be_counts(head: bytes) -> bool:
@@ -424,13 +460,17 @@ def _seconds_of_win(content: bytes) -> int:
         try:
             times.append(datetime.strptime(time, "%y%m%d%H%M%S").timestamp())
         except ValueError:
-            raise RecordError(
-                f"the block at byte {at} has the time {time!r}, which is none; fetch the file again."
+            raise RecordError.naming(
+                "time",
+                time,
+                f"the block at byte {at} has the time {time!r}, which is none; fetch the file again.",
             ) from None
         at += length
     if at > len(content) or content[at:].strip(b"\0") or (np.diff(times) != 1).any():
-        raise RecordError(
-            "the seconds of the file do not follow one another, or the last is cut; fetch it again."
+        raise RecordError.naming(
+            "seconds",
+            len(times),
+            "the seconds of the file do not follow one another, or the last is cut; fetch it again.",
         )
     return len(times)
 

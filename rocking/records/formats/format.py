@@ -73,7 +73,11 @@ class Options:
         if self.time_step is not None:
             positive(RecordError, "time_step", self.time_step, "s")
         if self.response not in ("sensitivity", "full"):
-            raise RecordError(f"response is {self.response!r}, but must be 'sensitivity' or 'full'.")
+            raise RecordError.naming(
+                "response",
+                self.response,
+                f"response is {self.response!r}, but must be 'sensitivity' or 'full'.",
+            )
 
     def unit_of(self, in_file: str | None) -> str:
         """Return the unit the file declares, however spelt, else the caller's.
@@ -85,7 +89,9 @@ class Options:
             raise UndeclaredError(_UNDECLARED.format("unit", advice("unit")), "unit")
         factor = acceleration_factor(unit)
         if self.unit is not None and acceleration_factor(self.unit) != factor:
-            raise RecordError(f"unit is {unit!r} in the file, but {self.unit!r} was declared; omit it.")
+            raise RecordError.naming(
+                "unit", self.unit, f"unit is {unit!r} in the file, but {self.unit!r} was declared; omit it."
+            )
         return acceleration_unit(unit) or unit
 
     def time_step_of(self, in_file: float | None) -> float:
@@ -95,9 +101,17 @@ class Options:
             raise UndeclaredError(_UNDECLARED.format("time_step", advice("time_step")), "time_step")
         step = positive(RecordError, "time_step", float(step), "s")
         if not _STEPS[0] <= step <= _STEPS[1]:
-            raise RecordError(f"time_step is {step!r} s, but must be from {_STEPS[0]:g} to {_STEPS[1]:g} s.")
+            raise RecordError.naming(
+                "time_step",
+                step,
+                f"time_step is {step!r} s, but must be from {_STEPS[0]:g} to {_STEPS[1]:g} s.",
+            )
         if self.time_step is not None and abs(self.time_step - step) > 1e-3 * step:
-            raise RecordError(f"time_step is {step!r} s in the file, but {self.time_step!r} s was declared.")
+            raise RecordError.naming(
+                "time_step",
+                self.time_step,
+                f"time_step is {step!r} s in the file, but {self.time_step!r} s was declared.",
+            )
         return step
 
     def accelerogram(
@@ -168,7 +182,9 @@ def without_offset(values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
             f"above the 5 g that no recorder is off by; {advice('unit')} as it truly is, or, of counts of miniSEED and "
             f"SAC, {advice('inventory')}"
         )
-        raise RecordError(f"the mean of the record is {offset:.6g} {unit}, {limit}.")
+        raise RecordError.naming(
+            "mean", float(offset), f"the mean of the record is {offset:.6g} {unit}, {limit}."
+        )
     sentence = f"Mean of the whole record removed, {offset:.6g} {unit}: the offset of the recorder."
     return values - offset, sentence
 
@@ -342,13 +358,19 @@ class Layout:
         if "quantity" in self.patterns:
             quantity = self.required("quantity", head)
             if quantity.lower() not in ("acceleration", "accelaration"):  # as RESORCE spells it
-                raise RecordError(f"the file holds {quantity}; use the acceleration file of the same record.")
+                raise RecordError.naming(
+                    "quantity",
+                    quantity,
+                    f"the file holds {quantity}; use the acceleration file of the same record.",
+                )
         if "unit" not in self.patterns:
             return self.unit
         unit = self.required("unit", head)
         refuse_other_quantity("", unit)
         if acceleration_factor(unit) != acceleration_factor(self.unit or unit):
-            raise RecordError(f"unit is {unit!r}, but must be {self.unit!r} in this format.")
+            raise RecordError.naming(
+                "unit", unit, f"unit is {unit!r}, but must be {self.unit!r} in this format."
+            )
         return self.unit or unit
 
     def _facts(self, head: str) -> dict[str, Any]:
@@ -380,7 +402,7 @@ def parted(
     text = lines(content)
     at = next((i for i, line in enumerate(text[:longest]) if end(line)), None) if callable(end) else end
     if at is None:
-        raise RecordError(f"no line {what}; the file is cut.")
+        raise RecordError.naming("header", what, f"no line {what}; the file is cut.")
     return "\n".join(text[:at]), text[at:]
 
 
@@ -407,8 +429,10 @@ def required(what: str, pattern: str, text: str) -> re.Match[str]:
     """Return the first match of `pattern` in `text`. Raises RecordError saying `what` the header lacks."""
     match = re.search(pattern, text, re.I | re.M) if pattern else None
     if not match or not match[1].strip():
-        raise RecordError(
-            f"the header does not declare {what}; the file is damaged or another; fetch it again."
+        raise RecordError.naming(
+            "header",
+            what,
+            f"the header does not declare {what}; the file is damaged or another; fetch it again.",
         )
     return match
 
@@ -501,16 +525,26 @@ def check_duration(declared: float, samples: int, time_step: float, steps: float
     lasts = samples * time_step
     if abs(lasts - declared) > steps * time_step + rounding:
         stated = f"the header declares a duration of {declared:g} s, but {samples} samples last {lasts:g} s"
-        raise RecordError(f"{stated}: the file is truncated or its header another's; fetch it again.")
+        raise RecordError.naming(
+            "duration", declared, f"{stated}: the file is truncated or its header another's; fetch it again."
+        )
 
 
 def check_equal(field: str, first: float, second: float, relative: float = 1e-3) -> None:
     """Check that two places of a header give the same number. Raises RecordError when they do not."""
     if abs(first - second) > relative * abs(first):
-        raise RecordError(f"the header gives {field} as {first:g} and {second:g}; fetch the file again.")
+        raise RecordError.naming(
+            field,
+            (first, second),
+            f"the header gives {field} as {first:g} and {second:g}; fetch the file again.",
+        )
 
 
 def check_end(rows: list[str]) -> None:
     """Check that nothing but blanks follows the last channel. Raises RecordError: a channel is cut."""
     if any(row.strip() for row in rows):
-        raise RecordError(f"{len(rows)} lines follow the last whole channel: another is cut; fetch it again.")
+        raise RecordError.naming(
+            "lines",
+            len(rows),
+            f"{len(rows)} lines follow the last whole channel: another is cut; fetch it again.",
+        )

@@ -93,7 +93,9 @@ class TableLayout:
         for item in items:
             layout = _with_item(layout, item)
         if not any(column.role == "acceleration" for column in layout.columns):
-            raise RecordError(f"no column of {answer!r} is of acceleration; answer like {_EXAMPLES}.")
+            raise RecordError.naming(
+                "answer", answer, f"no column of {answer!r} is of acceleration; answer like {_EXAMPLES}."
+            )
         if unit := [each for each in layout.columns if each.role == "acceleration"][-1].unit:
             is_bare = [each.role == "acceleration" and not each.unit for each in layout.columns]
             named = (
@@ -149,12 +151,16 @@ def _with_item(layout: TableLayout, item: str) -> TableLayout:
     if word == "one" and rest.split(" ")[0] == "series":
         return replace(layout, columns=(_acceleration("a", rest.partition(" ")[2]),))
     if layout.is_series:
-        raise RecordError(f"{item!r} stands in no answer of one series; answer like {_EXAMPLES}.")
+        raise RecordError.naming(
+            "answer", item, f"{item!r} stands in no answer of one series; answer like {_EXAMPLES}."
+        )
     if item == "-":
         return replace(layout, columns=(*layout.columns, Column("other")))
     if word in _TIME_WORDS:
         if (rest or "s") not in _TIMES:
-            raise RecordError(f"the times are in {rest!r}, but must be in s, ms or min.")
+            raise RecordError.naming(
+                "answer", rest, f"the times are in {rest!r}, but must be in s, ms or min."
+            )
         return replace(layout, columns=(*layout.columns, Column("time", seconds=_TIMES[rest or "s"])))
     if unit_alone := acceleration_unit(item):
         return replace(layout, columns=(*layout.columns, Column("acceleration", unit=unit_alone)))
@@ -164,12 +170,16 @@ def _with_item(layout: TableLayout, item: str) -> TableLayout:
 
 def _acceleration(name: str, unit: str) -> Column:
     if not _NAME.fullmatch(name):
-        raise RecordError(f"{name!r} names no component; answer like {_EXAMPLES}.")
+        raise RecordError.naming("answer", name, f"{name!r} names no component; answer like {_EXAMPLES}.")
     if quantity := other_quantity(name):
-        raise RecordError(f"{name!r} is {quantity}; write - for a column that is no acceleration.")
+        raise RecordError.naming(
+            "answer", name, f"{name!r} is {quantity}; write - for a column that is no acceleration."
+        )
     known = acceleration_unit(unit)
     if unit.strip() and known is None:
-        raise RecordError(f"{unit.strip()!r} is no unit of acceleration; answer like {_EXAMPLES}.")
+        raise RecordError.naming(
+            "answer", unit.strip(), f"{unit.strip()!r} is no unit of acceleration; answer like {_EXAMPLES}."
+        )
     return Column("acceleration", "" if name.lower() in _PLAIN else name, known)
 
 
@@ -397,9 +407,11 @@ class Layouts:
         found = {each.text: each for each in self._matching(signature)}
         if len(found) > 1:
             first, second = list(found.values())[:2]
-            raise RecordError(
+            raise RecordError.naming(
+                "answer",
+                (first.text, second.text),
                 f"{first.whose}, lines {first.line} and {second.line}, column answer, hold for this file both, and say "
-                f"{first.text!r} and {second.text!r}; remove one of them."
+                f"{first.text!r} and {second.text!r}; remove one of them.",
             )
         return next(iter(found.values()), None)
 

@@ -132,7 +132,9 @@ def _read_esd(content: bytes, options: Options) -> list[Accelerogram]:
     of_motion = [lines for lines in sections if re.match(r"\s*-> *corrected acc", lines[0], re.I)]
     if len(of_motion) != 1:
         held = ", ".join(lines[0].strip(" \t->")[:40] for lines in sections)
-        raise RecordError(f"the file holds {held}; use the file of corrected acceleration (.cor).")
+        raise RecordError.naming(
+            "quantity", held, f"the file holds {held}; use the file of corrected acceleration (.cor)."
+        )
     (title, *numbers) = of_motion[0]
     start = _ESD_START.search(head)
     facts = {"start_time": universal("{2}-{1}-{0} {3}".format(*start.groups()), 0.0)} if start else {}
@@ -183,12 +185,14 @@ def _read_unam(content: bytes, options: Options) -> list[Accelerogram]:
     head, rows = parted(content, re.compile(_DATA, re.I).match, f"begins with {_DATA}", _UNAM_HEADER)
     rules = [i for i, line in enumerate(rows[:10]) if _RULE.match(line)]
     if len(rules) < 2:
-        raise RecordError(f"no heading {_DATA} above two rules; the file is cut.")
+        raise RecordError.naming("header", _DATA, f"no heading {_DATA} above two rules; the file is cut.")
     every = (_of_channel(head.split("\n"), channel) for channel in range(12))
     heads = [own for own in every if _UNAM.text("orientation", own).strip(" ;")]
     sizes = sorted({_UNAM.text("samples", own) for own in heads} - {""})
     if len(sizes) != 1:
-        raise RecordError(f"the channels declare {sizes} samples, but must be equally long.")
+        raise RecordError.naming(
+            "samples", sizes, f"the channels declare {sizes} samples, but must be equally long."
+        )
     samples = text.count("NUM. TOTAL DE MUESTRAS", sizes[0])
     width = optional_number(r"^FORMATO DATOS.*\d+F(\d+)", head)
     table = text.table(rows[rules[1] + 1 :], len(heads), max(1, int(width or 10)))
@@ -262,7 +266,11 @@ def _read_jma(content: bytes, options: Options) -> list[Accelerogram]:
     head, rows = parted(content, _JMA_HEADER)
     labels = _JMA_NAMES.split(",")
     if broken := next((row for row in rows if row.strip() and row.count(",") != len(labels) - 1), ""):
-        raise RecordError(f"a line of the samples is {broken[:40]!r}, but must hold {len(labels)} numbers.")
+        raise RecordError.naming(
+            "samples",
+            broken,
+            f"a line of the samples is {broken[:40]!r}, but must hold {len(labels)} numbers.",
+        )
     table = text.table([row.replace(",", " ") for row in rows], len(labels))
     return _JMA.channels(head, table, labels, options)
 
@@ -354,11 +362,17 @@ def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
     head, rows = parted(content, _SMC_TEXT)
     kind = head.partition("\n")[0].strip()
     if kind[:1] not in ("0", "1", "2"):
-        raise RecordError(f"this SMC file is of kind {kind[:40]!r}, not of acceleration.")
+        raise RecordError.naming(
+            "quantity", kind, f"this SMC file is of kind {kind[:40]!r}, not of acceleration."
+        )
     integers = text.fields(rows[:_SMC_INTEGERS], 10)
     reals = text.fields(rows[_SMC_INTEGERS:_SMC_REALS], 15)
     if integers.size < 48 or reals.size < 50:
-        raise RecordError(f"the header holds {integers.size} integers and {reals.size} reals, not 48 and 50.")
+        raise RecordError.naming(
+            "header",
+            (integers.size, reals.size),
+            f"the header holds {integers.size} integers and {reals.size} reals, not 48 and 50.",
+        )
     counts = (f"{integers[at]:.0f}" for at in (_COMMENTS, _SAMPLES))
     remarks, samples = (text.count("a count in the header", size) for size in counts)
     first = _SMC_REALS + remarks
@@ -367,7 +381,9 @@ def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
     seam = next((at for at, row in enumerate(body) if row.startswith("|")), None) if is_film else None
     own = body if seam is None else body[:seam]
     if any(not row.startswith("|") for row in rows[_SMC_REALS:first]) or any(row[0] == "|" for row in own):
-        raise RecordError(f"the header declares {remarks} lines of comment, but others begin with |.")
+        raise RecordError.naming(
+            "comments", remarks, f"the header declares {remarks} lines of comment, but others begin with |."
+        )
     width = text.column_width(own[0]) if own else 10
     numbers = text.fields(own, width)
     if is_film and (points := _smc_points(numbers, samples, is_cut=seam is not None)) is not None:
@@ -375,7 +391,9 @@ def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
         return [_SMC.through(head, times, values, options, warnings=notes, **_smc_facts(head, reals))]
     rate = float(reals[_RATE])
     if not 0 < rate < 1e6:
-        raise RecordError(f"samples per second is {rate:g}, but must be greater than 0 and below 1e6.")
+        raise RecordError.naming(
+            "rate", rate, f"samples per second is {rate:g}, but must be greater than 0 and below 1e6."
+        )
     values, notes = text.whole(numbers, samples, 80 // width)
     return [_SMC.channel(head, values, options, step=1 / rate, warnings=notes, **_smc_facts(head, reals))]
 

@@ -64,12 +64,16 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     steps = ((place, pattern.search(line[:200])) for place, line in enumerate(head) for pattern in _STEPS)
     found = next(((place, match) for place, match in steps if match), None)
     if found is None:
-        raise RecordError("the header holds no line with NPTS and DT; give a PEER AT2 file.")
+        raise RecordError.naming(
+            "header", "NPTS, DT", "the header holds no line with NPTS and DT; give a PEER AT2 file."
+        )
     place, size = found
     head = head[: place + 1]
     text = "\n".join(head)
     if (quantity := _quantity(text.upper())) != "acceleration":
-        raise RecordError(f"this is a PEER {quantity} file; use the AT2 file of the same record.")
+        raise RecordError.naming(
+            "quantity", quantity, f"this is a PEER {quantity} file; use the AT2 file of the same record."
+        )
     unit = next((unit for pattern, unit in _UNITS if pattern.search(text)), "")
     declared = count("NPTS", size["npts"])
     values, warnings = whole(numbers(after_lines(content, len(head))), declared, per_line=8)

@@ -255,11 +255,19 @@ def _refuse_others(table: NumberTable, file: str) -> None:
     names = [label.text for label in table.labels]
     if names and (_SPECTRAL.fullmatch(names[0]) or any(map(_ORDINATE.fullmatch, names[1:]))):
         heads = ", ".join(names[:4])
-        raise RecordError(f"this is a spectrum ({heads}); use the record of acceleration against time.")
+        raise RecordError.naming(
+            "quantity",
+            "spectrum",
+            f"this is a spectrum ({heads}); use the record of acceleration against time.",
+        )
     above = "\n".join((*table.remarks, *table.words))
     refuse_other_quantity(file, above)
     if (word := _OTHER_TITLE.search(above)) and not _SPEAKS_OF_MOTION.search(above):
-        raise RecordError(f"this is a file of {word[1].lower()}; use the acceleration of the same record.")
+        raise RecordError.naming(
+            "quantity",
+            word[1].lower(),
+            f"this is a file of {word[1].lower()}; use the acceleration of the same record.",
+        )
     if not any(label.unit for label in table.labels):
         refuse_by_name(file)
 
@@ -365,7 +373,9 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     table, pointed = _table_of(content)
     seen = _seen_of(content)
     if pointed is None or table is None or seen is None:
-        raise RecordError("the commas are decimal signs or part columns; write points, or semicolons.")
+        raise RecordError.naming(
+            "decimals", ",", "the commas are decimal signs or part columns; write points, or semicolons."
+        )
     _refuse_others(table, options.file)
 
     layouts = options.layouts or Layouts(options.folder)
@@ -433,7 +443,11 @@ def _above(table: NumberTable, layout: TableLayout | None, content: bytes) -> tu
         at += 1
     if len(found) != len(roles) or not all(map(text.is_number, found)):
         named = ", ".join(roles)
-        raise RecordError(f"above its samples stand {' '.join(found)[:40]!r}, and not the numbers {named}.")
+        raise RecordError.naming(
+            "above",
+            " ".join(found),
+            f"above its samples stand {' '.join(found)[:40]!r}, and not the numbers {named}.",
+        )
     return dict(zip(roles, map(float, found), strict=True)), max(at, table.start if table.counts else at)
 
 
@@ -497,7 +511,7 @@ def _plain_rows(table: NumberTable, below: bytes) -> tuple[NumberTable, bytes, t
     if _EMPTY_LAST.search(bare):
         bare = _EMPTY_END.sub(b"", bare)
     if _EMPTY_CELL.search(bare):
-        raise RecordError("a cell is empty; every column needs a number on every line.")
+        raise RecordError.naming("cell", "", "a cell is empty; every column needs a number on every line.")
     return replace(table, tail=tail), bare, notes
 
 
@@ -732,8 +746,10 @@ def _values(body: bytes, table: NumberTable, layout: TableLayout | None) -> np.n
         values = text.numbers(spaced)
         _check_rows(spaced, table.width, may_end_short=not table.labels)
     if values.size < 2:
-        raise RecordError(
-            f"{values.size} numbers stand below what is passed over, but at least 2 are needed."
+        raise RecordError.naming(
+            "samples",
+            int(values.size),
+            f"{values.size} numbers stand below what is passed over, but at least 2 are needed.",
         )
     return values
 
@@ -745,7 +761,9 @@ def _check_rows(spaced: bytes, width: int, may_end_short: bool) -> None:
         del counts[-1]
     for at, count in enumerate(counts, 1):
         if count != width:
-            raise RecordError(f"row {at} of the samples has {count} columns, but the first has {width}.")
+            raise RecordError.naming(
+                "columns", count, f"row {at} of the samples has {count} columns, but the first has {width}."
+            )
 
 
 def _whole_numbers(body: bytes) -> str:
@@ -762,8 +780,10 @@ def _channels(
     """Return the channels of a table: each column of acceleration, with the times left of it, else the first ones."""
     columns = layout.columns
     if values.size % len(columns):
-        raise RecordError(
-            f"the last row of the samples has {values.size % len(columns)} of {len(columns)} columns."
+        raise RecordError.naming(
+            "columns",
+            values.size % len(columns),
+            f"the last row of the samples has {values.size % len(columns)} of {len(columns)} columns.",
         )
     rows = values.reshape(-1, len(columns))
     said = table.said
@@ -805,10 +825,14 @@ def _refuse_all(labels: Sequence[ColumnLabel]) -> None:
         "velocity",
         "displacement",
     ):
-        raise RecordError(f"this is a file of {quantity}; use the acceleration of the same record.")
+        raise RecordError.naming(
+            "quantity", quantity, f"this is a file of {quantity}; use the acceleration of the same record."
+        )
     held = "; ".join(f"{name[:40]!r} is {what}" for name, what in others.items())
-    raise RecordError(
-        f"no column is of acceleration in a unit that is known: {held}; convert the column, or use another file."
+    raise RecordError.naming(
+        "columns",
+        others,
+        f"no column is of acceleration in a unit that is known: {held}; convert the column, or use another file.",
     )
 
 

@@ -44,10 +44,14 @@ def is_number(token: str) -> bool:
 def number(field: str, token: str) -> float:
     """Return `token` as a float. Raises RecordError naming file and field."""
     if not is_number(token.strip()):
-        raise RecordError(f"{field} is {token.strip()[:40]!r}, but must be a number.")
+        raise RecordError.naming(
+            field, token.strip(), f"{field} is {token.strip()[:40]!r}, but must be a number."
+        )
     value = float(token)
     if value and not 1 / _LARGEST < abs(value) < _LARGEST:
-        raise RecordError(f"{field} is {token.strip()[:40]!r}, beyond what any header holds.")
+        raise RecordError.naming(
+            field, token.strip(), f"{field} is {token.strip()[:40]!r}, beyond what any header holds."
+        )
     return value
 
 
@@ -55,7 +59,11 @@ def count(field: str, token: str) -> int:
     """Return `token` as a whole number, zero or more. Raises RecordError naming file and field."""
     value = number(field, token)
     if value < 0 or value != int(min(value, 1e9)):
-        raise RecordError(f"{field} is {token.strip()[:40]!r}, but must be a whole number from 0 to 1e9.")
+        raise RecordError.naming(
+            field,
+            token.strip(),
+            f"{field} is {token.strip()[:40]!r}, but must be a whole number from 0 to 1e9.",
+        )
     return int(value)
 
 
@@ -68,10 +76,16 @@ def numbers(text: bytes | str) -> np.ndarray:
             values = np.fromstring(text, sep=" ") if text.strip() else np.empty(0)
             if values.size and not np.abs(values).max() < _LARGEST:
                 at = int(np.argmax(~(np.abs(values) < _LARGEST)))
-                raise RecordError(f"number {at + 1} of the samples is {values[at]:g}, beyond {_LARGEST:g}.")
+                raise RecordError.naming(
+                    "samples",
+                    float(values[at]),
+                    f"number {at + 1} of the samples is {values[at]:g}, beyond {_LARGEST:g}.",
+                )
             return values
     check_plain(text)
-    raise RecordError("the samples cannot be told apart; every sample must be a plain decimal number.")
+    raise RecordError.naming(
+        "samples", None, "the samples cannot be told apart; every sample must be a plain decimal number."
+    )
 
 
 def check_plain(text: bytes) -> None:
@@ -83,7 +97,9 @@ def check_plain(text: bytes) -> None:
         for token in row.split():
             if not is_number(token):
                 defect = f"line {line} of the samples holds {token[:40]!r}"
-                raise RecordError(f"{defect}; every sample must be a plain decimal number.")
+                raise RecordError.naming(
+                    "samples", token, f"{defect}; every sample must be a plain decimal number."
+                )
 
 
 def fields(rows: list[str], width: int = 0, margin: int = 0) -> np.ndarray:
@@ -99,7 +115,11 @@ def fields(rows: list[str], width: int = 0, margin: int = 0) -> np.ndarray:
     bare = (row.rstrip()[margin:] for row in rows)
     cells = [row[at : at + width] for row in bare for at in range(0, len(row), width)]
     if broken := next((cell for cell in cells if len(cell.split()) != 1), ""):
-        raise RecordError(f"a column of {width} characters holds {broken.strip()!r}, not one number.")
+        raise RecordError.naming(
+            "samples",
+            broken.strip(),
+            f"a column of {width} characters holds {broken.strip()!r}, not one number.",
+        )
     return numbers(" ".join(cells))
 
 
@@ -107,7 +127,11 @@ def table(rows: list[str], columns: int, width: int = 0, margin: int = 0) -> np.
     """Return the numbers of `rows` in columns, (n, columns), as fields() reads them; RecordError if one lacks."""
     values = fields(rows, width, margin)
     if not columns or not values.size or values.size % columns:
-        raise RecordError(f"{values.size} numbers do not fill {columns} columns; the file is truncated.")
+        raise RecordError.naming(
+            "samples",
+            int(values.size),
+            f"{values.size} numbers do not fill {columns} columns; the file is truncated.",
+        )
     return values.reshape(-1, columns)
 
 
@@ -123,14 +147,22 @@ def whole(values: np.ndarray, declared: int, per_line: int) -> tuple[np.ndarray,
     Raises RecordError when there are fewer (the file is cut) or many more (something else stands in it).
     """
     if declared < 2:
-        raise RecordError(f"the header declares {declared} samples, but must declare at least 2.")
+        raise RecordError.naming(
+            "samples", declared, f"the header declares {declared} samples, but must declare at least 2."
+        )
     if values.size == declared:
         return values, ()
     stated = f"the header declares {declared} samples, but the file holds {values.size}"
     if values.size < declared:
-        raise RecordError(f"{stated}: it is truncated or its header is another's; fetch the whole file.")
+        raise RecordError.naming(
+            "samples",
+            declared,
+            f"{stated}: it is truncated or its header is another's; fetch the whole file.",
+        )
     if values.size > declared + per_line:
-        raise RecordError(f"{stated}: more than one line too many; mend the header or cut the file.")
+        raise RecordError.naming(
+            "samples", declared, f"{stated}: more than one line too many; mend the header or cut the file."
+        )
     return values, (Remark.of(RecordKind.SAMPLES_SURPLUS, declared=declared, held=values.size),)
 
 
@@ -144,7 +176,11 @@ def filled(rows: list[str], declared: int, per_line: int, width: int, margin: in
     if len(rows) < line_count or (len(rows) > line_count and declared > 1):
         state = "truncated" if len(rows) < line_count else "damaged"
         stated = f"the header declares {declared} samples, or {line_count} lines, but {len(rows)} stand there"
-        raise RecordError(f"{stated}: lines are missing or repeated, the file is {state}; fetch it again.")
+        raise RecordError.naming(
+            "samples",
+            declared,
+            f"{stated}: lines are missing or repeated, the file is {state}; fetch it again.",
+        )
     return whole(fields(rows, width, margin), declared, per_line=0)[0]
 
 
@@ -160,14 +196,22 @@ def even_step(times: np.ndarray) -> float | None:
     Raises RecordError when they do not increase.
     """
     if times.size < 2 or not np.all(np.isfinite(times)):
-        raise RecordError(f"{times.size} finite times, but at least 2 are needed.")
+        raise RecordError.naming(
+            "times", int(times.size), f"{times.size} finite times, but at least 2 are needed."
+        )
     steps = np.diff(times)
     if steps.min() <= 0:
         at = int(np.flatnonzero(steps <= 0)[0])
-        raise RecordError(f"time {times[at + 1]:g} s follows {times[at]:g} s, but times must increase.")
+        raise RecordError.naming(
+            "times",
+            float(times[at + 1]),
+            f"time {times[at + 1]:g} s follows {times[at]:g} s, but times must increase.",
+        )
     step = (times[-1] - times[0]) / (times.size - 1)
     if step < _SMALLEST_STEP:
-        raise RecordError(f"the times are {step:g} s apart, less than any recorder's {_SMALLEST_STEP:g} s.")
+        raise RecordError.naming(
+            "times", step, f"the times are {step:g} s apart, less than any recorder's {_SMALLEST_STEP:g} s."
+        )
     off = np.abs(times - (times[0] + step * np.arange(times.size))).max()
     shifted = (times * 10.0**digits for digits in range(9))
     digits = (n for n, each in enumerate(shifted) if np.allclose(each, np.round(each), 0, 1e-4))
@@ -189,8 +233,10 @@ def even_step(times: np.ndarray) -> float | None:
 def only_even_step(times: np.ndarray) -> float:
     """Return the step of `times` (n,) s. Raises RecordError where they are uneven."""
     if (step := even_step(times)) is None:
-        raise RecordError(
-            "the times are not even, but this format's are; the file is damaged; fetch it again."
+        raise RecordError.naming(
+            "times",
+            "uneven",
+            "the times are not even, but this format's are; the file is damaged; fetch it again.",
         )
     return step
 
@@ -204,7 +250,9 @@ def resampled(times: np.ndarray) -> tuple[float, np.ndarray, Remark]:
     check_no_gap(times, _LONGEST_GAP * step)
     number = int(min((times[-1] - times[0]) / step, 1e12)) + 1 if step > 0 else 0
     if not 2 <= number <= LARGEST_SERIES:
-        raise RecordError(f"the times are uneven and would make {number} samples {step:g} s apart.")
+        raise RecordError.naming(
+            "times", number, f"the times are uneven and would make {number} samples {step:g} s apart."
+        )
     remark = Remark.of(RecordKind.UNEVEN, samples=times.size, number=number, time_step_s=step)
     return step, times[0] + step * np.arange(number), remark
 
@@ -235,7 +283,11 @@ def check_no_gap(times: np.ndarray, longest: float) -> None:
     at = int(gaps.argmax())
     if gaps[at] > longest * (1 + 1e-9):
         gap = f"no samples between {times[at]:g} and {times[at + 1]:g} s, more than {longest:g} s apart"
-        raise RecordError(f"{gap}; cut the record there, a gap is not bridged.")
+        raise RecordError.naming(
+            "times",
+            (float(times[at]), float(times[at + 1])),
+            f"{gap}; cut the record there, a gap is not bridged.",
+        )
 
 
 _MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")

@@ -65,18 +65,34 @@ def _cosmos(block: list[str], options: Options, total: int) -> Accelerogram | No
     """Return the accelerogram of a block, or None where it is of another quantity."""
     at, data = next(((i, m) for i, line in enumerate(block) if (m := _DATA.match(line))), (0, None))
     if data is None:
-        raise RecordError("no line gives points, units and Format of the samples; the file is truncated.")
+        raise RecordError.naming(
+            "header",
+            "points, units and Format",
+            "no line gives points, units and Format of the samples; the file is truncated.",
+        )
     by_code = _CODES.get(data["code"] or "")
     if not data["quantity"].lower().startswith("accel"):
         if by_code:
-            raise RecordError(f"a channel of {data['quantity']} has units of {by_code} by its code.")
+            raise RecordError.naming(
+                "quantity",
+                data["quantity"],
+                f"a channel of {data['quantity']} has units of {by_code} by its code.",
+            )
         return None
     if acceleration_factor(by_code or data["unit"]) != acceleration_factor(data["unit"]):
-        raise RecordError(f"the units are {data['unit']!r}, but their code {data['code']} says {by_code}.")
+        raise RecordError.naming(
+            "unit",
+            data["unit"],
+            f"the units are {data['unit']!r}, but their code {data['code']} says {by_code}.",
+        )
     head = "\n".join(block[:at])
     end = next((i for i, row in enumerate(block) if i > at and _END.match(row)), None)
     if end is None:
-        raise RecordError("no line End-of-data ends a channel: the file is truncated; fetch it again.")
+        raise RecordError.naming(
+            "header",
+            "End-of-data",
+            "no line End-of-data ends a channel: the file is truncated; fetch it again.",
+        )
     check_end(block[end + 1 :])
     per_line, width = (max(1, int(data[name])) for name in ("per_line", "width"))
     reals = _reals(block[:at])
@@ -103,7 +119,11 @@ def _reals(head: list[str]) -> list[float]:
             values = text.fields(rows, int(match[3]) or 1)
             if values.size == text.count("real-header values", match[1]) > _PEAK_TIME:
                 return [float(each) for each in values]
-    raise RecordError("the real header does not hold the values it announces: it is damaged; fetch it again.")
+    raise RecordError.naming(
+        "header",
+        "reals",
+        "the real header does not hold the values it announces: it is damaged; fetch it again.",
+    )
 
 
 def _component(head: str) -> str:
@@ -182,7 +202,9 @@ def _digitised(
     # The length may count a last step or not.
     if abs(duration - times[-1]) > 2 * np.ptp(times) / (times.size - 1) + 0.001:
         stated = f"the header declares a length of {duration:g} s, but the last sample is at {times[-1]:g} s"
-        raise RecordError(f"{stated}; the file is damaged or its header is another's; fetch it again.")
+        raise RecordError.naming(
+            "duration", duration, f"{stated}; the file is damaged or its header is another's; fetch it again."
+        )
     if is_even:
         text.only_even_step(times)
     return layout.through(head, times, values, options, total=total)
@@ -245,9 +267,11 @@ def _csmip(block: list[str], options: Options, total: int) -> Accelerogram:
         return _digitised(_FILM, block, options, total)
     facts: dict[str, Any] = announced[0][1].groupdict() if announced else {}
     if not announced or (facts.get("quantity") or "acc").lower() != "acc":
-        raise RecordError(
+        raise RecordError.naming(
+            "header",
+            "POINTS OF ACC DATA",
             "no line like '1500 POINTS OF ACC DATA EQUALLY SPACED AT .020 SEC.' announces its acceleration: the file "
-            "is cut, of velocity, or of another layout; use the file of the same record from another agency."
+            "is cut, of velocity, or of another layout; use the file of the same record from another agency.",
         )
     parts = []
     for (i, data), end in zip(announced, [*(i for i, _ in announced[1:]), len(block)], strict=True):

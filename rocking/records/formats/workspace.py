@@ -49,17 +49,21 @@ def opened(source: str | BytesIO) -> Any:
     try:
         import h5py  # of the extra `asdf`
     except ImportError:
-        raise RecordError(
+        raise RecordError.naming(
+            "format",
+            "HDF5",
             "this is an HDF5 file, which a workspace of gmprocess (ASDF) is, and which h5py reads: pip install "
-            "'rocking[asdf]'."
+            "'rocking[asdf]'.",
         ) from None
     file = h5py.File(source, "r")
     form = file.attrs.get("file_format", b"")
     if (form.decode("latin-1") if isinstance(form, bytes) else str(form)).strip("\0 ") != "ASDF":
         file.close()
-        raise RecordError(
+        raise RecordError.naming(
+            "format",
+            "HDF5",
             "this is an HDF5 file, but no ASDF file as the workspaces of gmprocess are; export time and acceleration "
-            "as text, with their units as names."
+            "as text, with their units as names.",
         )
     return file
 
@@ -92,8 +96,10 @@ def station_content(file: Any, name: str, largest: int) -> bytes:
         data = _dataset(file, "Waveforms", station, series)
         size += data.size * data.dtype.itemsize
         if size > largest:
-            raise RecordError(
-                f"the station holds more than {largest} bytes, the most that is read; cut it first."
+            raise RecordError.naming(
+                "size",
+                size,
+                f"the station holds more than {largest} bytes, the most that is read; cut it first.",
             )
         code = f"{match[1]}.{match[2]}.{match[3]}.{match[4]}_{tag}"
         values = np.ascontiguousarray(data[()])
@@ -154,7 +160,11 @@ def _dataset(file: Any, *names: str) -> Any:
     found = _member(file, *names)
     is_plain = isinstance(found, h5py.Dataset) and found.ndim == 1 and found.dtype.kind in "iuf"
     if not is_plain or found.external or found.is_virtual:
-        raise RecordError(f"{names[-1]} is no series of numbers in this file; fetch the workspace again.")
+        raise RecordError.naming(
+            "samples",
+            names[-1],
+            f"{names[-1]} is no series of numbers in this file; fetch the workspace again.",
+        )
     return found
 
 
@@ -164,7 +174,9 @@ def _text(file: Any, *names: str) -> str:
         return ""
     data = _dataset(file, *names)
     if data.size > _LARGEST_TEXT:
-        raise RecordError(f"{names[-1]} holds {data.size} bytes, more than {_LARGEST_TEXT}.")
+        raise RecordError.naming(
+            "size", int(data.size), f"{names[-1]} holds {data.size} bytes, more than {_LARGEST_TEXT}."
+        )
     return bytes(data[()].astype(np.uint8)).decode("utf-8", "replace").strip("\0")
 
 
@@ -254,7 +266,11 @@ def _parted(content: bytes) -> tuple[dict[str, Any], bytes, bytes]:
     length, checksum = _BEGIN.unpack_from(content.ljust(begin, b"\0"), len(_STATION))
     body = content[begin:]
     if not body or zlib.crc32(body) != checksum:
-        raise RecordError("the station of a workspace is cut or damaged; fetch the workspace again.")
+        raise RecordError.naming(
+            "format",
+            "ASDF station",
+            "the station of a workspace is cut or damaged; fetch the workspace again.",
+        )
     facts: dict[str, Any] = json.loads(body[:length])
     return facts, b64decode(facts["stationxml"]), body[length:]
 

@@ -98,7 +98,7 @@ def test_what_cannot_hold_a_velocity_pulse_is_refused():
     for samples, field, value in cases:
         with refused(PulseError, field, value):
             velocity_pulse(Accelerogram(samples, STEP), Accelerogram(samples, STEP))
-    with pytest.raises(RecordError, match=r"time_step is 0\.005 s and 0\.01 s"):
+    with refused(RecordError, "time_step", (0.005, 0.01)):
         velocity_pulse(Accelerogram(zero, STEP), Accelerogram(zero, 2 * STEP))
 
 

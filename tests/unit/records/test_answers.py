@@ -19,6 +19,7 @@ from rocking.records.formats.layouts import (
     families,
 )
 from rocking.records.kinds import RecordKind
+from tests.refusals import refused
 from tests.unit.records.test_layouts import MOTION, OTHER, TIMES, UP, answer_all, answered, table, wrapped
 
 G = 9.80665
@@ -137,7 +138,7 @@ def test_two_answers_for_one_file_are_told_and_cost_the_others_nothing(tmp_path:
     rows = list(csv.DictReader((tmp_path / NAME).read_text().splitlines()))
     with (tmp_path / NAME).open("a") as stream:
         csv.DictWriter(stream, rows[0]).writerow(rows[0] | {"answer": "t, a m/s2"})
-    with pytest.raises(RecordError, match="lines 2 and 4, column answer"):
+    with refused(RecordError, "answer", ("t, a g", "t, a m/s2")):
         read(tmp_path / "a.txt")
     files = {file.file: file for file in list_folder(tmp_path)[0]}
     assert files["a.txt"].refusal and not files["b.txt"].refusal
@@ -163,7 +164,7 @@ def test_no_ground_moves_at_more_than_four_metres_a_second(tmp_path: Path) -> No
         )
         assert {each.kind for each in read(tmp_path / "a.csv")[0].warnings} == kinds
     (tmp_path / "a.csv").write_text("t,NS (g)\n" + table(times, 2 * np.pi / 1.5 * cycle, parted=","))
-    with pytest.raises(RecordError, match=r"peak velocity is 1.*m/s read as g"):
+    with refused(RecordError, "peak", "peak velocity is 16.6 m/s"):
         read(tmp_path / "a.csv")
     # An offset of the recorder, 0.1 m/s² for 200 s, moves no ground.
     still = 0.1 + 0.3 * np.sin(30 * 0.01 * np.arange(20_000))
@@ -180,13 +181,10 @@ def test_what_the_page_says_is_proposed_and_held_against_an_answer(tmp_path: Pat
     with pytest.raises(AskedError) as asked:
         read(path)
     assert asked.value.question.proposal == "? cm/s2, ? cm/s2, ? cm/s2"
-    for answer, words in (
-        ("E g, N g, Z g", "column 1 of this file is in 'cm/s2' by its own words"),
-        ("E cm/s2, N cm/s2, Z cm/s2, dt .005", "time step of this file is 0.01 s"),
-    ):
+    for answer in ("E g, N g, Z g", "E cm/s2, N cm/s2, Z cm/s2, dt .005"):
         (tmp_path / NAME).unlink(missing_ok=True)
         answered(tmp_path, asked.value.question, answer)
-        with pytest.raises(RecordError, match=words):
+        with refused(RecordError, "answer", answer):
             read(path)
     for answer in ("E cm/s2, N cm/s2, Z cm/s2", "E, N, Z", "E gal, N gal, Z gal, dt .01"):
         (tmp_path / NAME).unlink()
@@ -196,15 +194,15 @@ def test_what_the_page_says_is_proposed_and_held_against_an_answer(tmp_path: Pat
         assert north.acceleration == pytest.approx(OTHER, abs=1e-7)
 
 
-@pytest.mark.parametrize(("head", "answer", "words"), [
-    ("time,NS,EW\n", "t, EW g, NS g", "column 2 of this file is 'NS' by its own words"),
-    ("time,acc,vel\n", "t, a g, N g", "column 3 of this file is velocity by its name"),
-    ("", "N g, EW g, NS g", "column 1 of this file holds times"),
-    ("# rate: 200 samples per second, 3 channels\n", "t, N g, E g, dt 0.01", "time step of this file is 0.005 s"),
-    ("Unit,gal\n", "t, N mg, E mg", "column 2 of this file is in 'gal' by its own words"),
+@pytest.mark.parametrize(("head", "answer", "named"), [
+    ("time,NS,EW\n", "t, EW g, NS g", ("answer", 't, EW g, NS g')),
+    ("time,acc,vel\n", "t, a g, N g", ("answer", 't, a g, N g')),
+    ("", "N g, EW g, NS g", ("answer", 'N g, EW g, NS g')),
+    ("# rate: 200 samples per second, 3 channels\n", "t, N g, E g, dt 0.01", ("answer", 't, N g, E g, dt 0.01')),
+    ("Unit,gal\n", "t, N mg, E mg", ("answer", 't, N mg, E mg')),
 ])  # fmt: skip
 def test_an_answer_against_the_names_the_text_or_the_numbers_is_refused(
-    tmp_path: Path, head: str, answer: str, words: str
+    tmp_path: Path, head: str, answer: str, named: tuple
 ) -> None:
     path = tmp_path / "made.txt"
     path.write_text(head + table(TIMES, 0.2 * MOTION, 0.2 * OTHER, parted=","))
@@ -218,7 +216,7 @@ def test_an_answer_against_the_names_the_text_or_the_numbers_is_refused(
         asking = listing.question
     assert layouts.text([("made.txt", asking)])
     answered(tmp_path, asking, answer)
-    with pytest.raises(RecordError, match=words):
+    with refused(RecordError, *named):
         read(path)
 
 
@@ -234,7 +232,7 @@ def test_a_unit_is_no_name_of_a_component_and_time_no_direction(answer: str, col
 
 @pytest.mark.parametrize("answer", ["t, vel g", "t, a g, disp g", "velocity, a g"])
 def test_velocity_and_displacement_are_no_components(answer: str) -> None:
-    with pytest.raises(RecordError, match="write - for a column that is no acceleration"):
+    with refused(RecordError, "answer"):
         TableLayout.parse(answer)
 
 
@@ -269,7 +267,7 @@ def test_a_tail_that_states_a_unit_is_part_of_the_page(tmp_path: Path) -> None:
     path.write_text(table(TIMES, 100 * MOTION) + "units: gal\n")
     (record,) = read(path)
     assert record.acceleration == pytest.approx(MOTION, abs=1e-6)
-    with pytest.raises(RecordError, match="'gal' in the file, but 'g' was declared"):
+    with refused(RecordError, "unit", "g"):
         read(path, unit="g")
 
 
@@ -307,5 +305,5 @@ def test_two_rates_in_a_head_are_asked(tmp_path: Path, head: str) -> None:
     assert read(path)[0].time_step == 0.01
     (tmp_path / NAME).unlink()
     answered(tmp_path, asked.value.question, "one series m/s2, dt 0.02")
-    with pytest.raises(RecordError, match="by its own words"):
+    with refused(RecordError, "answer", "one series m/s2, dt 0.02"):
         read(path)

@@ -19,6 +19,7 @@ from rocking.records.kinds import RecordKind
 from rocking.records.station import open_station
 from rocking.remarks import Remark
 from tests.contracts.made_files import TRUE, knet, peer
+from tests.refusals import refused
 
 FILES = {"quake/RSN1_MADE_ST000.AT2": peer(), "quake/RSN1_MADE_ST090.AT2": peer().replace(", 45", ", 135")}
 
@@ -59,7 +60,7 @@ def test_a_catalogue_names_the_members_and_a_study_opens_them(tmp_path):
     packed(
         tmp_path / "peer.zip", {name: content.replace("Quake", "Other") for name, content in FILES.items()}
     )
-    with pytest.raises(RecordError, match="another version"):
+    with refused(RecordError, "sha256"):
         open_station(record)
 
 
@@ -73,21 +74,21 @@ def test_members_that_were_unpacked_are_followed_by_their_content(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("files", "words"),
+    ("files", "named"),
     [
-        ({"../out.AT2": peer()}, "leads out of it"),
-        ({"/etc/passwd": "x"}, "leads out of it"),
-        ({"a\\b.AT2": peer()}, "leads out of it"),
-        ({"C:x.AT2": peer()}, "leads out of it"),
-        ({f"{n}.AT2": "x" for n in range(10_001)}, "10001 files, more than 10000"),
-        ({"[Content_Types].xml": "x", "xl/sheet.xml": "x"}, "workbook"),
-        ({"empty/": ""}, "holds no file"),
-        ({"big.txt": b"1 2\n" * (3 * 2**20)}, "larger than"),
+        ({"../out.AT2": peer()}, ("file",)),
+        ({"/etc/passwd": "x"}, ("file",)),
+        ({"a\\b.AT2": peer()}, ("file",)),
+        ({"C:x.AT2": peer()}, ("file",)),
+        ({f"{n}.AT2": "x" for n in range(10_001)}, ("files", 10001)),
+        ({"[Content_Types].xml": "x", "xl/sheet.xml": "x"}, ("format", "workbook")),
+        ({"empty/": ""}, ("files", 0)),
+        ({"big.txt": b"1 2\n" * (3 * 2**20)}, ("size", 8388609)),
     ],
 )
-def test_archives_that_are_refused(tmp_path, files, words):
+def test_archives_that_are_refused(tmp_path, files, named):
     archive = packed(tmp_path / "bad.zip", files)
-    with pytest.raises(RecordError, match=words):
+    with refused(RecordError, *named):
         read(archive)
     if "empty/" not in files:
         files = list_folder(tmp_path)[0]
@@ -141,7 +142,7 @@ def test_a_zip_file_in_a_zip_file_is_a_folder_of_it(tmp_path):
     archive = packed(tmp_path / "outer.zip", {"a/inner.zip": inner, "b.AT2": peer()})
     assert members(archive) == (*(f"a/inner.zip/{name}" for name in FILES), "b.AT2")
     assert len(read(archive)) == 3
-    with pytest.raises(RecordError, match="no such file"):
+    with refused(RecordError, "file", "a/inner.zip/quake"):
         read(archive / "a" / "inner.zip" / "quake")
     assert read(archive / "a" / "inner.zip" / "quake" / "RSN1_MADE_ST090.AT2")[0].component == "135"
 
@@ -152,7 +153,7 @@ def test_archives_too_deep_in_others_are_refused(tmp_path):
         content = packed(tmp_path / "x.zip", {"x.zip": content}).read_bytes()
     (name,) = members(tmp_path / "x.zip")
     assert name == "x.zip/x.zip/x.zip"
-    with pytest.raises(RecordError, match="3 deep in others"):
+    with refused(RecordError, "file", "x.zip/x.zip/x.zip"):
         read(tmp_path / "x.zip")
 
 
@@ -162,19 +163,19 @@ def test_a_damaged_archive_is_refused_in_a_sentence(tmp_path, name):
     if name.endswith("zip"):
         content = packed(tmp_path / name).read_bytes()
     (tmp_path / name).write_bytes(content[: len(content) // 3])
-    with pytest.raises(RecordError, match=r"damaged (zip|tar) archive"):
+    with refused(RecordError, "format"):
         read(tmp_path / name)
     assert all(file.refusal for file in list_folder(tmp_path)[0])
 
 
 def test_links_and_ways_out_of_a_tar_file_are_not_followed(tmp_path):
-    with pytest.raises(RecordError, match="leads out of it"):
+    with refused(RecordError, "file", "../out.AT2"):
         read(tarred(tmp_path / "bad.tar", {"../out.AT2": b"x"}))
     with tarfile.open(tmp_path / "link.tar", "w") as archive:
         link = tarfile.TarInfo("a.AT2")
         link.type, link.linkname = tarfile.SYMTYPE, "/etc/passwd"
         archive.addfile(link)
-    with pytest.raises(RecordError, match="holds no file"):
+    with refused(RecordError, "files", 0):
         read(tmp_path / "link.tar")
 
 
@@ -186,16 +187,16 @@ def test_what_swells_or_is_damaged_is_refused_member_by_member(tmp_path):
     (record,) = read(archive)
     assert record.warnings[0].kind is RecordKind.FILES_NOT_READ
     assert "ST000.AT2" in record.warnings[0]["names"]
-    with pytest.raises(RecordError, match="cannot be unpacked"):
+    with refused(RecordError, "file", "quake/RSN1_MADE_ST000.AT2"):
         read(archive / "quake/RSN1_MADE_ST000.AT2")
-    with pytest.raises(RecordError, match="no such file"):
+    with refused(RecordError, "file", "quake/RSN1_MADE_ST180.AT2"):
         read(archive / "quake/RSN1_MADE_ST180.AT2")
 
 
 def test_a_row_that_names_the_archive_alone_is_told_what_to_write(tmp_path):
     packed(tmp_path / "peer.zip")
     (tmp_path / "c.csv").write_text("id,file\nA,peer.zip\n", encoding="utf-8")
-    with pytest.raises(RecordError, match=r"archive of 2 files; name each of them, as peer\.zip/member"):
+    with refused(RecordError, "file", "peer.zip"):
         open_station(load_catalogue(tmp_path / "c.csv")[0])
 
 
@@ -205,5 +206,5 @@ def test_an_encrypted_member_is_refused(tmp_path):
     at = content.find(b"PK\x01\x02")
     content[at + 8] |= 1
     archive.write_bytes(content)
-    with pytest.raises(RecordError, match="encrypted"):
+    with refused(RecordError, "file", "quake/RSN1_MADE_ST000.AT2"):
         read(archive / members(archive)[0])

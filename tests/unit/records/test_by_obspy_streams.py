@@ -10,6 +10,7 @@ from rocking.errors import RecordError
 from rocking.records import Accelerogram
 from rocking.records.kinds import RecordKind
 from rocking.remarks import Kind
+from tests.refusals import refused
 
 COUNTS = np.round(1e5 * np.sin(np.arange(3000) / 30) * np.hanning(3000))
 
@@ -46,20 +47,20 @@ def test_channels_of_unlike_stations_or_steps_are_told(other: Trace, kind: Kind 
 def test_pieces_of_a_channel_with_unlike_rates_are_refused() -> None:
     later = trace(delta=0.02)
     later.stats.starttime += 30
-    with pytest.raises(RecordError, match="pieces of a channel do not join"):
+    with refused(RecordError, "channel", "Sampling rate differs: 100.0 vs 50.0"):
         Accelerogram.from_obspy(Stream([trace(), later]), unit="nm/s2")
 
 
-@pytest.mark.parametrize(("units", "says"), [("M/S**2", ""), ("M/S", "leaves M/S"), ("V", "neither|removed")])
-def test_removing_the_sensitivity_leaves_the_unit_that_the_response_states(units: str, says: str) -> None:
+@pytest.mark.parametrize(("units", "field"), [("M/S**2", ""), ("M/S", "quantity"), ("V", "unit")])
+def test_removing_the_sensitivity_leaves_the_unit_that_the_response_states(units: str, field: str) -> None:
     """As remove_sensitivity leaves a trace: divided, with the offset of the recorder, and its response attached."""
     done = trace()
     done.data += 5000
     done.stats.response = inventory(units).get_response(done.id, done.stats.starttime)
     done.stats.processing = ["ObsPy 1.5.1: remove_sensitivity()"]
     done.data = done.data / 200000
-    if says:
-        with pytest.raises(RecordError, match=says):
+    if field:
+        with refused(RecordError, field):
             Accelerogram.from_obspy(done)
     else:
         (record,) = Accelerogram.from_obspy(done)
@@ -79,5 +80,5 @@ def test_a_tilted_sensor_is_told(dip: float, is_told: bool, vertical: bool) -> N
 
 
 def test_a_response_without_stages_is_not_removed_in_full() -> None:
-    with pytest.raises(RecordError, match="has no stages"):
+    with refused(RecordError, "response", "stages"):
         Accelerogram.from_obspy(trace(), inventory(), response="full")

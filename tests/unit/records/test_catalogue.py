@@ -25,6 +25,7 @@ from rocking.records.folder import list_folder
 from rocking.records.kinds import RecordKind
 from rocking.records.listing import listing_text
 from rocking.remarks import Remark
+from tests.refusals import refused
 
 ROWS = (f"{i / 100},{i % 5},{i % 7},{i % 3}\n" for i in range(50))
 TABLE = "time,NS (gal),EW (gal),UD (gal)\n" + "".join(ROWS)
@@ -76,7 +77,7 @@ def test_components_by_name_and_in_the_order_given(folder: Path) -> None:
     assert (vertical.component, horizontal.component) == ("UD", "NS") and not horizontal.warnings
     assert vertical.warnings[-1] == Remark(RecordKind.VERTICAL_AS_HORIZONTAL, "UD")
     (record,) = load_catalogue(write(folder, row(component="XX")))
-    with pytest.raises(RecordError, match=r"table.csv: .*'XX', but the file holds NS, EW, UD"):
+    with refused(RecordError, "component", "XX"):
         open_record(record)
 
 
@@ -105,25 +106,25 @@ def test_all_defects_stand_in_one_message(folder: Path) -> None:
 
 
 def test_a_thousand_defects_are_counted_and_forty_told(folder: Path) -> None:
-    with pytest.raises(CatalogueError, match=r"has 1000 defects: .* \| and 960 more$") as caught:
+    with refused(CatalogueError, "catalogue") as caught:
         load_catalogue(write(folder, *(row(id=f"bad id {number}") for number in range(1000))))
     assert str(caught.value).count(" | ") == 40
 
 
-@pytest.mark.parametrize(("text", "message"), [
-    ("", "column 'id' is missing"),
-    ("id,file,sha256\n", "no rows"),
-    ("id,file,sha256,colour\n1,2,3,4\n", "column 'colour' is not known"),
-    ("id,id,file,sha256\n1,1,2,3\n", "column 'id' stands 2 times"),
-    ("id,sha256\n1,2\n", "column 'file' is missing"),
-    ("id,file,sha256\n1,2,3,4\n", "more cells"),
-    ('id,file,sha256\n"1,2,3\n', "cannot be read"),
-    (b"id,file,sha256\n\xff\xfe,2,3\n", "UTF-8"),
+@pytest.mark.parametrize(("text", "field"), [
+    ("", "columns"),
+    ("id,file,sha256\n", "catalogue"),
+    ("id,file,sha256,colour\n1,2,3,4\n", "columns"),
+    ("id,id,file,sha256\n1,1,2,3\n", "columns"),
+    ("id,sha256\n1,2\n", "columns"),
+    ("id,file,sha256\n1,2,3,4\n", "columns"),
+    ('id,file,sha256\n"1,2,3\n', "file"),
+    (b"id,file,sha256\n\xff\xfe,2,3\n", "file"),
 ])  # fmt: skip
-def test_files_that_are_no_catalogue(tmp_path: Path, text: str | bytes, message: str) -> None:
+def test_files_that_are_no_catalogue(tmp_path: Path, text: str | bytes, field: str) -> None:
     path = tmp_path / "catalogue.csv"
     path.write_bytes(text if isinstance(text, bytes) else text.encode())
-    with pytest.raises(CatalogueError, match=message):
+    with refused(CatalogueError, field):
         load_catalogue(path)
 
 
@@ -136,10 +137,10 @@ def test_the_mirror_comes_first_and_links_may_not_leave_it(folder: Path, tmp_pat
     assert fetch(record, mirror) == folder / "table.csv"
     (outside / "table.csv").write_bytes(TABLE.encode())
     os.symlink(outside / "table.csv", mirror / "table.csv")
-    with pytest.raises(RecordError, match="leads out of"):
+    with refused(RecordError, "file", "table.csv"):
         fetch(record, mirror)
     (record,) = load_catalogue(write(folder, row(file="lost.csv")))
-    with pytest.raises(RecordError, match=r"file 'lost\.csv' is not in"):
+    with refused(RecordError, "file", "lost.csv"):
         fetch(record)
 
 
@@ -191,19 +192,19 @@ def test_remote_files_come_by_commit_and_hash(folder: Path, tmp_path: Path, answ
     assert len(answer.asked) == 1
     unchecked = download("t.csv", "own/er", "0" * 40, "a b/t.csv")
     assert unchecked != path and unchecked.read_text() == TABLE
-    with pytest.raises(RecordError, match="cannot be fetched"):
+    with refused(RecordError, "file", "far.csv"):
         fetch(dataclasses.replace(record, sha256="0" * 64))
 
 
 def test_a_download_ends_at_a_size_and_after_a_time(folder, tmp_path: Path, answer, monkeypatch) -> None:
     monkeypatch.setattr(answer, "served", staticmethod(lambda: itertools.repeat(b"0" * 2**20)))
-    with pytest.raises(RecordError, match=r"larger than \d+ bytes"):
+    with refused(RecordError, "file", "far.csv"):
         fetch(remote(folder))
     assert not [path for path in (tmp_path / "cache").rglob("*") if path.is_file()]
     monkeypatch.setattr(files, "LONGEST_DOWNLOAD", 0.2)
     pause = threading.Event()
     monkeypatch.setattr(answer, "served", lambda _: (pause.wait(0.05) or b"0" for _ in range(1000)))
-    with pytest.raises(RecordError, match=r"took more than 0\.2 s|timed out"):
+    with refused(RecordError, "file", "far.csv"):
         fetch(remote(folder))
 
 
@@ -268,7 +269,7 @@ def test_a_catalogue_from_a_folder(folder: Path) -> None:
     assert declared == {"plain.txt": ("g", "0.02"), "table.csv": ("", ""), "sub/table.csv": ("", "")}
     assert [len(open_record(record)) for record in load_catalogue(write(folder, *rows))] == [1, 2, 2]
     assert catalogue_from_folder(folder, unit="g", time_step=0.02) == (rows, unread)  # not its own catalogue
-    with pytest.raises(RecordError, match="no folder"):
+    with refused(RecordError, "folder"):
         catalogue_from_folder(folder / "none")
 
 
@@ -319,7 +320,7 @@ def test_a_huge_file_is_refused_before_it_is_read(tmp_path: Path) -> None:
             stream.truncate(2**40)  # a terabyte of nothing
     rows, unread = catalogue_from_folder(tmp_path)
     assert rows == [] and all("larger than" in reason for _, reason in unread) and len(unread) == 2
-    with pytest.raises(CatalogueError, match="larger than"):
+    with refused(CatalogueError, "size"):
         load_catalogue(tmp_path / "huge.csv")
 
 
@@ -405,7 +406,7 @@ def test_a_row_added_by_hand_needs_no_hash_until_it_is_read(folder: Path) -> Non
     before = path.read_bytes()
     assert fill_hashes(path) == () and path.read_bytes() == before
     (folder / "table.csv").write_text(TABLE.replace("1,", "2,", 1))
-    with pytest.raises(RecordError, match="another version"):
+    with refused(RecordError, "sha256"):
         open_record(records["old"])
 
 

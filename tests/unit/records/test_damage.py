@@ -17,6 +17,7 @@ from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import agree_with_velocity
 from rocking.records.read import LARGEST_FILE, read_content, unpack
 from rocking.remarks import Kind, Remark
+from tests.refusals import refused
 
 
 def made(name: str) -> str:
@@ -33,7 +34,7 @@ def test_a_duration_is_checked_to_its_last_digit() -> None:
         for samples in (low, high):
             check_duration(duration, samples, 0.01, 1.001, rounding)
         for samples in (low - 1, high + 1):
-            with pytest.raises(RecordError, match="duration"):
+            with refused(RecordError, "duration"):
                 check_duration(duration, samples, 0.01, 1.001, rounding)
 
 
@@ -77,8 +78,9 @@ def test_what_a_header_tells_is_warned_of(name: str, old: str, new: str, told: K
 def test_a_header_that_contradicts_itself_is_refused(name: str, old: str, new: str) -> None:
     text = made(name)
     assert old in text
-    with pytest.raises(RecordError, match="made"):
+    with pytest.raises(RecordError) as caught:
         read_text(text.replace(old, new, 1))
+    assert caught.value.field in ("duration", "the step", "the interval", "the number of points")
 
 
 def test_cosmos_has_the_step_of_its_series() -> None:
@@ -114,22 +116,22 @@ def test_a_peak_out_of_its_place_is_warned_of(name: str, old: str, new: str) -> 
 COUNTS = np.round(1e4 * np.sin(np.arange(4000) / 30)).astype(np.int32)
 
 
-@pytest.mark.parametrize("word", [1, 2, 6, 56])
-def test_sac_is_held_to_its_extremes_and_its_end(word: int) -> None:
+@pytest.mark.parametrize(("word", "field"), [(1, "depmin"), (2, "depmax"), (6, "e"), (56, "depmen")])
+def test_sac_is_held_to_its_extremes_and_its_end(word: int, field: str) -> None:
     """Words 1, 2, 6 and 56 of the header are DEPMIN, DEPMAX, E and DEPMEN (SAC manual)."""
     content = bytearray(by_obspy("SAC", (COUNTS / 1e4).astype(np.float32)))
     assert read_content(bytes(content), "made", Options(unit="m/s2"))
-    with pytest.raises(UndeclaredError, match="unit"):
+    with refused(UndeclaredError, "unit"):
         read_content(bytes(content), "made", Options())
     (value,) = struct.unpack_from("<f", content, 4 * word)
     struct.pack_into("<f", content, 4 * word, 1.01 * value + (word == 56))
-    with pytest.raises(RecordError, match=r"DEPM|end at"):
+    with refused(RecordError, field):
         read_content(bytes(content), "made", Options(unit="m/s2"))
 
 
 def test_the_peak_is_looked_at_before_a_mean_is_removed() -> None:
     """Counts around 9000 m/s² would seem a record of 1 m/s² once their mean is gone."""
-    with pytest.raises(RecordError, match="no recorder is off by"):
+    with refused(RecordError, "mean"):
         read_content(by_obspy("SAC", (9000 + COUNTS / 1e4).astype(np.float32)), "made", Options(unit="m/s2"))
 
 
@@ -140,7 +142,7 @@ def test_miniseed_cut_within_a_record_is_refused() -> None:
     mixed = long + by_obspy("MSEED", COUNTS[:200], reclen=512)
     assert read_content(mixed, "made", IN_MM)
     for cut in (short[:-1], short[:-100], short[:-511], mixed[:-1]):
-        with pytest.raises(RecordError, match=r"last record of \d+ bytes is cut"):
+        with refused(RecordError, "record"):
             read_content(cut, "made", IN_MM)
 
 
@@ -161,7 +163,7 @@ def test_miniseed_blocks_that_come_twice_are_told() -> None:
 def test_miniseed_that_fails_its_own_check_is_refused() -> None:
     content = bytearray(by_obspy("MSEED", COUNTS, reclen=512, encoding="STEIM2"))
     content[64 + 80] ^= 0x40  # a difference within the first record: its last sample is not the one it states
-    with pytest.raises(RecordError, match="integrity"):
+    with refused(RecordError, "format", "MSEED"):
         read_content(bytes(content), "made", IN_MM)
 
 
@@ -169,7 +171,7 @@ def test_miniseed_that_unpacks_to_too_much_is_refused() -> None:
     """Ten million samples of stillness fit into six megabytes; their heads tell before they are unpacked."""
     content = by_obspy("MSEED", np.zeros(10_000_000, np.int32), reclen=4096, encoding="STEIM2")
     assert len(content) < LARGEST_FILE
-    with pytest.raises(RecordError, match="unpacks to 10000000 samples"):
+    with refused(RecordError, "samples", 10000000):
         read_content(content, "made", Options(unit="gal"))
 
 
@@ -179,9 +181,14 @@ def test_evt_frames_are_summed_and_in_order() -> None:
     first = content[2056 : 2056 + frame]
     flipped = content[:-3] + bytes([content[-3] ^ 1]) + content[-2:]
     swapped = content[:2056] + content[2056 + frame : 2056 + 2 * frame] + first + content[2056 + 2 * frame :]
-    for damaged, word in ((flipped, "sum differs"), (swapped, "out of order"), (content[:-20], "cut"),
-                          (2 * content, "cut or damaged")):  # fmt: skip
-        with pytest.raises(RecordError, match=word):
+    last = 2056 + 3 * frame
+    for damaged, at in (
+        (flipped, last),
+        (swapped, 2056 + frame),
+        (content[:-20], last),
+        (2 * content, len(content)),
+    ):
+        with refused(RecordError, "frame", at):
             read_content(damaged, "made", Options())
     assert read_content(content + b"\0" * 50, "made", Options())[0].acceleration.size == N
 
@@ -190,10 +197,11 @@ def test_every_member_of_a_gzip_file_is_read() -> None:
     text = made("PEER AT2").encode()
     packed = gzip.compress(text[:400]) + gzip.compress(text[400:]) + b"\0" * 100
     assert unpack(packed, "made") == text
-    for damaged, word in ((packed + b"more", "damaged gzip"), (packed[:-150], "ended before"),
-                          (gzip.compress(b"1" * LARGEST_FILE) + gzip.compress(b"2\n"), "more than")):  # fmt: skip
-        with pytest.raises(RecordError, match=word):
+    for damaged in (packed + b"more", packed[:-150]):
+        with refused(RecordError, "format", "gzip"):
             unpack(damaged, "made")
+    with refused(RecordError, "size", LARGEST_FILE + 1):
+        unpack(gzip.compress(b"1" * LARGEST_FILE) + gzip.compress(b"2\n"), "made")
 
 
 @pytest.mark.parametrize("separator", [";", "; ", "\t", "   "])
@@ -211,8 +219,9 @@ def test_decimal_commas_are_read_where_something_else_parts_the_columns(separato
 ])  # fmt: skip
 def test_commas_that_may_be_either_are_refused(text: str) -> None:
     """A column of 1800 samples was read as 7200, or as two columns."""
-    with pytest.raises(RecordError, match=r"commas|recognises|columns"):
+    with pytest.raises(RecordError) as caught:
         read_text(text + "\n", unit="m/s2", time_step=STEP)
+    assert caught.value.field in ("decimals", "format")
 
 
 def test_commas_that_part_columns_still_do() -> None:
@@ -228,7 +237,7 @@ def test_a_gap_is_not_bridged_by_a_line() -> None:
     rows = [f"{i * STEP:.3f} {v:.5f}\n" for i, v in enumerate(TRUE)]
     (one,) = read_text("".join(rows[:10] + rows[11:]), unit="m/s2")
     assert one.acceleration.size == N and one.warnings[0].kind is RecordKind.UNEVEN
-    with pytest.raises(RecordError, match=r"no samples between 0.09 and 0.16 s.*not bridged"):
+    with refused(RecordError, "times", (0.09, 0.16)):
         read_text("".join(rows[:10] + rows[16:]), unit="m/s2")
 
 
@@ -246,7 +255,7 @@ def test_film_is_evened_out_but_for_a_gap_and_its_peak_is_its_own() -> None:
     assert record.time_step == 0.005 and record.warnings[0].kind is RecordKind.UNEVEN_FILM
     even = np.interp(np.arange(record.acceleration.size) * 0.005, np.round(times, 3), TRUE)
     assert np.abs(record.acceleration - even).max() < 1e-3
-    with pytest.raises(RecordError, match="not bridged"):
+    with refused(RecordError, "times", (0.134, 0.447)):
         read_text(film(times + 0.3 * (np.arange(N) > 20)))
 
 
@@ -258,14 +267,15 @@ def test_film_is_evened_out_but_for_a_gap_and_its_peak_is_its_own() -> None:
     ("made", "PEER NGA RECORD\nQuake, 1/2/99, Here, 045\nUNITS OF CM/S\nNPTS= 3, DT= .01 SEC\n1.0 150.0 -99.0\n"),
 ])  # fmt: skip
 def test_a_velocity_file_is_called_so_and_no_unit_is_offered(name: str, text: str) -> None:
-    with pytest.raises(RecordError, match="velocity") as caught:
+    with pytest.raises(RecordError) as caught:
         read_content(text.encode(), name, Options(unit="g"))
+    assert "velocity" in str(caught.value.value)
     assert "divided" not in str(caught.value)
 
 
 def test_of_lines_that_repeat_the_end_no_more_than_two_are_left_out() -> None:
     text = made("UNAM/CICESE")
-    with pytest.raises(RecordError, match="more than one line too many"):
+    with refused(RecordError, "samples", 40):
         read_text(text + 3 * (text.rstrip("\n").rsplit("\n", 1)[1] + "\n"))
 
 

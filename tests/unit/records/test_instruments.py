@@ -20,6 +20,7 @@ from rocking.records.formats import FORMATS
 from rocking.records.kinds import RecordKind
 from rocking.records.obspy_plugin import PLUGINS
 from rocking.remarks import Remark
+from tests.refusals import refused
 
 XML = """<?xml version="1.0" encoding="UTF-8"?>
 <FDSNStationXML xmlns="http://www.fdsn.org/xml/station/1" schemaVersion="1.1"><Source>made</Source>
@@ -77,12 +78,12 @@ def test_the_full_response_is_removed_to_acceleration(miniseed: Path) -> None:
 
 def test_counts_without_an_instrument_are_refused(miniseed: Path) -> None:
     trace(COUNTS // 1000).write(str(miniseed), format="MSEED")
-    with pytest.raises(RecordError, match=r"no single StationXML describes XX\.MADE"):
+    with refused(RecordError, "unit"):
         read(miniseed)
     assert read(miniseed, unit="gal")[0].source.unit == "gal"
     for name in ("a.xml", "b.xml"):
         (miniseed.parent / name).write_text(XML.format(units="M/S**2"))
-    with pytest.raises(RecordError, match=r"several do: a\.xml, b\.xml"):
+    with refused(RecordError, "unit"):
         read(miniseed)
     assert read(miniseed, inventory=miniseed.parent / "a.xml")[0].azimuth == 72
 
@@ -90,9 +91,9 @@ def test_counts_without_an_instrument_are_refused(miniseed: Path) -> None:
 def test_counts_of_sac_are_divided_as_those_of_miniseed_are(tmp_path: Path) -> None:
     counts = trace(COUNTS.astype(np.float32))
     counts.write(str(tmp_path / "record.sac"), format="SAC")
-    with pytest.raises(RecordError, match=r"unit is not declared.*describes XX\.MADE.*StationXML"):
+    with refused(RecordError, "unit"):
         read(tmp_path / "record.sac")
-    with pytest.raises(RecordError, match=r"may be counts of the recorder; give its StationXML"):
+    with refused(RecordError, "peak", "peak acceleration is 101.921 g"):
         read(tmp_path / "record.sac", unit="cm/s2")
     (tmp_path / "station.xml").write_text(XML.format(units="M/S**2"))
     (record,) = read(tmp_path / "record.sac")
@@ -125,14 +126,14 @@ def test_what_the_c_library_says_of_a_response_is_a_warning_of_the_record(minise
     assert "sensitivities" not in printed.err + printed.out
 
 
-@pytest.mark.parametrize(("xml", "message"), [
-    ("", "not a plain StationXML"), ("<FDSNStationXML", "damaged"), ('<!DOCTYPE x><FDSNStationXML/>', "not a plain"),
-    (XML.format(units="M/S**2").replace("2000-01-01", "2030-01-01"), "no response of XX.MADE"),
+@pytest.mark.parametrize(("xml", "value"), [
+    ("", "given.xml"), ("<FDSNStationXML", "given.xml"), ("<!DOCTYPE x><FDSNStationXML/>", "given.xml"),
+    (XML.format(units="M/S**2").replace("2000-01-01", "2030-01-01"), "XX.MADE..HNE"),
 ])  # fmt: skip
-def test_inventories_that_do_not_serve(miniseed: Path, xml: str, message: str) -> None:
+def test_inventories_that_do_not_serve(miniseed: Path, xml: str, value: str) -> None:
     path = miniseed.parent / "given.xml"
     path.write_text(xml)
-    with pytest.raises(RecordError, match=message):
+    with refused(RecordError, "inventory", value):
         read(miniseed, inventory=path)
 
 
@@ -184,10 +185,10 @@ def test_an_input_that_is_no_file_is_refused_and_not_waited_for(miniseed: Path, 
     path = miniseed.parent / "odd.xml"
     make(path)
     for reads in (lambda: read(path), lambda: read(miniseed, inventory=path), lambda: load_catalogue(path)):
-        with pytest.raises(RockingError, match="no regular file") as caught:
+        with refused(RockingError, "file", "odd.xml") as caught:
             reads()
         assert "\n" not in str(caught.value)
-    with pytest.raises(RecordError, match="none beside it does"):
+    with refused(RecordError, "unit"):
         read(miniseed)
     assert [file.file for file in list_folder(miniseed.parent)[0]] == ["record.mseed"]
 
@@ -215,13 +216,13 @@ def test_what_a_stream_leaves_open_is_refused() -> None:
     late.stats.starttime += 5
     counts = trace(values)
     counts.stats.response = object()
-    for given, unit, word in (
-        (trace(values), None, "neither a unit nor a response"),
-        (Stream([trace(values), late]), "g", "has a gap at"),
-        (Stream(), "g", "holds no trace"),
-        (trace(values), "furlong", "unit is 'furlong'"),
+    for given, unit, field, value in (
+        (trace(values), None, "unit", None),
+        (Stream([trace(values), late]), "g", "channel", "XX.MADE..HNE"),
+        (Stream(), "g", "stream", 0),
+        (trace(values), "furlong", "unit", "furlong"),
     ):
-        with pytest.raises(RecordError, match=word):
+        with refused(RecordError, field, value):
             Accelerogram.from_obspy(given, unit=unit)
 
 
@@ -265,7 +266,7 @@ def test_samples_whose_response_was_removed_are_not_divided_again() -> None:
         removed.copy().integrate(),
     ):
         for unit in (None, "m/s2"):
-            with pytest.raises(RecordError, match="leaves velocity; give"):
+            with refused(RecordError, "quantity", "velocity"):
                 Accelerogram.from_obspy(velocity, unit=unit)
     (again,) = Accelerogram.from_obspy(removed.copy().integrate().differentiate())
     assert again.acceleration.size == record.acceleration.size
@@ -283,17 +284,17 @@ def test_what_a_rotation_made_untrue_is_not_believed() -> None:
 
 
 def test_a_stream_passes_the_checks_of_a_file() -> None:
-    for samples, word in ((COUNTS * 1.0, "above the 5 g"), (np.zeros(4_000_001), "4000001 samples")):
-        with pytest.raises(RecordError, match=word):
+    for samples, field in ((COUNTS * 1.0, "peak"), (np.zeros(4_000_001), "samples")):
+        with refused(RecordError, field):
             Accelerogram.from_obspy(trace(samples), unit="m/s2")
     calibrated = trace(COUNTS / 1e5)
     calibrated.stats.calib = 2.0
-    with pytest.raises(UndeclaredError, match="its calibration is 2"):
+    with refused(UndeclaredError, "calibration"):
         Accelerogram.from_obspy(calibrated, unit="m/s2")
     for calibration, factor in (("apply", 2), ("done", 1)):
         (record,) = Accelerogram.from_obspy(calibrated, unit="m/s2", calibration=calibration)
         assert record.peak_acceleration == pytest.approx(factor * np.abs(COUNTS).max() / 1e5)
-    with pytest.raises(RecordError, match="must be 'apply' or 'done'"):
+    with refused(RecordError, "calibration", True):
         Accelerogram.from_obspy(calibrated, unit="m/s2", calibration=True)
     numbered = Stream([trace(COUNTS / (1e5 + n), channel=str(n)) for n in range(3)])
     for record in Accelerogram.from_obspy(numbered, unit="m/s2"):
@@ -317,17 +318,17 @@ def test_the_input_unit_of_an_instrument_is_read_by_its_factor(units: str, facto
 
 
 @pytest.mark.parametrize(
-    ("changed", "word"),
+    ("changed", "named"),
     [
-        ({"units": "V"}, "no motion of the ground"),
-        ({"gain": "INF"}, "overall sensitivity is inf"),
-        ({"gain": "1e300"}, "overall sensitivity is 1e+300"),
-        ({"gain": "0"}, "overall sensitivity is 0"),
-        ({"gain": "230000"}, "contradicts itself"),
+        ({"units": "V"}, ("quantity", "V")),
+        ({"gain": "INF"}, ("sensitivity",)),
+        ({"gain": "1e300"}, ("sensitivity", 1e300)),
+        ({"gain": "0"}, ("sensitivity", 0.0)),
+        ({"gain": "230000"}, ("sensitivity",)),
     ],
 )
-def test_a_response_that_is_none_is_refused(changed: dict[str, str], word: str) -> None:
-    with pytest.raises(RecordError, match=word.replace("+", r"\+")):
+def test_a_response_that_is_none_is_refused(changed: dict[str, str], named: tuple) -> None:
+    with refused(RecordError, *named):
         Accelerogram.from_obspy(trace(), inventory_of(**changed))
 
 
@@ -400,11 +401,11 @@ def test_obspy_reads_our_text_formats(real_records: Path) -> None:
 ])  # fmt: skip
 def test_an_array_that_is_no_accelerogram_is_refused(samples) -> None:
     """The gaps of a masked array became samples."""
-    with pytest.raises(RecordError, match="sample"):
+    with refused(RecordError, "acceleration"):
         Accelerogram(samples, 0.01)
 
 
 @pytest.mark.parametrize("name", ["a\0b", "\u202egnp.exe", "\udce9", "two\nlines"])
 def test_names_that_cannot_be_printed_are_refused(name: str) -> None:
-    with pytest.raises(RecordError, match="printable"):
+    with refused(RecordError, "station"):
         Accelerogram(np.arange(3.0), 0.01, station=name)

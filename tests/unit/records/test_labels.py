@@ -93,10 +93,9 @@ def test_a_label_names_unit_and_component(label, unit, component):
      "resultant (g)", "acc SRSS (g)", "vector sum (g)"],
 )  # fmt: skip
 def test_a_column_of_something_else_is_no_acceleration_whatever_unit_is_declared(tmp_path, label):
-    with pytest.raises(
-        RecordError, match=r"of (acceleration|velocity|displacement)|columns hold is not known"
-    ):
+    with pytest.raises(RecordError) as caught:
         opened(tmp_path, table(f"time (s);{label}\n", TIMES, FIRST, parted=";"), unit="m/s2")
+    assert caught.value.field in ("columns", "quantity", "layout")
 
 
 @pytest.mark.parametrize(
@@ -215,7 +214,7 @@ def test_velocity_and_displacement_beside_acceleration_are_left_out(tmp_path, he
 
 @pytest.mark.parametrize("head", ["", "t a v\n", "t Ac Des\n", "Time Ag Q1\n"])
 def test_a_velocity_that_nothing_calls_so_is_asked_for(tmp_path, head):
-    with pytest.raises(AskedError, match=r"column 3.*: \?"):
+    with refused(AskedError, "layout"):
         opened(tmp_path, table(head, TIMES, FIRST, VELOCITY, parted=" "), unit="m/s2")
 
 
@@ -237,7 +236,7 @@ def test_units_may_stand_below_the_names(tmp_path, units):
 def test_remarks_declare_unit_and_step(tmp_path, remarks, step):
     (record,) = opened(tmp_path, table(remarks, 100 * FIRST))
     assert record.time_step == pytest.approx(step) and np.allclose(record.acceleration, FIRST, atol=1e-7)
-    with pytest.raises(RecordError, match=r"but 0\.01 s was declared"):
+    with refused(RecordError, "time_step", 0.01):
         opened(tmp_path, table(remarks, 100 * FIRST), time_step=0.01)
 
 
@@ -246,7 +245,7 @@ def test_remarks_declare_unit_and_step(tmp_path, remarks, step):
     ["# PGA: 0.35 (g)\n", "# scale factor in g\n", "# acc in g\n# units: gal\n", "# Geoscope (G)\n"],
 )
 def test_a_remark_on_the_peak_or_two_that_differ_declare_no_unit(tmp_path, remarks):
-    with pytest.raises(RecordError, match="unit is not declared"):
+    with refused(RecordError, "unit"):
         opened(tmp_path, table(remarks, FIRST), time_step=0.01)
 
 
@@ -332,7 +331,7 @@ def test_text_above_a_table_is_passed_over_where_nothing_is_left_open(tmp_path):
     ],
 )
 def test_what_text_and_names_leave_open_is_asked_for(tmp_path, above):
-    with pytest.raises(AskedError, match=r"columns hold|text above|is not declared"):
+    with pytest.raises(AskedError):
         opened(tmp_path, table(above, TIMES, FIRST, parted=" "))
 
 
@@ -343,12 +342,17 @@ def test_quoted_cells_may_hold_commas(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("name", "word"), [("ELC_vel.txt", "velocity"), ("disp-x.dat", "displacement"), ("S.semv", "velocity")]
+    ("name", "named"),
+    [
+        ("ELC_vel.txt", ("quantity", "velocity")),
+        ("disp-x.dat", ("quantity", "displacement")),
+        ("S.semv", ("quantity", "velocity")),
+    ],
 )
-def test_a_name_that_speaks_of_another_quantity_is_asked(tmp_path, name, word):
+def test_a_name_that_speaks_of_another_quantity_is_asked(tmp_path, name, named):
     path = tmp_path / name
     path.write_text(table("", TIMES, FIRST, parted=" "), encoding="utf-8")
-    with pytest.raises(RecordError, match=word):
+    with refused(RecordError, *named):
         read(path, unit="m/s2")
     path.rename(tmp_path / "Velletri_NS.txt")
     assert read(tmp_path / "Velletri_NS.txt", unit="m/s2")
@@ -373,7 +377,7 @@ def test_files_of_programs_are_named(tmp_path, content, word):
 def test_a_title_declares_a_unit_only_of_the_numbers(tmp_path, title, unit):
     content = table(f"{title}\n600 0.01 NPTS, STEP\n", FIRST)
     if unit is None:
-        with pytest.raises(RecordError, match="unit is not declared"):
+        with refused(RecordError, "unit"):
             opened(tmp_path, content)
     else:
         assert opened(tmp_path, content)[0].source.unit == unit
@@ -409,7 +413,7 @@ def test_a_suffix_is_a_unit_beside_times(tmp_path):
     for head in ("time_s,acc_g\n", "t,acc_g\n", "time,acc_g\n"):
         (record,) = opened(tmp_path, table(head, TIMES, FIRST))
         assert record.acceleration == pytest.approx(FIRST * 9.80665, abs=1e-5)
-    with pytest.raises(RecordError, match="unit is not declared"):
+    with refused(RecordError, "unit"):
         opened(tmp_path, table("acc_g\n", FIRST), time_step=0.01)
 
 
@@ -427,13 +431,13 @@ def test_the_filling_of_the_last_row_is_left_out(tmp_path):
     assert record.vertical
     assert record.acceleration == pytest.approx(FIRST, abs=1e-6)
     assert RecordKind.ROW_FILLED_UP in {each.kind for each in record.warnings}
-    with pytest.raises(RecordError, match="NaN"):
+    with refused(RecordError, "samples", "NaN"):
         opened(tmp_path, "# units: m/s2, dt = 0.01 s\n" + rows.replace(numbers[300], "NaN", 1))
 
 
 @pytest.mark.parametrize("head", ["f (Hz),A (g)\n", "f,A (m/s2)\n", "Frequency [Hz],amplitude\n"])
 def test_numbers_over_frequency_are_a_spectrum(tmp_path, head):
-    with pytest.raises(RecordError, match="this is a spectrum"):
+    with refused(RecordError, "quantity", "spectrum"):
         opened(tmp_path, table(head, TIMES, FIRST), unit="g", time_step=0.01)
 
 

@@ -12,6 +12,7 @@ from rocking.records import Accelerogram
 from rocking.records import processing as steps
 from rocking.records.processing import Processing, adaptive_baseline, displacement, process, velocity
 from rocking.records.synthetic import SHIPPED, synthetic_record
+from tests.refusals import refused
 
 DT = 0.01
 
@@ -118,7 +119,7 @@ def test_variants_differ_and_all_run() -> None:
     ({"high_pass": 3.0, "low_pass": 2.0}, "high_pass"), ({"time_step": 0.0}, "time_step"),
 ])  # fmt: skip
 def test_settings_out_of_range(settings: dict, field: str) -> None:
-    with pytest.raises(RecordError, match=field):
+    with refused(RecordError, field, settings[field]):
         Processing(**settings)
 
 
@@ -189,5 +190,5 @@ def test_shaking_that_lasts_to_the_end_leaves_no_baseline_to_fit() -> None:
 
 @pytest.mark.parametrize("values", [np.zeros(200), shaken(1)[600:663]])
 def test_without_motion_or_with_few_samples_there_is_none(values: np.ndarray) -> None:
-    with pytest.raises(RecordError, match="needs motion and at least 64 samples"):
+    with refused(RecordError, "samples"):
         adaptive_baseline(values, DT)

@@ -18,6 +18,7 @@ from rocking.records import read
 from rocking.records.formats import FORMATS, Options
 from rocking.records.kinds import RecordKind
 from rocking.records.read import LARGEST_FILE, read_content
+from tests.refusals import refused
 
 
 def at2(values: list[str], npts: int | None = None, dt: str = ".0100", unit: str = "UNITS OF G") -> str:
@@ -41,21 +42,21 @@ def test_a_record_knows_its_file_and_gzip_is_unpacked(tmp_path: Path) -> None:
         assert record.source.sha256 == hashlib.sha256(path.read_bytes()).hexdigest()
 
 
-@pytest.mark.parametrize(("content", "message"), [
-    (b"", "record.AT2: the file is empty"),
-    (b"\n \r\n", "record.AT2: the file is empty"),
-    (at2(["0.1"] * 30, npts=3), "declares 3 samples, but the file holds 30"),
-    (at2(["0.1", "nan"]), "line 1 of the samples holds 'nan'"),
-    (at2(["0.1", "1.2.3"]), "'1.2.3'"),
-    (at2(["0.1", "1e999"]), "number 2 of the samples is inf"),
-    (at2(["0.1", "0.2"], dt="0.0"), "time_step is 0.0 s, but must be greater than 0"),
-    (at2(["0.1", "0.2"], dt="1.0.1"), "DT is '1.0.1', but must be a number"),
-    (at2(["0.1", "0.2"], unit="UNKNOWN"), "unit is not declared"),
-    (at2(["100", "818"]), "peak acceleration is 818 g.*980.665"),
-    (at2(["0.1"]), "declares 1 samples, but must declare at least 2"),
+@pytest.mark.parametrize(("content", "named"), [
+    (b"", ("size", 0)),
+    (b"\n \r\n", ("size", 0)),
+    (at2(["0.1"] * 30, npts=3), ("samples", 3)),
+    (at2(["0.1", "nan"]), ("samples", 'nan')),
+    (at2(["0.1", "1.2.3"]), ("samples", '1.2.3')),
+    (at2(["0.1", "1e999"]), ("samples",)),
+    (at2(["0.1", "0.2"], dt="0.0"), ("time_step", 0.0)),
+    (at2(["0.1", "0.2"], dt="1.0.1"), ("DT", '1.0.1')),
+    (at2(["0.1", "0.2"], unit="UNKNOWN"), ("unit",)),
+    (at2(["100", "818"]), ("peak", 'peak acceleration is 818 g')),
+    (at2(["0.1"]), ("samples", 1)),
 ])  # fmt: skip
-def test_bad_files_get_one_sentence_that_names_them(tmp_path: Path, content, message: str) -> None:
-    with pytest.raises(RecordError, match=message) as caught:
+def test_bad_files_get_one_sentence_that_names_them(tmp_path: Path, content, named: tuple) -> None:
+    with refused(RecordError, *named) as caught:
         read(written(tmp_path, content))
     assert str(caught.value).startswith("record.AT2: ") and str(caught.value).count("record.AT2") == 1
     assert "\n" not in str(caught.value)
@@ -106,18 +107,18 @@ def test_times_rounded_in_print_are_even_and_uneven_ones_are_resampled(tmp_path:
     assert np.abs(record.acceleration / 9.80665 - truth).max() < 0.013**2 / 8 + 1e-6
 
 
-@pytest.mark.parametrize(("text", "message"), [
-    ("0.00 1\n0.01 2\n0.02 3\n0.02 1\n0.03 -1\n0.04 2\n0.05 3\n0.06 1\n", "times must increase"),
-    ("time,a(g)\n0.00,1\n0.01,\n0.02,3\n", "no reader recognises"),
-    ("time,a(g)\n0.00,1\n0.01,2,3\n0.02,3\n", "no reader recognises|columns"),
-    ("t,NS,EW\n0,5,6\n1,8,9\n2,2\n", "row 3 of the samples has 2 columns, but the first has 3|no reader"),
-    ("E\n7\n9\n1 2\n", "no reader recognises"),
-    ("1\n" * 40 + "1 2\n" + "3\n", "row 41 of the samples has 2 columns, but the first has 1"),
-    ("1 2 3\n" * 40 + "1 2\n" + "3 3 3\n", "row 41 of the samples has 2 columns, but the first has 3"),
-    ("time,a(inches)\n0.00,1\n0.01,2\n0.02,3\n", "what its columns hold is not known"),
+@pytest.mark.parametrize(("text", "named"), [
+    ("0.00 1\n0.01 2\n0.02 3\n0.02 1\n0.03 -1\n0.04 2\n0.05 3\n0.06 1\n", ("times", 0.02)),
+    ("time,a(g)\n0.00,1\n0.01,\n0.02,3\n", ("format",)),
+    ("time,a(g)\n0.00,1\n0.01,2,3\n0.02,3\n", ("format", 'time,a(g)')),
+    ("t,NS,EW\n0,5,6\n1,8,9\n2,2\n", ("columns", 2)),
+    ("E\n7\n9\n1 2\n", ("format",)),
+    ("1\n" * 40 + "1 2\n" + "3\n", ("columns", 2)),
+    ("1 2 3\n" * 40 + "1 2\n" + "3 3 3\n", ("columns", 2)),
+    ("time,a(inches)\n0.00,1\n0.01,2\n0.02,3\n", ("layout",)),
 ])  # fmt: skip
-def test_bad_tables(tmp_path: Path, text: str, message: str) -> None:
-    with pytest.raises(RecordError, match=message):
+def test_bad_tables(tmp_path: Path, text: str, named: tuple) -> None:
+    with refused(RecordError, *named):
         read(written(tmp_path, text, "r.csv"), time_step=None if "," in text and "time" in text else 0.01)
 
 
@@ -132,14 +133,12 @@ def test_wrapped_series_and_single_column(tmp_path: Path) -> None:
 
 def test_declarations_are_checked(tmp_path: Path) -> None:
     path = written(tmp_path, at2(["0.1", "0.2"]))
-    bad: list[tuple[dict[str, Any], str]] = [
-        ({"unit": "furlong"}, "unit is 'furlong'"), ({"unit": "gal"}, "unit is 'g' in the file, but 'gal' was"),
-        ({"time_step": 0.02}, "is 0.01 s in the file, but 0.02 s was"), ({"time_step": -1}, "time_step is -1"),
-        ({"response": "partly"}, "response is 'partly'"),
+    bad: list[tuple[str, Any]] = [
+        ("unit", "furlong"), ("unit", "gal"), ("time_step", 0.02), ("time_step", -1), ("response", "partly"),
     ]  # fmt: skip
-    for wrong, word in bad:
-        with pytest.raises(RecordError, match=word):
-            read(path, **wrong)
+    for field, value in bad:
+        with refused(RecordError, field, value):
+            read(path, **{field: value})
     assert read(path, unit="G", time_step=0.01)[0].time_step == 0.01
 
 
@@ -187,10 +186,10 @@ def test_the_worst_content_of_the_largest_size_takes_no_more_than_500_mb(name: s
 
 def test_an_archive_and_a_file_of_many_members_are_refused_at_once(tmp_path: Path) -> None:
     (tmp_path / "records.zip").write_bytes(b"PK\x03\x04" + b"\0" * 100)
-    with pytest.raises(RecordError, match="damaged zip archive"):
+    with refused(RecordError, "format", "zip archive"):
         read(tmp_path / "records.zip")
     (tmp_path / "many.gz").write_bytes(gzip.compress(b"") * 100_000)
-    with pytest.raises(RecordError, match="the file is empty"):
+    with refused(RecordError, "size", 0):
         read(tmp_path / "many.gz")
     (tmp_path / "other.dat").write_bytes(b"of a format that only obspy reads\n" * 3)
     with pytest.raises(RecordError, match=r"rocking\.from_obspy\(obspy\.read"):

@@ -8,6 +8,7 @@ from rocking.records import Accelerogram
 from rocking.records.direction import rotate, rotd
 from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
+from tests.refusals import refused
 
 RNG = np.random.default_rng(1)
 NORTH, EAST = RNG.standard_normal(500), RNG.standard_normal(500)
@@ -55,13 +56,13 @@ def test_components_at_any_angle_have_the_peaks_of_their_motion(one: float, two:
     assert rotd(component(None), component(None)).rotd100 > 0
 
 
-@pytest.mark.parametrize(("first", "second", "message"), [
-    (component(0), component(10), "must differ by 30"),
-    (component(0), component(181), "must differ by 30"),
-    (component(0), component(90, vertical=True), "vertical"),
-    (component(0, start_time="a"), component(90, start_time="b"), "must start together"),
-    (component(0), Accelerogram(NORTH, 0.02, azimuth=90), "time_step"),
+@pytest.mark.parametrize(("first", "second", "named"), [
+    (component(0), component(10), ("azimuth",)),
+    (component(0), component(181), ("azimuth",)),
+    (component(0), component(90, vertical=True), ("vertical", True)),
+    (component(0, start_time="a"), component(90, start_time="b"), ("start_time", ('a', 'b'))),
+    (component(0), Accelerogram(NORTH, 0.02, azimuth=90), ("time_step", (0.01, 0.02))),
 ])  # fmt: skip
-def test_pairs_that_do_not_fit(first: Accelerogram, second: Accelerogram, message: str) -> None:
-    with pytest.raises(RecordError, match=message):
+def test_pairs_that_do_not_fit(first: Accelerogram, second: Accelerogram, named: tuple) -> None:
+    with refused(RecordError, *named):
         rotd(first, second)

@@ -12,6 +12,7 @@ from rocking.errors import ConfigurationError
 from rocking.records import Accelerogram
 from rocking.records.kinds import RecordKind
 from rocking.records.sample import CORRELATION, FEWEST, Sample, earthquakes_of
+from tests.refusals import refused
 
 
 @dataclass
@@ -97,7 +98,7 @@ def test_components_and_processings_of_a_station_are_one():
 
 
 def test_as_many_names_as_records_are_asked_for():
-    with pytest.raises(ConfigurationError, match="events names 1, but must name one for each of 2"):
+    with refused(ConfigurationError, "events", 1):
         Sample.of([Named(), Named()], events=["one"])
 
 

@@ -14,6 +14,7 @@ from rocking.records.kinds import RecordKind
 from rocking.records.scaling import ScalingTarget
 from rocking.study.job import Study
 from rocking.study.settings import Settings, read_settings
+from tests.refusals import refused
 
 TIMES = np.arange(3000) * 0.01
 MOTIONS = {
@@ -41,19 +42,17 @@ def test_a_target_in_its_unit(text: str, value: float) -> None:
     assert ScalingTarget.parse(text).value == pytest.approx(value, rel=1e-12)
 
 
-@pytest.mark.parametrize(("text", "word"), [
-    ("0.35 g", "must be a measure"), ("pga 0.35", "must be a measure"), ("pga 0,35 g", "written with a point, 0.35"),
-    ("pga 0 g", "above 0"), ("pga -1 g", "above 0"), ("pga 1e400 g", "finite"), ("pgv 3 g", "m/s or cm/s"),
-    ("pga 3 furlong", "furlong"), ("pga nan g", "above 0"), ("sa 0.3 g", "must be a measure"),
+@pytest.mark.parametrize("text", [
+    "0.35 g", "pga 0.35", "pga 0,35 g", "pga 0 g", "pga -1 g", "pga 1e400 g", "pgv 3 g", "pga 3 furlong", "pga nan g",
+    "sa 0.3 g",
 ])  # fmt: skip
-def test_what_is_no_target_is_refused(text: str, word: str) -> None:
-    with pytest.raises(RecordError, match=word):
+def test_what_is_no_target_is_refused(text: str) -> None:
+    with pytest.raises(RecordError) as caught:
         ScalingTarget.parse(text)
-    with pytest.raises(CatalogueError, match=word):
+    assert caught.value.field in ("scale_to", "unit")
+    with refused(CatalogueError, "record"):
         CatalogueRecord("r", "r.csv", scale_to=text)
-    with pytest.raises(
-        ConfigurationError, match=rf"{word}|must be a text like pga 0\.35 g or pgv 50 cm/s or null"
-    ):
+    with pytest.raises(ConfigurationError):
         read_settings({"scale_to": text})
 
 
@@ -96,12 +95,10 @@ def test_a_velocity_is_reached(record: CatalogueRecord) -> None:
 
 
 def test_what_cannot_be_scaled_is_refused(record: CatalogueRecord, tmp_path: Path) -> None:
-    with pytest.raises(
-        CatalogueError, match=r"scale_factor is 2 beside scale_to 'pga 1 g'; give one of the two"
-    ):
+    with refused(CatalogueError, "record"):
         replace(record, scale_to="pga 1 g", scale_factor=2.0)
     (tmp_path / "r.csv").write_text("time,NS (m/s2)\n" + "".join(f"{t:.2f},0.0\n" for t in TIMES))
-    with pytest.raises(RecordError, match=r"r: .*zero throughout, so that nothing scales it to pga 1 g"):
+    with refused(RecordError, "scale_to", "pga 1 g"):
         open_station(replace(record, scale_to="pga 1 g"))
 
 

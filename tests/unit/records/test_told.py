@@ -58,8 +58,10 @@ HEADS = [
 def test_a_spectrum_whose_header_says_so_is_told_so_first(tmp_path: Path, head: str) -> None:
     """Its number of ordinates is not that of samples, which was told instead, with the advice to mend the header."""
     (tmp_path / "a.txt").write_text(head + "\n".join(f"{value:.6f}" for value in np.abs(TRUE)) + "\n")
-    with pytest.raises(RecordError, match=r"this is a (spectrum|Volume 3 file of spectra)"):
+    with pytest.raises(RecordError) as caught:
         read(tmp_path / "a.txt")
+    named = (caught.value.field, caught.value.value)
+    assert named in {("quantity", "spectrum"), ("format", "CSMIP V3 spectra")}
 
 
 def test_a_motion_made_to_a_spectrum_is_told_what_is_wrong_with_it(tmp_path: Path) -> None:
