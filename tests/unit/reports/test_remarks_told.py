@@ -85,8 +85,10 @@ def lines_told(rows):
 
 
 @pytest.mark.filterwarnings("ignore:restitution by momentum balance")
-def test_a_size_or_a_level_in_another_unit_stands_on_page_one_or_is_refused():
+def test_a_size_or_a_level_in_another_unit_stands_on_page_one_or_is_refused(monkeypatch):
     """300 studies with one slip each: millimetres for metres, radians for degrees, m/s² for g."""
+    # Half a second each, for a sentence that refuses.
+    monkeypatch.setattr("rocking.structures.arch.limiting_thickness", lambda *_: 1.0)
     silent = []
     refused = 0
     for key, entry in slips(TYPED_WRONGLY):
@@ -105,8 +107,8 @@ def test_a_size_or_a_level_in_another_unit_stands_on_page_one_or_is_refused():
 
 @pytest.mark.filterwarnings("ignore:restitution by momentum balance")
 def test_of_many_slips_page_one_tells_the_first_in_full_and_how_many_more_of_what():
-    scenes = {f"wall {place}": wall_in_millimetres(2200.0 + place) for place in range(150)}
-    remarks = study_remarks(Settings(), on_the_ground(scenes))
+    wall = wall_in_millimetres(2200.0)
+    remarks = study_remarks(Settings(), on_the_ground({f"wall {place}": wall for place in range(150)}))
     to_check = [each for each in remarks if each.kind in TO_CHECK]
     assert len(to_check) == 300
     *first, rest = notices(remarks)[-3:]
