@@ -4,7 +4,6 @@ from .assessment.decide import Decision as Decision
 from .assessment.decide import Verdict as Verdict
 from .assessment.reserve import Reserve as Reserve
 from .assessment.scene import read_structures as read_structures
-from .assessment.trade import trade as trade
 from .codes.check import Check as Check
 from .codes.check import DynamicCheck as DynamicCheck
 from .codes.check import StructureCheck as StructureCheck
@@ -36,6 +35,7 @@ from .motion.integration import Members as Members
 from .motion.integration import integrate as integrate
 from .motion.integration import integrate_members as integrate_members
 from .motion.response import Response as Response
+from .products.trade.measure import trade as trade
 from .pulses import Pulse as Pulse
 from .pulses import PulseAnalysis as PulseAnalysis
 from .pulses import PulseSettings as PulseSettings

@@ -169,5 +169,5 @@ def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(f"rocking.reports.{module}.pictures", lambda *_: ())
     monkeypatch.setattr("rocking.reports.record.drawn_by_hand", lambda *_: nothing)
     for figure in ("bars_figure", "basis_figure"):
-        monkeypatch.setattr(f"rocking.reports.structures.{figure}", lambda *_: None)
-    monkeypatch.setattr("rocking.reports.structures.picture", lambda *_: nothing)
+        monkeypatch.setattr(f"rocking.products.checks.report.{figure}", lambda *_: None)
+    monkeypatch.setattr("rocking.products.checks.report.picture", lambda *_: nothing)

@@ -80,7 +80,7 @@ def paper_report(figures: Sequence[PaperFigure], equations: Sequence[EquationRow
         figures=tuple(DrawnFigure(picture(f.figure, f.caption), f.caption, f.name) for f in figures),
         equations=equation_table(equations),
     )
-    return compile_document(page, Path(__file__).with_name("paper.typ"))
+    return compile_document(page)
 
 
 @dataclass(frozen=True)
@@ -95,6 +95,8 @@ class DrawnFigure:
 @dataclass(frozen=True, kw_only=True)
 class PaperPage(Page):
     """What paper.typ is given."""
+
+    template = Path(__file__).with_name("paper.typ")
 
     figures: tuple[DrawnFigure, ...]
     equations: Table

@@ -14,9 +14,7 @@ import numpy as np
 from docs.research import scores, sites
 from docs.research.report import Target
 from rocking import Accelerogram, Block, EquivalentBlock, Pulse, integrate_batch, predict_maxima
-from rocking.assessment.rows import TradeMethod
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
-from rocking.assessment.trade import best_sines
 from rocking.fragility.curves import (
     Fragility,
     IncrementalDynamicAnalysis,
@@ -24,6 +22,8 @@ from rocking.fragility.curves import (
     fragility,
     fragility_of,
 )
+from rocking.products.trade.measure import best_sines
+from rocking.products.trade.rows import TradeMethod
 from rocking.records.sample import Sample
 from rocking.structures import Structure
 

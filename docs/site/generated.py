@@ -10,15 +10,17 @@ from typing import Any
 import rocking
 from docs.paper.report import equation_rows, equivalence_figures
 from docs.site.drawings import forms
-from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, HistoryRow, SpectrumRow, TradeRow
-from rocking.assessment.trade import what_follows as sentences_of_trade
-from rocking.codes.rows import CodeCheckRow
+from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, HistoryRow, SpectrumRow
 from rocking.described import described_values, parts_of
+from rocking.products.trade.measure import what_follows as sentences_of_trade
+from rocking.products.trade.rows import TradeRow
 from rocking.pulses import PULSE_METHODS
 from rocking.quantities import ACCELERATION_UNITS
 from rocking.records.formats import FORMATS
 from rocking.sine_pulse import Regime
 from rocking.structures.fields import Form
+from rocking.study.products import PRODUCTS
+from rocking.study.results import rows_of_table
 from rocking.study.settings import Settings
 from rocking.study.strengthening import StrengtheningRow
 from rocking.tables import data_package, read_table
@@ -50,8 +52,9 @@ def structures() -> str:
 
 def tables() -> str:
     """Every column of every table."""
+    of_products = [rows_of_table(each, name) for each in PRODUCTS for name in each.tables]
     classes = dict.fromkeys(
-        (*RECORD_TABLES, HistoryRow, *SUMMARY_TABLES, CodeCheckRow, StrengtheningRow, SpectrumRow)
+        (*RECORD_TABLES, HistoryRow, *SUMMARY_TABLES, *of_products, StrengtheningRow, SpectrumRow)
     )
     package = json.loads(data_package("tables", {each: each.table.file_name for each in classes}))
     return "\n\n".join(map(_table_section, package["resources"]))

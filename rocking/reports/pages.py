@@ -5,9 +5,13 @@ A class of a page names the variable of the template that holds it: a `Row` is `
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields, is_dataclass
-from typing import Any
+from pathlib import Path
+from typing import Any, ClassVar
 
 from rocking.remarks import Language
+
+FOLDER = Path(__file__).parent
+"""Of the templates of the reports."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -104,8 +108,9 @@ class Footer:
 
 @dataclass(frozen=True, kw_only=True)
 class Page:
-    """What every document has."""
+    """What every document has. template: the file that sets it, as if it stood beside those of the reports."""
 
+    template: ClassVar[Path]
     title: str
     language: Language = "en"
     about: tuple[Fact, ...] = ()
@@ -163,6 +168,8 @@ class Panel:
 @dataclass(frozen=True, kw_only=True)
 class PlainPage(Page):
     """A plain document."""
+
+    template = FOLDER / "plain.typ"
 
     subtitle: str = ""
     parts: tuple[Part, ...] = ()
@@ -346,6 +353,8 @@ class Details:
 class RecordPage(Page):
     """The report of one record."""
 
+    template = FOLDER / "record.typ"
+
     subtitle: str
     running: str
     conclusion: str
@@ -446,6 +455,8 @@ class DesignSpectra:
 class SummaryPage(Page):
     """The report over all records."""
 
+    template = FOLDER / "summary.typ"
+
     subtitle: str
     conclusion: str
     falls: str
@@ -471,96 +482,6 @@ class SummaryPage(Page):
     records_note: str
     tolerance: str
     acceleration_scale: str
-
-
-# The pages to sign ---------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, kw_only=True)
-class SignWords:
-    """What the pages to sign say in every study, in their language."""
-
-    what_governs: str
-    capacity_over_demand: str
-    how_sure: str
-    assumed: str
-    place_and_date: str
-    signature: str
-    not_to_sign: str
-    next_page: str
-    figure: str
-    table_checks: str
-    table_mechanisms: str
-    table_periods: str
-    variants_title: str
-    records_title: str
-    table_records: str
-
-
-@dataclass(frozen=True)
-class Sure:
-    """How sure a conclusion is: a figure, and what it is the figure of."""
-
-    value: str
-    text: str
-
-
-@dataclass(frozen=True, kw_only=True)
-class Basis:
-    """The page behind the one to sign."""
-
-    title: str
-    figure: tuple[Picture, ...]
-    checks: Table
-    mechanisms: Table
-    sentences: tuple[str, ...]
-    periods: Table
-    share: str
-    strips: tuple[Strip, ...]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Answer:
-    """What a page to sign holds below its conclusion."""
-
-    way: str
-    bars: tuple[Picture, ...]
-    sure: tuple[Sure, ...]
-    assumptions: tuple[str, ...]
-    basis: Basis
-
-
-@dataclass(frozen=True, kw_only=True)
-class Sheet:
-    """The page of one structure; without an answer where it could not be checked, and it is then not to be signed."""
-
-    name: str
-    level: str
-    place: str
-    headline: str
-    met: bool
-    details: tuple[str, ...]
-    answers: tuple[Answer, ...]
-
-
-@dataclass(frozen=True)
-class SetFigure:
-    """The set of records of the dynamic check beside its target."""
-
-    picture: Picture
-    caption: str
-
-
-@dataclass(frozen=True, kw_only=True)
-class StructuresPage(Page):
-    """The pages to sign."""
-
-    words: SignWords
-    notices: tuple[str, ...]
-    unread: str
-    spectra: tuple[SetFigure, ...]
-    motions: Table
-    sheets: tuple[Sheet, ...]
 
 
 # What a template receives --------------------------------------------------------------------------------

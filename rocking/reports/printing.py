@@ -25,16 +25,13 @@ from rocking.assessment.methods import NEGLIGIBLE, Method, rests
 from rocking.assessment.rows import FailureRow
 from rocking.quantities import GRAVITY, counted
 from rocking.reports.pages import (
+    FOLDER,
     Cell,
     Chip,
     Fact,
     Footer,
     Page,
     PageSettings,
-    PlainPage,
-    RecordPage,
-    StructuresPage,
-    SummaryPage,
     Table,
     TableCell,
     as_data,
@@ -74,7 +71,6 @@ METHODS = {
     Method.MECHANISM_ON_RECORD: "Mechanism, record",
 }
 """Headings of the methods, from the plainest to the full integration."""
-_FOLDER = Path(__file__).parent
 _LARGEST_PLAIN = 1e6
 """Numbers up to here are printed without a power of ten."""
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -306,23 +302,13 @@ class Measured:
     source: str
 
 
-with (_FOLDER / "measured.csv").open(encoding="utf-8", newline="") as _stream:
+with (FOLDER / "measured.csv").open(encoding="utf-8", newline="") as _stream:
     MEASURED = {row.pop("name"): Measured(**row) for row in csv.DictReader(_stream)}
 """The figures that campaigns measured and that reports print, of measured.csv, by name."""
 
 
-TEMPLATES: dict[type[Page], str] = {
-    PlainPage: "plain.typ",
-    RecordPage: "record.typ",
-    SummaryPage: "summary.typ",
-    StructuresPage: "structures.typ",
-}
-"""The template of each document of this package, in this folder."""
-
-
-def compile_document(page: Page, template: Path | None = None) -> bytes:
-    """Set a page and return the PDF. template: of a page that is no document of this package; its content then stands
-    as if it were in this folder.
+def compile_document(page: Page) -> bytes:
+    """Set a page and return the PDF. The content of its template stands as if it were in this folder.
 
     Every text of the page is printed as it is: it reaches the template as JSON and is never parsed as markup. The date
     of the document is fixed, because PDF/A asks for one and the same input must give the same bytes.
@@ -333,8 +319,8 @@ def compile_document(page: Page, template: Path | None = None) -> bytes:
     carried = document_fonts(False).families()
     families = [each for each in document_fonts(foreign).families() if each not in carried]
     return typst.compile(  # type: ignore[call-overload,no-any-return]  # its stub wants input and root of one type
-        template.read_bytes() if template else _FOLDER / TEMPLATES[type(page)],
-        root=_FOLDER,
+        page.template.read_bytes(),
+        root=FOLDER,
         font_paths=document_fonts(foreign),
         ignore_system_fonts=True,
         sys_inputs={"data": text, "families": json.dumps(families)},

@@ -1,6 +1,7 @@
-"""The sentences of the pages to sign, in English or Italian: one catalogue, sentences.csv, from key to text.
+"""The sentences of documents that are written in English or Italian: sentences.csv, from key to text.
 
-The law and the office that takes the pages are Italian; every other document is English.
+The law and the office that takes the pages to sign are Italian; every other document is English. A product over all
+records keeps what it alone says in a file of its own.
 """
 
 import csv
@@ -19,17 +20,18 @@ from rocking.structures.fields import Given
 
 @dataclass(frozen=True)
 class Sentences:
-    """The catalogue in one language, with the numbers as that language writes them."""
+    """The catalogue in one language, with the numbers as that language writes them. own: the file of a product."""
 
     language: Language = "en"
+    own: Path | None = None
 
     def __call__(self, key: str, **values: str | int | float) -> str:
         """Return the sentence of a key with its values. Raises KeyError for one that the catalogue does not hold."""
-        return filled(catalogue()[key][self.language], self.language, values)
+        return filled(catalogue(self.own)[key][self.language], self.language, values)
 
     def counted(self, number: int, what: str) -> str:
         """Return "1 record", "2 records"."""
-        one, many = catalogue()[f"count {what}"][self.language].split("|")
+        one, many = catalogue(self.own)[f"count {what}"][self.language].split("|")
         return (one if number == 1 else many).format(n=number)
 
     def of(self, remark: Remark) -> str:
@@ -84,13 +86,15 @@ class Sentences:
 
 
 @cache
-def catalogue() -> Mapping[str, Mapping[str, str]]:
-    """Return the texts by key and language. Raises ValueError for a key that lacks one.
+def catalogue(own: Path | None = None) -> Mapping[str, Mapping[str, str]]:
+    """Return the texts by key and language, with those of a file `own`. Raises ValueError for a key that lacks one.
 
     The words of a remark stand where its kind is declared.
     """
-    with Path(__file__).with_name("sentences.csv").open(encoding="utf-8", newline="") as stream:
-        texts = {row.pop("key"): row for row in csv.DictReader(stream)}
+    texts: dict[str, dict[str, str]] = {}
+    for path in (Path(__file__).with_name("sentences.csv"), *([own] if own else [])):
+        with path.open(encoding="utf-8", newline="") as stream:
+            texts |= {row.pop("key"): row for row in csv.DictReader(stream)}
     for key, row in texts.items():
         if lacking := [language for language in get_args(Language) if not row[language]]:
             raise ValueError(f"sentences.csv: {key} has no text in {', '.join(lacking)}.")

@@ -22,8 +22,16 @@ from rocking.hashes import sha256_of
 from rocking.records.catalogue import CatalogueRecord, load_catalogue
 from rocking.study.contents import ContentHashes
 from rocking.study.product import TOLD, Line
-from rocking.study.products import PRODUCTS
-from rocking.study.settings import NUMBERS, OTHER_SECTIONS, Settings, layout, package_sha256, structure_hashes
+from rocking.study.products import BY_NAME, PRODUCTS
+from rocking.study.settings import (
+    NUMBERS,
+    OTHER_SECTIONS,
+    Settings,
+    folder_sha256,
+    layout,
+    package_sha256,
+    structure_hashes,
+)
 
 
 class Inputs(Protocol):
@@ -149,8 +157,12 @@ def of_kind(kind: str, plan: Inputs) -> tuple[str, ...]:
         lines.append(_told(f"file of {key}", {path: plan.contents.of(Path(path))} if path else {}))
     if line.terms:
         lines.append(_named("terms", *((name, each.terms) for name, each in plan.scenes.items())))
+    if kind in BY_NAME:
+        lines.append(_named("source of the product", folder_sha256(BY_NAME[kind].source)))
     if line.shows:
         lines.append(f"beside: {', '.join(plan.beside_summary)}")
+        sources = ((name, folder_sha256(BY_NAME[name].source)) for name in plan.beside_summary)
+        lines.append(_named("source of the products", *sources))
     return tuple(lines)
 
 

@@ -556,9 +556,10 @@ OTHER_SECTIONS = tuple(name for name in parts_of(Settings) if name not in NUMBER
 _SOURCE = {".py", ".csv", ".json", ".typ", ".yaml", ".mplstyle", ".html", ".css", ".js"}
 _SPOKEN = {
     f"study/{name}.py"
-    for name in ("apart", "cli", "contents", "flow", "run", "terminal", "warm", "workspace")
+    for name in ("apart", "cli", "contents", "flow", "products", "run", "terminal", "warm", "workspace")
 }
-"""The files that start a study and its jobs, and talk about it: they change nothing that a job writes."""
+"""The files that start a study and its jobs, and talk about it: they change nothing that a job writes. What the table
+of products says of one is the output of its rule and among its params."""
 
 
 def structure_hashes(scenes: Mapping[str, "Scene"]) -> dict[str, str]:
@@ -574,17 +575,25 @@ def settings_sha256(settings: Settings, scenes: Mapping[str, "Scene"]) -> str:
 
 @cache
 def package_sha256(reports: bool = True) -> str:
-    """Return one hash for the source of this package that a job depends on.
+    """Return one hash for the source of this package that every job depends on: without those of the products.
 
     reports: with that of the reports, which changes no number.
     """
     root = Path(__file__).parents[1]
-    return sha256_of_sources(root, _sources(root, reports))
+    apart = ("products/",) if reports else ("products/", "reports/")
+    return sha256_of_sources(root, _sources(root, apart))
 
 
-def _sources(root: Path, reports: bool) -> Iterable[Path]:
-    for path in root.rglob("*"):
-        name = path.relative_to(root).as_posix()
-        of_a_job = name not in _SPOKEN and (reports or not name.startswith("reports/"))
-        if of_a_job and path.suffix in _SOURCE:
+@cache
+def folder_sha256(name: str) -> str:
+    """Return one hash for the source in a folder of this package, "products/trade"."""
+    root = Path(__file__).parents[1]
+    return sha256_of_sources(root, _sources(root / name))
+
+
+def _sources(folder: Path, apart: tuple[str, ...] = ()) -> Iterable[Path]:
+    """The source in a folder of this package, but for what stands in the folders `apart`."""
+    for path in folder.rglob("*"):
+        name = path.relative_to(folder).as_posix()
+        if name not in _SPOKEN and not name.startswith(apart) and path.suffix in _SOURCE:
             yield path

@@ -5,21 +5,22 @@ mypy holds a column to the type and the subject of what it reads; what it cannot
 
 import re
 from dataclasses import dataclass
+from importlib import import_module
 from itertools import combinations
 from types import CodeType
 
 import pytest
 
 from rocking.assessment import rows as of_assessment
-from rocking.codes import rows as of_codes
 from rocking.described import Described
-from rocking.fragility import rows as of_fragility
 from rocking.reports import record as of_records
 from rocking.reports import summary as of_summary
 from rocking.study import strengthening as of_strengthening
+from rocking.study.products import PRODUCTS
 from rocking.tables import Columns, Row, RowOf, row
 
-MODULES = of_assessment, of_codes, of_fragility, of_strengthening, of_records, of_summary
+OF_PRODUCTS = [import_module(each.rows) for each in PRODUCTS]
+MODULES = of_assessment, *OF_PRODUCTS, of_strengthening, of_records, of_summary
 """Imported, so that their rows are known; reports refuse as they are imported to show a column that no row has."""
 UNITS = r"_(rad_s|m_s2|m2_s3|m_s|rad|hz|deg|s|m)$"
 

@@ -7,7 +7,7 @@ from docs.research import fragilities
 from docs.research.fragilities import population_scores, trade_fragility
 from docs.research.report import Target
 from docs.research.scores import Score
-from rocking.assessment.trade import TradeMethod
+from rocking.products.trade.measure import TradeMethod
 from rocking.records import Accelerogram
 from rocking.structures import Block
 from rocking.tables import read_table

@@ -10,8 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from rocking.assessment.rows import FailureRow, TradeRow
-from rocking.fragility.rows import FragilitySummaryRow
+from rocking.assessment.rows import FailureRow
+from rocking.products.fragility.rows import FragilitySummaryRow
+from rocking.products.trade.rows import TradeRow
 from rocking.study.kept import kept_rows
 from rocking.study.outputs import kept_of
 from rocking.tables import read_table
@@ -75,7 +76,7 @@ def test_a_fault_in_the_trade_or_the_fragility_stops_nothing_and_is_kept_as_a_ro
     tree = shutil.copytree(start.tree, tmp_path / "tree")
     for file, before, planted in (
         (
-            "assessment/trade.py",
+            "products/trade/measure.py",
             "    reference = integrate(",
             'record.dt_min if "good_1" in record.source.path else 0',
         ),

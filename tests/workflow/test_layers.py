@@ -1,4 +1,4 @@
-"""The main job stands on its own: without the checks of codes and without fragility it runs, reports included."""
+"""The main job stands on its own: without codes, fragility and their products it runs, reports included."""
 
 import os
 import subprocess
@@ -13,6 +13,7 @@ from rocking.records.synthetic import SyntheticRecord, at2_text
 pytestmark = pytest.mark.process
 TREE = Path(rocking.__file__).parents[1]
 LATER = ("codes", "fragility")
+THEIR_PRODUCTS = ("checks", "fragility")
 ASSESS = """
 import rocking
 (record,) = rocking.read("study/records/one.AT2")
@@ -26,8 +27,12 @@ def without(tmp_path) -> Path:
     package = tmp_path / "rocking"
     package.mkdir()
     for each in (TREE / "rocking").iterdir():
-        if each.name not in (*LATER, "__pycache__"):
+        if each.name not in (*LATER, "products", "__pycache__"):
             (package / each.name).symlink_to(each)
+    (package / "products").mkdir()
+    for each in (TREE / "rocking" / "products").iterdir():
+        if each.name not in (*THEIR_PRODUCTS, "__pycache__"):
+            (package / "products" / each.name).symlink_to(each)
     for name in ("Snakefile", "workflow", "config", "docs"):
         (tmp_path / name).symlink_to(TREE / name)
     study = tmp_path / "study"
@@ -61,7 +66,7 @@ def test_without_codes_and_fragility_a_record_is_assessed_and_a_study_runs(witho
         without, "-c", "import rocking, pathlib; print(pathlib.Path(rocking.__file__).parent)"
     ).strip()
     assert where == str(without / "rocking")
-    for name in LATER:
+    for name in (*LATER, *(f"products.{each}" for each in THEIR_PRODUCTS)):
         with pytest.raises(AssertionError, match="No module named"):
             run(without, "-c", f"import rocking.{name}")
 

@@ -43,10 +43,6 @@ from rocking.assessment.rows.of_study import AgreementRow as AgreementRow
 from rocking.assessment.rows.of_study import CountedFalls as CountedFalls
 from rocking.assessment.rows.of_study import ExpectedFallsRow as ExpectedFallsRow
 from rocking.assessment.rows.of_study import SpectrumRow as SpectrumRow
-from rocking.assessment.rows.of_study import TimedAnswer as TimedAnswer
-from rocking.assessment.rows.of_study import TradeMethod as TradeMethod
-from rocking.assessment.rows.of_study import TradeRow as TradeRow
-from rocking.assessment.rows.of_study import TriedMethod as TriedMethod
 from rocking.assessment.rows.of_study import agreement_rows as agreement_rows
 from rocking.assessment.rows.of_study import falls_over as falls_over
 from rocking.assessment.rows.of_study import falls_under as falls_under

@@ -16,18 +16,18 @@ from rocking.assessment.decide import Verdict, worse
 from rocking.assessment.rows import MechanismRow, RecordRow, VerdictRow, named_records
 from rocking.assessment.scene import Scene, placed
 from rocking.codes.check import CodeTerms, StructureCheck
-from rocking.codes.conclusion import CodeConclusion, code_conclusion_in_words, code_conclusions
 from rocking.codes.dynamic_check import check
-from rocking.codes.rows import KINDS, CodeCheckRow, code_check_rows
 from rocking.codes.selection import Selection
 from rocking.errors import ConfigurationError, RockingError, one_structure
 from rocking.floors.support import Support
+from rocking.products.checks.conclusion import CodeConclusion, code_conclusion_in_words, code_conclusions
+from rocking.products.checks.report import CheckedStructure, ListedMechanism, structures_data
+from rocking.products.checks.rows import KINDS, CodeCheckRow, code_check_rows
 from rocking.records import load_catalogue
 from rocking.records.sample import Sample
 from rocking.remarks import Remark
 from rocking.reports.pages import Panel, Part
 from rocking.reports.printing import sentence, strong, table_of, words, write_document
-from rocking.reports.structures import CheckedStructure, ListedMechanism, structures_data
 from rocking.structures.tied import Tied
 from rocking.study.documents import made_or_told
 from rocking.study.job import Job, Study

@@ -12,7 +12,8 @@ from rocking.fragility.curves import Fragility, fragility
 from rocking.fragility.exchange import nrml, nrml_without
 from rocking.fragility.hazard import Hazard
 from rocking.fragility.measures import intensity_measure
-from rocking.fragility.rows import (
+from rocking.products.fragility.report import fragility_panel, write_fragility_report
+from rocking.products.fragility.rows import (
     FRAGILITY_TABLES,
     FragilityRow,
     FragilitySummaryRow,
@@ -23,7 +24,6 @@ from rocking.fragility.rows import (
 )
 from rocking.records import Accelerogram, CatalogueRecord
 from rocking.records.sample import Sample
-from rocking.reports.fragility import fragility_panel, write_fragility_report
 from rocking.reports.pages import Panel
 from rocking.reports.printing import faults_in_words
 from rocking.structures import Mechanism

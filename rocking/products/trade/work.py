@@ -7,12 +7,13 @@ from textwrap import wrap
 
 import numpy as np
 
-from rocking.assessment.rows import FailureRow, TradeRow
-from rocking.assessment.trade import trade, what_follows
+from rocking.assessment.rows import FailureRow
 from rocking.errors import RockingError
+from rocking.products.trade.measure import trade, what_follows
+from rocking.products.trade.report import trade_panel, write_trade_report
+from rocking.products.trade.rows import TradeRow
 from rocking.records import Accelerogram, CatalogueRecord
 from rocking.reports.pages import Panel
-from rocking.reports.trade import trade_panel, write_trade_report
 from rocking.study.job import Job, Study, costs_no_other
 from rocking.study.terminal import WIDTH
 from rocking.study.work import Made, Rows, Work, write_beside

@@ -7,12 +7,13 @@ import numpy as np
 import pytest
 
 import rocking
-from rocking.assessment import trade as trade_module
-from rocking.assessment.rows import FailureRow, TradeRow
-from rocking.assessment.trade import TradeMethod, break_even, what_follows
+from rocking.assessment.rows import FailureRow
+from rocking.products.trade import measure as trade_module
+from rocking.products.trade.measure import TradeMethod, break_even, what_follows
+from rocking.products.trade.report import write_trade_report
+from rocking.products.trade.rows import TradeRow
 from rocking.products.trade.work import trade_lines
 from rocking.reports.pages import Part
-from rocking.reports.trade import write_trade_report
 from rocking.study.job import costs_no_other
 from rocking.study.terminal import line_writer
 

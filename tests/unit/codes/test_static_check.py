@@ -15,9 +15,9 @@ from scipy.optimize import brentq
 import rocking
 from rocking import Arch, Block, DesignSpectrum, Facade, LoadedWall, Mode, Spire, Support, Wall
 from rocking.codes.check import CodeTerms
-from rocking.codes.rows import code_check_rows
 from rocking.codes.static_check import elastic_period, kinematic_check
 from rocking.errors import ConfigurationError, RecordError, StructureError
+from rocking.products.checks.rows import code_check_rows
 
 G = 9.80665
 BY_HAND = 1e-9

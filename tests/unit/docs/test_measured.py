@@ -4,8 +4,8 @@ from pathlib import Path
 
 import rocking
 from docs.site.generated import measured_trade, pulse_shapes, trade, what_follows
-from rocking.assessment.rows import TradeMethod
-from rocking.assessment.trade import break_even
+from rocking.products.trade.measure import break_even
+from rocking.products.trade.rows import TradeMethod
 
 README = (Path(rocking.__file__).parents[1] / "README.md").read_text(encoding="utf-8")
 

@@ -17,9 +17,9 @@ from rocking.fragility import curves
 from rocking.fragility.curves import Fragility, IncrementalDynamicAnalysis, fragility, fragility_of
 from rocking.fragility.hazard import Hazard, rate_interval
 from rocking.fragility.measures import INTENSITY_MEASURES
-from rocking.fragility.rows import ida_rows
 from rocking.motion import integrate
 from rocking.motion.batch import integrate_batch
+from rocking.products.fragility.rows import ida_rows
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.records.sample import Sample

@@ -13,7 +13,7 @@ import pytest
 import rocking
 from rocking.errors import ConfigurationError
 from rocking.fragility.measures import CORNER, INTENSITY_MEASURES, SPELLINGS, compared, intensity_measure
-from rocking.fragility.rows import stations_for
+from rocking.products.fragility.rows import stations_for
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram, load_catalogue, open_record
 from rocking.structures import Block

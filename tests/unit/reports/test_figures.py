@@ -7,10 +7,10 @@ from xml.etree import ElementTree
 import pytest
 from PIL import Image
 
-from rocking.assessment.rows import TradeMethod, TradeRow
+from rocking.products.trade.report import write_trade_report
+from rocking.products.trade.rows import TradeMethod, TradeRow
 from rocking.reports.pages import PlainPage
 from rocking.reports.printing import figures_archive, write_document
-from rocking.reports.trade import write_trade_report
 from tests.unit.assessment.made_rows import filled
 
 from .conftest import detailed

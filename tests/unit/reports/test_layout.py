@@ -7,7 +7,7 @@ import pytest
 
 from rocking import DesignSpectrum, check
 from rocking.assessment.rows import RecordRows
-from rocking.codes.rows import CodeCheckRow, code_check_rows
+from rocking.products.checks.rows import CodeCheckRow, code_check_rows
 from rocking.reports.pages import Page, Table
 from rocking.reports.printing import compile_document
 
@@ -65,14 +65,15 @@ def sixty(noun: str, count: int) -> list[str]:
 
 @pytest.mark.process
 @pytest.mark.parametrize("count", [1, 9, 40])
-def test_no_table_goes_on_over_a_page_after_one_row(count, tmp_path):
+def test_no_table_goes_on_over_a_page_after_one_row(count, tmp_path, monkeypatch):
     """Wherever it begins on a page: at least four rows stand together, or the whole table."""
     (tmp_path / "one.typ").write_text(TEMPLATE)
+    monkeypatch.setattr(Above, "template", tmp_path / "one.typ", raising=False)
     rows = tuple((f"row{place}", "1.0") for place in range(count))
     table = Table(("Name", "Value"), ("1", "1"), ("l", "r"), rows)
     torn = 0
     for above in range(150, 245, 8):
-        document = compile_document(Above(title="one", table=table, above=str(above)), tmp_path / "one.typ")
+        document = compile_document(Above(title="one", table=table, above=str(above)))
         counts = [sum(word[4].startswith("row") for word in page) for page in pages(document)]
         counts = [many for many in counts if many]
         assert sum(counts) == count

@@ -6,7 +6,7 @@ import pytest
 
 from rocking import DesignSpectrum, Facade, LoadedWall, check
 from rocking.assessment.cracks import mechanisms_of
-from rocking.reports.structures import CheckedStructure, ListedMechanism, structures_data
+from rocking.products.checks.report import CheckedStructure, ListedMechanism, structures_data
 from rocking.study.settings import Settings
 
 pytestmark = pytest.mark.usefixtures("undrawn")

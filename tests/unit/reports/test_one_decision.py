@@ -16,6 +16,7 @@ from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.rows import VerdictRow, rows_of_record
 from rocking.assessment.scene import load_scenes, placed
 from rocking.codes.dynamic_check import check
+from rocking.products.checks.report import structures_data
 from rocking.products.checks.work import _checked
 from rocking.records import load_catalogue
 from rocking.records.design_spectrum import DesignSpectrum
@@ -24,7 +25,6 @@ from rocking.reports.explore import explore_page, record_content
 from rocking.reports.pages import TableCell
 from rocking.reports.printing import LOOKS, cell_text
 from rocking.reports.record import RecordReport
-from rocking.reports.structures import structures_data
 from rocking.reports.summary import summary_data
 from rocking.study.job import Study, assess_catalogued, rows_of
 from rocking.study.own_files import _told

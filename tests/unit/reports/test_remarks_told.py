@@ -13,10 +13,10 @@ from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, RecordRows, RemarkRow, rows_of_record
 from rocking.assessment.scene import Scene, on_the_ground
 from rocking.errors import RockingError
+from rocking.products.checks.report import CheckedStructure, structures_data
 from rocking.quantities import GRAVITY
 from rocking.reports.explore import explore_page
 from rocking.reports.record import RecordReport
-from rocking.reports.structures import CheckedStructure, structures_data
 from rocking.reports.summary import summary_data
 from rocking.structures.structure_list import TYPES, structure_from_config
 from rocking.study.plan import study_remarks

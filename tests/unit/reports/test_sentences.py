@@ -18,14 +18,15 @@ from rocking.codes.check import Part
 from rocking.codes.kinds import CheckKind
 from rocking.codes.selection import random_sets, search
 from rocking.errors import RockingError
+from rocking.products.checks.pages import SignWords
+from rocking.products.checks.report import OWN_SENTENCES, CheckedStructure, structures_data
 from rocking.remarks import Language, Remark
-from rocking.reports.pages import Picture, SignWords
+from rocking.reports.pages import Picture
 from rocking.reports.sentences import Sentences, catalogue
-from rocking.reports.structures import CheckedStructure, structures_data
 from rocking.structures.structure_list import TYPES
 from rocking.study.settings import Settings
 
-ITALIAN = Sentences("it")
+ITALIAN = Sentences("it", OWN_SENTENCES)
 SPECTRUM = DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35, soil="C")
 
 
@@ -33,9 +34,9 @@ def named(text):
     return sorted({name for _, name, _, _ in Formatter().parse(text) if name})
 
 
-@pytest.mark.parametrize("key", catalogue())
+@pytest.mark.parametrize("key", catalogue(OWN_SENTENCES))
 def test_both_languages_name_the_same_values(key):
-    texts = catalogue()[key]
+    texts = catalogue(OWN_SENTENCES)[key]
     assert named(texts["it"]) == named(texts["en"])
     assert all(texts[language] for language in get_args(Language))
 
@@ -57,9 +58,9 @@ def test_every_word_that_code_looks_up_stands_in_the_catalogue():
         *(f"field {field.name}" for field in FIELDS),
         *(f"value {option}" for field in FIELDS for option in field.options),
     ]
-    assert set(keys) <= set(catalogue())
+    assert set(keys) <= set(catalogue(OWN_SENTENCES))
     looked_up = {key for key in keys if key.startswith(("field ", "value "))}
-    assert looked_up == {key for key in catalogue() if key.startswith(("field ", "value "))}
+    assert looked_up == {key for key in catalogue(OWN_SENTENCES) if key.startswith(("field ", "value "))}
 
 
 def test_a_page_says_what_stands_behind_in_the_words_of_its_language():
@@ -89,8 +90,11 @@ def test_what_is_refused_on_a_page_is_told_in_its_language(refuse):
 def test_every_sentence_of_the_catalogue_is_looked_up():
     """By its whole key, or by one whose end is a name of a kind, a word, a part or a field."""
     source = "".join(
-        (Path(rocking.__file__).parent / "reports" / f"{name}.py").read_text()
-        for name in ("structures", "structure_figures", "sentences", "variants")
+        (Path(rocking.__file__).parent / f"{name}.py").read_text()
+        for name in (
+            *("products/checks/report", "products/checks/figures"),
+            *("reports/sentences", "reports/variants"),
+        )
     )
     prefixes = re.findall(r'f"([a-z ]+ )\{', source)
     looked_up = set(re.findall(r'"([a-zA-Z &,-]+)"', source)) | {
@@ -101,7 +105,7 @@ def test_every_sentence_of_the_catalogue_is_looked_up():
     computed |= {"study", "client", "project number", "author", "date"}  # what a study is told to be
     unused = [
         key
-        for key in catalogue()
+        for key in catalogue(OWN_SENTENCES)
         if key not in looked_up | computed and not any(key.startswith(each) for each in prefixes)
     ]
     assert unused == []

@@ -24,7 +24,8 @@ from rocking.assessment.rows import (
     agreement_rows,
 )
 from rocking.fragility.measures import compared
-from rocking.fragility.rows import FragilityRow, FragilitySummaryRow, IdaRow, IntensityMeasureRow
+from rocking.products.fragility.report import fragility_data, fragility_figure, ida_frame
+from rocking.products.fragility.rows import FragilityRow, FragilitySummaryRow, IdaRow, IntensityMeasureRow
 from rocking.products.fragility.work import Fragilities
 from rocking.records.measures import response_spectrum
 from rocking.reports.design_figure import (
@@ -33,7 +34,6 @@ from rocking.reports.design_figure import (
     design_summary_figure,
     spectrum_periods,
 )
-from rocking.reports.fragility import fragility_data, fragility_figure, ida_frame
 from rocking.reports.pages import TableCell
 from rocking.reports.scatter import prediction_scatter
 from rocking.reports.style import svg

@@ -12,9 +12,9 @@ from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import RecordRows
 from rocking.assessment.scene import load_scenes, variants_of
 from rocking.assessment.variants import VariantRow, variants
+from rocking.products.checks.report import CheckedStructure, structures_data
 from rocking.reports.explore import explore_page
 from rocking.reports.sentences import Sentences
-from rocking.reports.structures import CheckedStructure, structures_data
 from rocking.reports.summary import summary_data
 from rocking.reports.variants import strips
 from rocking.study.settings import Settings

@@ -18,17 +18,17 @@ from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import MechanismRow, RecordRow, RecordRows
 from rocking.assessment.scene import load_scenes, on_the_ground
 from rocking.codes.check import DynamicCheck
-from rocking.codes.conclusion import code_conclusion_in_words, code_conclusions
 from rocking.codes.kinds import CheckKind
-from rocking.codes.rows import CodeCheckRow, code_check_rows
 from rocking.errors import ConfigurationError
 from rocking.motion.response import ModelCheck
+from rocking.products.checks.conclusion import code_conclusion_in_words, code_conclusions
+from rocking.products.checks.report import OWN_SENTENCES, CheckedStructure, structures_data
+from rocking.products.checks.rows import CodeCheckRow, code_check_rows
 from rocking.products.checks.work import Checks, write_checks
 from rocking.remarks import Kind, Remark
 from rocking.reports.explore import explore_page
 from rocking.reports.pages import Fact
 from rocking.reports.sentences import Sentences
-from rocking.reports.structures import CheckedStructure, structures_data
 from rocking.reports.summary import summary_data
 from rocking.structures.kinds import StructureKind
 from rocking.study.job import Study
@@ -365,7 +365,7 @@ def test_a_structure_that_only_its_tie_holds_says_so():
 def test_a_page_says_that_a_crack_is_known_and_what_the_check_would_be_were_it_not(language):
     spectrum = DesignSpectrum.ntc(0.2 * 9.80665, 2.4, 0.35)
     wall = Wall.of_size(3.2, 0.25, 1.6, crack="known")
-    words = Sentences(language)
+    words = Sentences(language, OWN_SENTENCES)
     told = {}
     for each in (wall, replace(wall, crack=None)):
         page = CheckedStructure(name="wall", structure=each, checked=check(each, spectrum))
@@ -540,7 +540,7 @@ def test_a_limit_displacement_is_drawn_on_the_capacity_curve_in_every_unit(units
         figures.append(figure)
         return {}
 
-    monkeypatch.setattr("rocking.reports.structures.picture", kept)  # the curve is drawn last
+    monkeypatch.setattr("rocking.products.checks.report.picture", kept)  # the curve is drawn last
     block = STRUCTURES["parapet"]
     spectrum = DesignSpectrum.ntc(1.0, 2.5, 0.3)
     page = CheckedStructure(name="parapet", structure=block, checked=check(block, spectrum))

@@ -17,14 +17,14 @@ from rocking.errors import ConfigurationError
 from rocking.floors.place import Place
 from rocking.floors.support import Mode, Support
 from rocking.fragility.measures import compared
-from rocking.fragility.rows import FRAGILITY_TABLES, FragilityRow, FragilitySummaryRow, IdaRow
 from rocking.motion import integrate
+from rocking.products.fragility.report import write_fragility_report
+from rocking.products.fragility.rows import FRAGILITY_TABLES, FragilityRow, FragilitySummaryRow, IdaRow
 from rocking.products.fragility.work import write_fragility
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SyntheticRecord, at2_text
-from rocking.reports.fragility import write_fragility_report
 from rocking.structures import Block, Spire
 from rocking.study.job import Study
 from rocking.study.settings import Settings, StudyFragility
@@ -78,7 +78,7 @@ def test_a_table_beside_the_curves_fails_alone(tmp_path, monkeypatch):
     def singular(*_: object) -> None:
         raise np.linalg.LinAlgError("Singular matrix")
 
-    monkeypatch.setattr(import_module("rocking.fragility.rows"), "explanation", singular)
+    monkeypatch.setattr(import_module("rocking.products.fragility.rows"), "explanation", singular)
     tell = line_writer(tmp_path / "fragility.log", "fragility")
     study = replace(_study(), scenes=on_the_ground({"slender": STRUCTURES["slender"]}))
     log = tmp_path / "fragility.log"

@@ -19,12 +19,11 @@ from rocking.assessment.rows import (
     PulseRow,
     RecordRows,
     TimingRow,
-    TradeMethod,
-    TradeRow,
 )
 from rocking.assessment.scene import on_the_ground
 from rocking.errors import RockingError
 from rocking.motion import integrate
+from rocking.products.trade.rows import TradeMethod, TradeRow
 from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SHIPPED, SyntheticRecord, at2_text

@@ -9,6 +9,7 @@ import pytest
 
 from rocking.errors import ConfigurationError
 from rocking.study import made_from as module
+from rocking.study import settings as settings_module
 from rocking.study.made_from import (
     OF_RECORDS,
     handed,
@@ -19,6 +20,8 @@ from rocking.study.made_from import (
     versions,
     what_changed,
 )
+from rocking.study.products import BY_NAME
+from rocking.study.products import PRODUCTS as OVER_ALL
 from rocking.study.workspace import write_catalogue as write_catalogue_of_folder
 from tests.workflow.edits import (
     BATCH,
@@ -208,3 +211,18 @@ def test_a_job_cannot_read_a_setting_that_its_line_does_not_name(study) -> None:
         _ = settings.client
     with pytest.raises(ConfigurationError, match="setting checks"):
         _ = handed("record", plan().settings).checks
+
+
+@pytest.mark.parametrize("product", [each.name for each in OVER_ALL])
+def test_an_edit_of_a_product_makes_it_and_the_summary_again_and_no_record(
+    study, tmp_path, monkeypatch, product: str
+) -> None:
+    tree = tmp_path / "tree" / "rocking"
+    shutil.copytree(ROOT / "rocking" / "products", tree / "products", ignore=shutil.ignore_patterns("__*"))
+    monkeypatch.setattr(settings_module, "__file__", str(tree / "study" / "settings.py"))
+    for cached in (settings_module.package_sha256, settings_module.folder_sha256):
+        monkeypatch.setattr(module, cached.__name__, cached.__wrapped__)
+    before = _texts()
+    with (tree / BY_NAME[product].source / "report.py").open("a") as stream:
+        stream.write("# edited\n")
+    assert set(_changed(before)) == {"summary", product}

@@ -14,7 +14,7 @@ from rocking.assessment.rows import PlacedRow
 from rocking.assessment.scene import placed
 from rocking.fragility.hazard import REACHING
 from rocking.fragility.measures import INTENSITY_MEASURES, intensity_measure
-from rocking.fragility.rows import (
+from rocking.products.fragility.rows import (
     ROTATION_RATIOS,
     FragilityRow,
     FragilitySummaryRow,

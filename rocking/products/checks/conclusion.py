@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from rocking.assessment.scene import placed
 from rocking.codes.check import Part, ratio_in_words, says_nothing
 from rocking.codes.kinds import CheckKind
-from rocking.codes.rows import CodeCheckRow
+from rocking.products.checks.rows import CodeCheckRow
 from rocking.quantities import counted, percents
 from rocking.remarks import Remark
 

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
+from pathlib import Path
 
 import numpy as np
 
@@ -19,42 +20,30 @@ from rocking.codes.check import (
     StructureCheck,
     says_nothing,
 )
-from rocking.codes.conclusion import CodeConclusion, code_conclusions
 from rocking.codes.kinds import CheckKind
 from rocking.codes.local_mechanism import LIMIT_STATES, LocalMechanism
-from rocking.codes.rows import KINDS, code_check_rows
 from rocking.codes.selection import SETS, Selection
 from rocking.errors import RockingError, one_structure
 from rocking.floors.place import GROUND, Place
 from rocking.floors.support import Support
+from rocking.products.checks.conclusion import CodeConclusion, code_conclusions
+from rocking.products.checks.figures import bars_figure, basis_figure, selection_figure
+from rocking.products.checks.pages import Answer, Basis, SetFigure, Sheet, SignWords, StructuresPage, Sure
+from rocking.products.checks.rows import KINDS, code_check_rows
 from rocking.quantities import GRAVITY, percent
 from rocking.records.design_spectrum import DesignSpectrum, NtcSpectrum, PointSpectrum
 from rocking.remarks import Kind, Remark
-from rocking.reports.pages import (
-    Answer,
-    Basis,
-    Cell,
-    Fact,
-    Footer,
-    PageSettings,
-    SetFigure,
-    Sheet,
-    SignWords,
-    Strip,
-    StructuresPage,
-    Sure,
-    Table,
-)
+from rocking.reports.pages import Cell, Fact, Footer, PageSettings, Strip, Table
 from rocking.reports.printing import displaying, stamp, strong, table, unit_of
 from rocking.reports.printing import words as or_a_dash
 from rocking.reports.sentences import Sentences
-from rocking.reports.structure_figures import bars_figure, basis_figure, selection_figure
 from rocking.reports.style import picture
 from rocking.reports.variants import strips
 from rocking.structures import Structure
 from rocking.structures.structure import Candidate, Crackable
 from rocking.structures.tied import Tied
 
+OWN_SENTENCES = Path(__file__).with_name("sentences.csv")
 _QUANTILE = 1.645
 """The deviation of the normal distribution within which nine tenths lie."""
 _OFTEN = 0.1
@@ -139,7 +128,7 @@ def structures_data(
     be checked would have been checked on. selection: the sets of the dynamic check, None without; without_sets: why
     there are none. unread: the records of the pool that could not be read, each with its reason.
     """
-    words = Sentences(settings.language)
+    words = Sentences(settings.language, OWN_SENTENCES)
     with displaying(settings):
         spectra: tuple[SetFigure, ...] = ()
         motions = Table()

@@ -10,8 +10,8 @@ from matplotlib.patches import Patch
 
 from rocking.codes.check import Check, DynamicCheck, StructureCheck
 from rocking.codes.local_mechanism import LIMIT_STATES, LocalMechanism
-from rocking.codes.rows import KINDS
 from rocking.codes.selection import Selection
+from rocking.products.checks.rows import KINDS
 from rocking.reports.drawings import draw_dimensions, draw_structure
 from rocking.reports.panels import ZERO, plot
 from rocking.reports.printing import unit_of

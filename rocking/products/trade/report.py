@@ -7,8 +7,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rocking.assessment.rows import TradeMethod, TradeRow
-from rocking.assessment.trade import break_even, what_follows
+from rocking.products.trade.measure import break_even, what_follows
+from rocking.products.trade.rows import TradeMethod, TradeRow
 from rocking.reports import printing
 from rocking.reports.pages import Panel, Part, Picture, PlainPage
 from rocking.reports.printing import Figures, write_document

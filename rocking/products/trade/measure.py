@@ -14,10 +14,10 @@ from typing import TypeVar
 
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.motions import GroundMotions
-from rocking.assessment.rows import TimedAnswer, TradeMethod, TradeRow, TriedMethod
 from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import PulseError, RockingError
 from rocking.motion import integrate
+from rocking.products.trade.rows import TimedAnswer, TradeMethod, TradeRow, TriedMethod
 from rocking.pulses import DEMAND_CANDIDATES, PulseEvidence, extract_pulses
 from rocking.pulses.pulse import DOMINATES
 from rocking.quantities import counted
