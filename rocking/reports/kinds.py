@@ -15,6 +15,7 @@ class ReportKind(Kind):
         "and more, such arches stood wherever their mechanism does.",
         "Un giunto di {about} richiede un attrito di {needed:.2g} mentre oscilla; come conci sciolti con attrito di "
         "0,5 e oltre, archi simili sono rimasti in piedi ovunque vi resti il loro meccanismo.",
+        brief="needs μ {needed:.2g}; such arches stood",
     )
 
     # A structure, and where it stands.

@@ -208,6 +208,11 @@ class RecordReport:
         return {remark: list(dict.fromkeys(names)) for remark, names in concerned.items()}
 
     @property
+    def friction(self) -> float:
+        """The friction coefficient of the study."""
+        return self.settings.friction_coefficient or FRICTION
+
+    @property
     def remarks(self) -> list[RemarkRow]:
         """What there is to say of the study and of the record."""
         return [*self.of_study, *self.tables.remarks]
@@ -345,7 +350,10 @@ def page_one(report: RecordReport) -> PageOne:
         trace=(ground_strip(motion),) if motion else (),
         peaks=_peaks(report),
         sine=Sine(percents(pulse.explained_energy) if pulse else "", clause),
-        rows=tuple(structure_row(each, report.structures.get(each.verdict.structure)) for each in drawn),
+        rows=tuple(
+            structure_row(each, report.structures.get(each.verdict.structure), report.friction)
+            for each in drawn
+        ),
         others=tuple(
             Others(str(word), listed(names, _MOST_NAMED))
             for word in ORDER
@@ -383,8 +391,11 @@ def ground_strip(motion: Trace) -> Picture:
     return drawn_by_hand(lines, width, height, alt)
 
 
-def structure_row(conclusion: Conclusion, structure: Structure | None) -> Row:
-    """The row of a structure: drawn at _DRAWN of its critical rotation and dashed at rest, its word and its marks."""
+def structure_row(conclusion: Conclusion, structure: Structure | None, friction: float = FRICTION) -> Row:
+    """The row of a structure: drawn at _DRAWN of its critical rotation and dashed at rest, its word and its marks.
+
+    friction: coefficient of the study.
+    """
     verdict = conclusion.verdict
     decision = verdict.decision
     drawing: tuple[Picture, ...] = ()
@@ -411,8 +422,19 @@ def structure_row(conclusion: Conclusion, structure: Structure | None) -> Row:
         ),
         reserve=verdict.reserve.in_figures if verdict.reserve else "",
         alone=bool(verdict.reserve_doubts),
-        remark="" if conclusion.remark.kind in UNSAID else conclusion.remark.brief,
+        remark=_beside_the_word(conclusion, structure, friction),
     )
+
+
+def _beside_the_word(conclusion: Conclusion, structure: Structure | None, friction: float) -> str:
+    """What stands beside the marks; "" where there is nothing to say."""
+    remark = conclusion.remark
+    if remark.kind in UNSAID:
+        return ""
+    stands = structure is not None and friction >= structure.stands_on_friction
+    if remark.kind is AssessmentKind.CONTACT_SLIDES and stands and conclusion.case is not None:
+        remark = Remark.of(ReportKind.STANDS_AS_VOUSSOIRS, needed=conclusion.case.required_friction)
+    return remark.brief
 
 
 def _turned(verdict: VerdictRow, structure: Structure) -> Picture:
@@ -594,7 +616,7 @@ def _known(report: RecordReport) -> list[Topic]:
 
 def _contacts(report: RecordReport) -> list[str]:
     """What the contacts of each structure do under any component: where the model fails, and where it need not."""
-    friction = report.settings.friction_coefficient or FRICTION
+    friction = report.friction
     failing: dict[str, set[str]] = {}
     needed: dict[str, float] = {}
     for row in report.tables.comparison:
