@@ -9,7 +9,7 @@ rule batch:
     log:
         log_file("batch/{batch}"),
     resources:
-        mem_mb=2000,
+        mem_mb=memory_of_record,
         runtime=240,
     params:
         *params_of("batch/{batch}"),

@@ -10,7 +10,7 @@ rule record:
         log_file("record/{record}"),
     threads: cores_of_record
     resources:
-        mem_mb=2000,
+        mem_mb=memory_of_record,
         runtime=60,
     params:
         *params_of("record/{record}"),

@@ -109,6 +109,16 @@ def records_of_run():
     return sum(job.rule.name == "record" for job in workflow.dag.needrun_jobs()) or 1
 
 
+def memory_of_record(wildcards, input, attempt):
+    """MB for records one after another: by the largest file, and more at each further attempt.
+
+    A pair of 150 s at 100 Hz takes 310 MB, of 600 s, which is 0.9 MB a file as text, 370 MB; packed files hold up to ten
+    times as many samples a byte.
+    """
+    size_of = dict(zip(input, input.size_files_mb))
+    return attempt * round(500 + 1000 * max((size_of[file] for file in input.files), default=0))
+
+
 def work(rule, wildcards, input, params, log, threads=1, job=""):
     """Do the job of a rule in a process of its own, which knows what it is handed here.
 
