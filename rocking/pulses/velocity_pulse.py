@@ -11,7 +11,6 @@ from functools import cache, lru_cache
 from itertools import chain
 
 import numpy as np
-import pywt
 
 from rocking.errors import PulseError
 from rocking.pulses.pulse import Pulse
@@ -237,10 +236,26 @@ def _late(velocity: np.ndarray, pulse: np.ndarray) -> bool:
     return bool(before.size and spent[before[-1]] >= LATE_ENERGY)
 
 
+_SCALING_FILTER = np.array([
+    0.2303778133088965, 0.7148465705529157, 0.6308807679298589, -0.02798376941685985,
+    -0.1870348117190931, 0.03084138183556076, 0.03288301166688520, -0.01059740178506903,
+])  # fmt: skip
+"""Of the wavelet of Daubechies with four vanishing moments (Ten Lectures on Wavelets, 1992, table 6.1)."""
+_LEVELS = 10
+"""Halvings of the step at which the wavelet is tabulated."""
+
+
 @cache
 def _table() -> tuple[np.ndarray, np.ndarray]:
-    _, wavelet, places = pywt.Wavelet("db4").wavefun(level=10)
-    return places, wavelet
+    """Places (n,) and values (n,) of db4 over its support, by the cascade algorithm from its scaling filter."""
+    values = _SCALING_FILTER[::-1] * (-1.0) ** np.arange(_SCALING_FILTER.size)
+    for _ in range(_LEVELS - 1):
+        between = np.zeros(2 * values.size - 1)
+        between[::2] = values
+        values = np.convolve(between, _SCALING_FILTER)
+    wavelet = np.zeros(int(SUPPORT) * 2**_LEVELS + 1)
+    wavelet[1 : values.size + 1] = 2 ** (_LEVELS / 2) * values
+    return np.arange(wavelet.size) / 2**_LEVELS, wavelet
 
 
 def _wavelet(scale: float) -> np.ndarray:

@@ -22,10 +22,6 @@ class StudyKind(Kind):
         "{other}, beside {about}, is a component of the same station and is not used: give it too.",
         "{other}, accanto a {about}, è una componente della stessa stazione e non è usato: indicarlo anch'esso.",
     )
-    OTHER_VERSION = auto(), Sentence(
-        "The results are of another version of rocking; they are recomputed.",
-        "I risultati sono di un'altra versione di rocking; sono ricalcolati.",
-    )
     OUTDATED = auto(), Sentence(
         "{about}: {why}, so that the summary leaves it out and its files go; measure it again: "
         "rocking run . {about}.",

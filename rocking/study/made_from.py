@@ -229,7 +229,6 @@ _LIBRARIES = (
         "openpyxl",
         "pandas",
         "pydantic",
-        "pywavelets",
         "pyyaml",
     ),
     *("scipy", "snakemake", "typst", "xlsxwriter"),

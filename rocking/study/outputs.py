@@ -18,8 +18,6 @@ from rocking.study.settings import Settings
 
 CASES = f"{KEPT}/cases"
 """Where the results of the cases of each record are kept."""
-FORMER = ("summary/jobs", "summary/cases", ".made_from")
-"""Where former versions kept what now stands in KEPT."""
 SUMS = "SHA256SUMS"
 """In the folder of the results: the hashes of the pages to sign and of the tables, for sha256sum -c."""
 PROVENANCE = "provenance.json"
@@ -165,7 +163,7 @@ def _may_be_ours(path: Path) -> bool:
 
 @cache
 def _names() -> tuple[re.Pattern[str], ...]:
-    """The paths of all files that products of a study, or those of a former version, can have.
+    """The paths of all files that products of a study can have.
 
     A group holds the name of a record or of a batch.
     """
@@ -175,8 +173,7 @@ def _names() -> tuple[re.Pattern[str], ...]:
     paths += [log_of(kind) for kind in OUTPUTS]
     paths.append(case_timings_of(Path(), "{name}").as_posix())
     name = re.escape("{name}")
-    ours = [re.compile(re.escape(path).replace(name, "([^/]+)")) for path in paths]
-    return (*ours, *(re.compile(f"{re.escape(folder)}/.*") for folder in FORMER))
+    return tuple(re.compile(re.escape(path).replace(name, "([^/]+)")) for path in paths)
 
 
 def remove(results: Path, files: Iterable[Path]) -> None:

@@ -27,7 +27,7 @@ from rocking.study.folder import REMEMBERED, check_own, results_folder, stands_i
 from rocking.study.kept import made_by_hand
 from rocking.study.kinds import StudyKind
 from rocking.study.made_from import made_from, records_of, what_changed
-from rocking.study.outputs import FORMER, kept_of, outcome_of
+from rocking.study.outputs import kept_of, outcome_of
 from rocking.study.product import KEPT
 from rocking.study.products import PRODUCTS
 from rocking.study.settings import Settings, file_settings, named_files, read_settings
@@ -72,7 +72,6 @@ class Plan:
     @property
     def doubts(self) -> tuple[Remark, ...]:
         """The warnings before the run."""
-        results = Path(self.settings.results)
         of_study = [each for each in study_remarks(self.settings, self.scenes) if each.kind not in _ON_PAGES]
         more = len(of_study) - _NAMED
         return (
@@ -81,11 +80,6 @@ class Plan:
             *repeated(self.records.values()),
             *unlisted(Path(self.settings.catalogue)),
             *self._outdated,
-            *(
-                [Remark(StudyKind.OTHER_VERSION)]
-                if any((results / former).exists() for former in FORMER)
-                else []
-            ),
         )
 
     @property

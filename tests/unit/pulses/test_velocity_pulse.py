@@ -9,7 +9,9 @@ import pywt
 from rocking.errors import PulseError, RecordError
 from rocking.pulses import Pulse, velocity_pulse
 from rocking.pulses.velocity_pulse import (
+    _SCALING_FILTER,
     _late,
+    _table,
     coefficient_at,
     coefficients,
     largest_velocity_pulse,
@@ -23,6 +25,18 @@ from tests.refusals import refused
 STEP = 0.005
 TIMES = np.arange(8000) * STEP
 _, WAVELET, PLACES = pywt.Wavelet("db4").wavefun(level=10)
+
+
+def test_the_wavelet_is_db4():
+    """Its filter is orthonormal with four vanishing moments, and the values are those of pywavelets."""
+    places, values = _table()
+    assert np.array_equal(places, PLACES) and values == pytest.approx(WAVELET, abs=1e-14)
+    products = [float(_SCALING_FILTER[2 * shift :] @ _SCALING_FILTER[: 8 - 2 * shift]) for shift in range(4)]
+    assert products == pytest.approx([1, 0, 0, 0], abs=1e-15)
+    moments = [
+        float((-1.0) ** np.arange(8) * np.arange(8.0) ** power @ _SCALING_FILTER) for power in range(4)
+    ]
+    assert moments == pytest.approx([0, 0, 0, 0], abs=1e-13)  # of terms up to 343
 
 
 def from_velocity(velocity):

@@ -157,7 +157,7 @@ def test_every_setting_stands_in_the_table_of_edits() -> None:
     assert missing == []
 
 
-@pytest.mark.parametrize("library", ["numpy", "python", "pywavelets"])
+@pytest.mark.parametrize("library", ["numpy", "python", "scipy"])
 def test_another_version_of_a_library_makes_everything_again(study, monkeypatch, library: str) -> None:
     before = _texts()
     monkeypatch.setattr(module, "versions", lambda: versions() | {library: "0.1"})
