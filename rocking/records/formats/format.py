@@ -198,6 +198,10 @@ Fact = Literal[
 _NAMES: tuple[Fact, ...] = ("component", "station", "event", "event_time")
 
 
+WORD = r"([\w/^*]*)"
+"""The pattern of a value that is one word, as a unit is."""
+
+
 def key(name: str, value: str = "(.*)") -> str:
     """Return the pattern of a line like "NAME : value", whose value is like the pattern `value`."""
     return rf"^[ \t]*{re.escape(name)}[ \t]*:[ \t]*{value}"
@@ -462,6 +466,11 @@ def universal(text: str, ahead: float) -> str:
         return f"{(printed - timedelta(hours=ahead)).isoformat()}Z" if printed else ""
     except (ValueError, OverflowError):
         return ""
+
+
+def in_zone(time: str, zone: str) -> str:
+    """Return a time of a header with the zone that the format gives it, "" where the header gives no time."""
+    return f"{time} {zone}" if time else ""
 
 
 def distance(kilometres: float | None) -> float | None:
