@@ -18,7 +18,7 @@ ENGINE := openquake-engine==3.26.2
 # Tests start many processes, and each would compile the whole package again to bytecode.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: all run setup slurm openquake test test-runs test-all bench trace check schema measured paper documentation wheel release lock clean
+.PHONY: all run setup slurm openquake test test-runs test-all bench trace check check-research schema measured paper documentation wheel release lock clean
 
 all: run
 
@@ -60,8 +60,9 @@ test-runs: $(TOOLS)
 	$(BIN)/python -m pytest -n logical --dist loadfile -m "process and not slow"
 
 # The slow ones too: research, every page, ten thousand damaged files, and twenty runs that are killed and go on.
-test-all: $(TOOLS) openquake
-	ROCKING_KILLS=20 $(BIN)/python -m pytest -n logical --dist loadfile -m "" --hypothesis-profile thorough
+test-all: check-research openquake
+	ROCKING_KILLS=20 $(BIN)/python -m pytest -n logical --dist loadfile -m "" --hypothesis-profile thorough \
+	  --ignore tests/research
 
 bench: $(TOOLS)
 	for script in tests/benchmarks/bench_*.py; do $(BIN)/python $$script || exit 1; done
@@ -73,9 +74,14 @@ trace: $(TOOLS)
 check: $(TOOLS)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
-	$(BIN)/mypy rocking docs/research
+	$(BIN)/mypy rocking
 	$(BIN)/snakefmt --check Snakefile workflow
 	$(BIN)/python -m pytest -q -n 0 tests/contracts/test_columns.py tests/contracts/test_docstrings.py
+
+# The scripts of the research, which are no part of the package.
+check-research: $(TOOLS)
+	$(BIN)/mypy docs/research
+	$(BIN)/python -m pytest -n logical --dist loadfile -m "" --hypothesis-profile thorough tests/research
 
 # What the package's own fields say, written where the workflow reads it; a test compares.
 schema: setup
