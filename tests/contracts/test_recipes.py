@@ -60,6 +60,7 @@ def follow(tree: Path, language: str, text: str) -> None:
         change(path, body.rstrip("\n"))
     else:
         assert not path.exists(), f"{path.name} is there already"
+        path.parent.mkdir(exist_ok=True)
         path.write_text(body, encoding="utf-8")
 
 

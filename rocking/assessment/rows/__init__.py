@@ -1,7 +1,6 @@
 """The rows of the result tables: each column says on its own line what it means and what it reads.
 
-Rows about a record and about a study are imported from here. Those about checks by the code and about fragility are
-imported from their files, for they ask the methods themselves, which take a quarter of a second to load.
+Rows about a record and about a study are imported from here; those of a product over all records stand in its folder.
 """
 
 from rocking.assessment.rows.of_inputs import RECORD as RECORD

@@ -27,7 +27,13 @@ def made_job(
     plan = Plan(study.settings, {each.id: each for each in records}, study.scenes, ContentHashes())
     lines = [] if told is None else told
     task = Task(product, {}, (), beside=beside)
-    return Job(task, plan, study, list(records), results / "made.log", lines.append, partial(_keep, results))
+    return Job(
+        task, plan, study, list(records), results / "made.log", partial(_tell, lines), partial(_keep, results)
+    )
+
+
+def _tell(lines: list[str], line: str, *_counts: int) -> None:
+    lines.append(line)
 
 
 def _keep(results: Path, record: str, outcome: RecordOutcome) -> None:

@@ -1,0 +1,130 @@
+"""Each product of the table keeps what its face says of it: that it is light, its work, its tables, and its files."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from rocking import Block
+from rocking.assessment.rows import FailureRow
+from rocking.assessment.scene import on_the_ground
+from rocking.assessment.settings import EnsembleSettings
+from rocking.records import CatalogueRecord
+from rocking.records.catalogue import is_safe_id
+from rocking.records.synthetic import SyntheticRecord, at2_text
+from rocking.study.job import Study
+from rocking.study.kept import keep_rows, kept_conclusion, kept_rows
+from rocking.study.made_from import handed
+from rocking.study.outputs import outputs_of
+from rocking.study.product import Product
+from rocking.study.products import PRODUCTS
+from rocking.study.results import open_results, rows_of_table
+from rocking.study.settings import Settings, StudyDesign
+from rocking.study.work import Work, work_of
+from rocking.tables import write_rows
+from tests.unit.study.made_jobs import made_job, worked
+
+HEAVY = {"numpy", "yaml", "pandas", "matplotlib", "numba", "scipy", "pydantic"}
+IDS = [each.name for each in PRODUCTS]
+
+
+@pytest.mark.process
+def test_the_table_loads_no_library_and_no_work() -> None:
+    """In a process of its own: an import in a face costs every command, its help too, a third of a second."""
+    code = "import sys\nimport rocking.study.products\nprint(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    loaded = set(done.stdout.split())
+    assert not HEAVY & loaded
+    own = {name for name in loaded if re.match(r"rocking\.\w+\.\w", name)}
+    assert own == {"rocking.study.product", "rocking.study.products"}
+
+
+def test_names_of_products_tables_and_files_are_taken_once() -> None:
+    paths = [output.path for product in PRODUCTS for output in product.outputs]
+    tables = [table for product in PRODUCTS for table in product.tables]
+    for names in (IDS, paths, tables):
+        assert len(names) == len(set(names))
+    assert not any(is_safe_id(each.folder) for each in PRODUCTS), "no record has such a folder"
+
+
+@pytest.mark.parametrize("product", PRODUCTS, ids=IDS)
+def test_a_face_names_a_work_and_tables_that_there_are(product: Product) -> None:
+    """Which mypy does not see in a text; nor a method of a work that nobody calls, as one that is misspelt."""
+    work = work_of(product)
+    assert {name for name in vars(type(work)) if name[:1] != "_"} <= set(vars(Work))
+    classes = {rows_of_table(product, name) for name in product.tables}
+    assert {*work.sheets} <= {*work.shown} <= classes
+    assert {each.__module__ for each in classes} == {product.rows}
+    assert {*product.opened} <= {*product.files} and product.does
+
+
+@pytest.mark.parametrize("product", PRODUCTS, ids=IDS)
+def test_a_line_names_settings_that_there_are(product: Product) -> None:
+    line = product.made_from
+    told = Settings().told_in(line.settings)
+    assert {*line.files, *line.catalogues} <= {*told}
+    for name in told:
+        top, _, part = name.partition(".")
+        assert hasattr(getattr(handed(product.name, Settings()), top), part or "__class__")
+
+
+@pytest.mark.parametrize("product", PRODUCTS, ids=IDS)
+def test_its_tables_are_read_back_by_their_names(product: Product, tmp_path: Path) -> None:
+    (tmp_path / "summary").mkdir()
+    for name in product.tables:
+        row = rows_of_table(product, name)
+        write_rows(row, [], tmp_path / product.folder / row.table.file_name)
+        assert list(getattr(open_results(tmp_path), name).columns) == list(row.table.column_names)
+
+
+@pytest.fixture(scope="module")
+def assessed(tmp_path_factory: pytest.TempPathFactory) -> tuple[list[CatalogueRecord], Study, Path]:
+    """Two records under which one block is assessed, of a study at a design level."""
+    folder = tmp_path_factory.mktemp("assessed")
+    records = []
+    for seed in range(2):
+        name = f"made{seed}"
+        (folder / f"{name}.AT2").write_text(
+            at2_text(SyntheticRecord(name, seed, 4.0, 0.6, 1.0, 1.0, 6.0, 0.01))
+        )
+        cells = {"unit": "g", "event": name, "station": name, "folder": folder}
+        records.append(CatalogueRecord(name, f"{name}.AT2", **cells))
+    settings = Settings(
+        catalogue=str(folder / "catalogue.csv"),
+        reports=False,
+        histories=True,
+        candidates=0,
+        processing_variants=False,
+        ensemble=EnsembleSettings(members=16, reserve=0),
+        design_spectrum=StudyDesign(ag=0.2, f0=2.5, tc_star=0.4),
+        figures="svg",
+    )
+    study = Study(on_the_ground({"block": Block.of_size(0.5, 3.0)}), settings, "made")
+    worked(records, study, folder / "results")
+    return records, study, folder
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("product", PRODUCTS, ids=IDS)
+def test_its_job_writes_the_files_that_its_rule_declares(product: Product, assessed, monkeypatch) -> None:
+    """And says something of each: rows of every table that it shows, which are encoded and read again.
+
+    On demand, as runs of the workflow make the products of this package.
+    """
+    records, study, folder = assessed
+    monkeypatch.setattr("rocking.products.checks.work.load_catalogue", lambda _: tuple(records))
+    job = made_job(records, study, folder / "results", product.name)
+    work = work_of(product)
+    made = work.make(job)
+    keep_rows(job.kept, {FailureRow: [], **made.rows}, conclusion=made.conclusion)
+    files = set(outputs_of(product.name, job.plan.settings).values())
+    assert {path for path in files if path.stat().st_size} == files
+    rows = kept_rows(job.kept, (*work.shown, FailureRow))
+    assert all(rows[each] for each in work.shown)
+    assert kept_conclusion(job.kept) == made.conclusion
+    panel = work.panel(rows)
+    assert panel is None or panel.title
+    assert {*work.notes(rows)} <= {*study.structures}
+    assert all(map(str.strip, work.lines(rows)))
