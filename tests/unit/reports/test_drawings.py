@@ -59,7 +59,7 @@ def _lines(svg):
 
 def test_the_strip_shows_the_motion_while_it_shakes_and_its_pulse_at_one_scale(example):
     strip = ground_strip(example.motion)
-    motion, pulse = _lines(strip.svg)
+    motion, _, pulse = _lines(strip.svg)  # the sine on white
     record, (sine, *_) = example.motion.accelerogram, example.motion.pulses
     assert motion[[0, -1], 0] == pytest.approx([0, 118], abs=1)  # a sample or two
     peak = np.abs(motion[:, 1] - 10).max()
