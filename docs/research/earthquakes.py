@@ -6,18 +6,18 @@ of a share (its bounds) and of the structures expected to fall are those of the 
 were when every station counted as independent.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 
 import numpy as np
 from scipy.special import ndtr
 
 from docs.research import scores
-from docs.research.fragilities import median_of, real_sites
-from docs.research.rates import rates_of_sites
+from docs.research.fragilities import RealSites, median_of, real_sites
+from docs.research.rates import hazard_of, rate_within, rates_of_sites
 from docs.research.report import Target
 from rocking.assessment.rows import interval_of_mean
-from rocking.fragility.curves import Fragility
+from rocking.fragility.curves import crossing
 from rocking.fragility.hazard import rate_interval
 from rocking.records.sample import Sample
 
@@ -35,6 +35,7 @@ MANY = 200_000
 """Earthquakes whose stations are the truth of a population."""
 STRUCTURES = 50
 """Of a class of which some fall."""
+TOLD = "rates that are told"
 _SHARES = (0.1, 0.3)
 """Shares that fall at the level of the bounds."""
 
@@ -48,8 +49,8 @@ def cover_earthquakes(target: Target) -> None:
     for name, draw in POPULATIONS.items():
         rows += made_scores(name, draw)
         target.tell(name)
-    for name, curve, pool, events in _real_pools(target):
-        rows += real_scores(name, curve.levels, pool, rates_of_sites(curve, pool, SLOPE), events)
+    for name, pool in real_sites(target):
+        rows += real_scores(name, pool)
         target.tell(name)
     subtitle = (
         f"{TRIALS} intervals each; a population with {MANY} earthquakes or the pool of sites is the truth."
@@ -86,7 +87,7 @@ def made_scores(name: str, draw: Draw) -> Iterator[scores.Score]:
                         "annual rate": rate_interval(np.exp(-SLOPE * logs), sample),
                         "expected falls": interval_of_mean(_falls(logs), STRUCTURES, sample),
                     }
-                    if trial < MEDIANS:
+                    if trial < MEDIANS and not alone:
                         ends["median"] = sample.interval(partial(weighted_median, np.exp(logs)))
                     for share, level in zip(_SHARES, at_shares, strict=True):
                         bound = sample.share_bounds((logs < level).astype(float), 0.1)[1]
@@ -96,16 +97,18 @@ def made_scores(name: str, draw: Draw) -> Iterator[scores.Score]:
                 yield from _told(name, earthquakes, stations, alone, held)
 
 
-def real_scores(
-    name: str, levels: np.ndarray, pool: np.ndarray, rates: np.ndarray, events: Sequence[str]
-) -> Iterator[scores.Score]:
-    """Yield the coverage of the median and the rate for draws from real sites, whose curves are `pool` (s, k)."""
-    of_events = [np.flatnonzero(np.asarray(events) == event) for event in dict.fromkeys(events)]
-    curve = np.mean([pool[members].mean(axis=0) for members in of_events], axis=0)
-    truths = {
-        "median": median_of(levels, curve[None]),
-        "annual rate": float(np.mean([rates[members].mean() for members in of_events])),
-    }
+def real_scores(name: str, pool: RealSites) -> Iterator[scores.Score]:
+    """Yield the coverage of the median and the rate for draws from real sites, as far as a study follows them.
+
+    A rate that is not told has the two ends beside it, which are scored by themselves.
+    """
+    of_station = pool.sample.of_station
+    of_events = [np.flatnonzero(of_station == event) for event in range(pool.sample.earthquakes)]
+    curve = np.mean([pool.curves[members].mean(axis=0) for members in of_events], axis=0)
+    rates = rates_of_sites(pool.levels, pool.curves, SLOPE)
+    median = median_of(pool.levels, curve[None])
+    rate = float(np.mean([rates[members].mean() for members in of_events]))
+    hazard = hazard_of(pool.levels, SLOPE)
     for earthquakes in EARTHQUAKES:
         for stations in STATIONS:
             rng = np.random.default_rng([earthquakes, stations])
@@ -115,13 +118,20 @@ def real_scores(
                 draws.append(np.concatenate([rng.choice(of_events[event], stations) for event in again]))
             for alone in (False, True):
                 sample = sample_of(earthquakes, stations, alone)
-                held = {measure: np.full(TRIALS, np.nan) for measure in truths}
+                held = {
+                    measure: np.full(TRIALS, np.nan)
+                    for measure in ("median", "annual rate", "ends of a rate that is not told", TOLD)
+                }
                 for trial, places in enumerate(draws):
-                    ends = {"annual rate": rate_interval(rates[places], sample)}
-                    if trial < MEDIANS:
-                        ends["median"] = sample.interval(partial(_weighted_crossing, levels, pool[places]))
-                    for measure, (low, high) in ends.items():
-                        held[measure][trial] = low <= truths[measure] <= high
+                    told = rate_within(pool, places, sample, hazard)
+                    measure = "annual rate" if told.is_told else "ends of a rate that is not told"
+                    held[TOLD][trial] = told.is_told
+                    held[measure][trial] = told.low <= rate <= told.high
+                    if trial < MEDIANS and not alone:
+                        low, high = sample.interval(
+                            partial(_weighted_crossing, pool.levels, pool.within[places])
+                        )
+                        held["median"][trial] = low <= median <= high
                 yield from _told(f"{name}, real sites", earthquakes, stations, alone, held)
 
 
@@ -134,7 +144,8 @@ def weighted_median(values: np.ndarray, weights: np.ndarray) -> float:
 
 
 def _weighted_crossing(levels: np.ndarray, curves: np.ndarray, weights: np.ndarray) -> float:
-    return median_of(levels, (weights @ curves / weights.sum())[None])
+    tried = np.isfinite(curves)
+    return crossing(levels, weights @ np.where(tried, curves, 0.0), weights @ tried)
 
 
 def _falls(logs: np.ndarray) -> np.ndarray:
@@ -148,19 +159,11 @@ def _told(
 ) -> Iterator[scores.Score]:
     which = ", stations as if independent" if alone else ""
     part = f"{earthquakes} earthquakes, {stations} stations each{which}"
-    measures = {f"{measure}: intervals that hold it": values for measure, values in held.items()}
+    measures = {
+        measure if measure == TOLD else f"{measure}: intervals that hold it": values
+        for measure, values in held.items()
+    }
     yield from scores.scored(name, part, measures, range(TRIALS), 200)
-
-
-def _real_pools(target: Target) -> Iterator[tuple[str, Fragility, np.ndarray, list[str]]]:
-    for name, curve, pool in real_sites(target):
-        yield name, curve, pool, events_of_sites(curve)
-
-
-def events_of_sites(curve: Fragility) -> list[str]:
-    """Return the earthquake of each site of a curve, in their order."""
-    event_of = dict(zip(curve.sample.stations, curve.sample.events, strict=True))
-    return [event_of[name] for name in curve.sample.station_names]
 
 
 def _correlated(alike: float, rng: np.random.Generator, earthquakes: int, stations: int) -> np.ndarray:

@@ -6,6 +6,7 @@ truth is the curve of all of them, from which few are drawn with repetition; and
 """
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -16,6 +17,7 @@ from docs.research.report import Target
 from rocking import Accelerogram, Block, EquivalentBlock, Pulse, integrate_batch, predict_maxima
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.fragility.curves import (
+    LARGEST_FACTOR,
     Fragility,
     IncrementalDynamicAnalysis,
     crossing,
@@ -28,7 +30,7 @@ from rocking.records.sample import Sample
 from rocking.structures import Structure
 
 ALL_LEVELS: dict[str, Any] = {"over_cracks": False, "largest_factor": np.inf}
-"""Every record at every level with one mechanism, so that methods are compared on the same cases."""
+"""Every record at every level with one mechanism, so that methods are compared on the same cases, and truths known."""
 TIGHT = 1e-9
 """Tolerance of the reference."""
 OPEN = (0.02, 0.98)
@@ -101,8 +103,8 @@ def responses_behind(curve: Fragility) -> IncrementalDynamicAnalysis:
 
 
 def median_of(levels: np.ndarray, shares: np.ndarray) -> float:
-    """Return the median of a fragility whose stations overturn by `shares` (n, k) at `levels` (k,)."""
-    return crossing(levels, shares.sum(axis=0), np.full(levels.size, float(len(shares))))
+    """Return the median of a fragility whose stations overturn by `shares` (n, k) at `levels` (k,), nan: not tried."""
+    return crossing(levels, np.nansum(shares, axis=0), np.isfinite(shares).sum(axis=0).astype(float))
 
 
 def _errors(levels: np.ndarray, shares: np.ndarray, exact: np.ndarray) -> dict[str, scores.Measured]:
@@ -130,9 +132,10 @@ def _by_sines(block: EquivalentBlock, sines: Sequence[Sequence[Pulse]], factors:
 def cover(target: Target) -> None:
     """Score the median of fragilities whose truth is known: the curve of all real stations, or of a population."""
     rows: list[scores.Score] = []
-    for name, curve, pool in real_sites(target):
-        whence = f"of {len(pool)} real ones"
-        rows += _scores(name, whence, curve.levels, pool.mean(axis=0), scores.drawn_from(pool))
+    for name, pool in real_sites(target):
+        whence = f"of {pool.sample.count} real ones"
+        truth = pool.curves.mean(axis=0)
+        rows += _scores(name, whence, pool.levels, truth, scores.drawn_from(pool.within))
         target.tell(name)
     for name in POPULATIONS:
         rows += population_scores(name)
@@ -141,17 +144,40 @@ def cover(target: Target) -> None:
     target.publish("What the interval of a fragility's median covers", subtitle, {scores.Score: rows})
 
 
-def real_sites(target: Target) -> Iterator[tuple[str, Fragility, np.ndarray]]:
-    """Yield name and curve of each structure tried, and the shares (n, k) that overturn at each of the real sites."""
+@dataclass(frozen=True, eq=False)
+class RealSites:
+    """A structure at real sites.
+
+    levels: (k,). curves: (s, k) shares that overturn at each site, which are the truth. within: (s, k) the same as far
+    as a study takes records, up to LARGEST_FACTOR, and nan beyond. sample: of the sites.
+    """
+
+    levels: np.ndarray
+    curves: np.ndarray
+    within: np.ndarray
+    sample: Sample
+
+
+def real_sites(target: Target) -> Iterator[tuple[str, RealSites]]:
+    """Yield the name of each structure tried, and what becomes of it at the real sites."""
     components = list(sites.independent(target.records))
     labels = [component.site for component in components]
     motions = [component.accelerogram for component in components]
     tried = {name: each for name, each in sites.structures_tried().items() if name in TRIED}
     for name, structure in {"stone pier, 2 by 9 m": Block.of_size(2.0, 9.0), **tried}.items():
-        curve = fragility(motions, structure, stations=labels, **ALL_LEVELS)
-        shares = np.isinf(responses_behind(curve).rotation_ratios).mean(axis=2)
-        pool = np.array([shares[np.array(labels) == site].mean(axis=0) for site in dict.fromkeys(labels)])
-        yield name, curve, pool
+        analysis = responses_behind(fragility(motions, structure, stations=labels, **ALL_LEVELS))
+        shares = np.isinf(analysis.rotation_ratios).mean(axis=2)
+        reached = analysis.factors <= LARGEST_FACTOR
+        sample = analysis.sample
+        trials = sample.by_station(reached.astype(float))
+        with np.errstate(invalid="ignore"):
+            within = sample.by_station(np.where(reached, shares, 0.0)) / trials
+        yield (
+            name,
+            RealSites(
+                analysis.levels, sample.by_station(shares), within, sample.part(np.arange(sample.count))
+            ),
+        )
 
 
 def population_scores(name: str) -> Iterator[scores.Score]:

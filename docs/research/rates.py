@@ -1,13 +1,14 @@
 """Does the 90 % interval of an annual rate hold the truth, how far does it reach, and how far must any reach?
 
 Stations are drawn from populations and from real sites on which the interval was not chosen. Of a population, the
-truth is the mean rate of very many stations; of real sites, that of all of them, from which few are drawn with
-repetition.
+truth is the mean rate of very many stations; of real sites, that of all of them at every level, from which few are
+drawn with repetition. Those drawn are followed up to the largest factor of a study, as far as a study goes: where too
+few of them reach the level at which half of the rate is made, no rate is told, and the two ends are scored by
+themselves.
 """
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import replace
 from functools import partial
 from typing import Protocol
 
@@ -15,10 +16,9 @@ import numpy as np
 from scipy.special import ndtri
 
 from docs.research import scores
-from docs.research.fragilities import real_sites
+from docs.research.fragilities import RealSites, real_sites
 from docs.research.report import Target
-from rocking.fragility.curves import Fragility
-from rocking.fragility.hazard import Hazard, rate_interval
+from rocking.fragility.hazard import AnnualRate, Hazard, annual_rate, rate_interval
 from rocking.records.sample import Sample
 
 SLOPES = (1.5, 2.5, 3.5)
@@ -27,6 +27,8 @@ STATIONS = (8, 12, 20, 35)
 """Drawn for one interval."""
 TRIALS = 2000
 """Intervals of each population, slope and number of stations."""
+REAL_TRIALS = 400
+"""Of each structure at real sites."""
 MANY = 4_000_000
 """Stations whose mean is the truth of a population."""
 DISPERSIONS = (0.3, 0.4, 0.5, 0.7)
@@ -48,13 +50,11 @@ def cover_rate(target: Target) -> None:
         for slope in SLOPES:
             rows += interval_scores(name, slope, draw(rng, MANY, slope).mean(), partial(draw, slope=slope))
         target.tell(name)
-    for name, curve, pool in real_sites(target):
+    for name, pool in real_sites(target):
         for slope in SLOPES:
-            rates = rates_of_sites(curve, pool, slope)
-            subject = f"{name}, {len(pool)} real sites"
-            rows += interval_scores(subject, slope, rates.mean(), scores.drawn_from(rates))
+            rows += study_scores(f"{name}, {pool.sample.count} real sites", slope, pool)
         target.tell(name)
-    subtitle = f"{TRIALS} intervals each; slope: of the logarithm of the hazard."
+    subtitle = f"{TRIALS} intervals each, {REAL_TRIALS} of real sites; slope: of the logarithm of the hazard."
     target.publish("What the interval of an annual rate covers", subtitle, {scores.Score: rows})
 
 
@@ -77,6 +77,46 @@ def interval_scores(
             "high end over rate": scores.mean(reach, np.median),
         }
         yield from scores.scored(subject, f"slope {slope:g}, {count} stations", measures, range(TRIALS), 200)
+
+
+def study_scores(subject: str, slope: float, pool: RealSites) -> Iterator[scores.Score]:
+    """Yield how often a rate is told at each number of real sites, and what the intervals and the two ends hold."""
+    hazard = hazard_of(pool.levels, slope)
+    truth = float(rates_of_sites(pool.levels, pool.curves, slope).mean())
+    for count in STATIONS:
+        rng = np.random.default_rng(count)
+        sample = Sample.scattered(list(map(str, range(count))))
+        of_draws = [
+            rate_within(pool, rng.integers(0, pool.sample.count, count), sample, hazard)
+            for _ in range(REAL_TRIALS)
+        ]
+        is_told = np.array([each.is_told for each in of_draws])
+        holds = np.array([each.low <= truth <= each.high for each in of_draws], dtype=float)
+        reach = np.array([each.high / each.value for each in of_draws])
+        measures: dict[str, scores.Measured] = {
+            "rates that are told": is_told,
+            "intervals that hold the rate": np.where(is_told, holds, np.nan),
+            "ends that hold the rate where it is not told": np.where(is_told, np.nan, holds),
+            "high end over rate": scores.mean(reach, np.median),
+        }
+        yield from scores.scored(
+            subject, f"slope {slope:g}, {count} stations", measures, range(REAL_TRIALS), 200
+        )
+
+
+def rate_within(pool: RealSites, places: np.ndarray, sample: Sample, hazard: Hazard) -> AnnualRate:
+    """Return the rate that a study tells by the real sites at `places` (n,), which are the stations of a sample."""
+    curves = pool.within[places]
+    tried = np.isfinite(curves)
+    with np.errstate(invalid="ignore"):
+        probability = np.nansum(curves, axis=0) / tried.sum(axis=0)
+    return annual_rate(pool.levels, probability, curves, sample, hazard)
+
+
+def hazard_of(levels: np.ndarray, slope: float) -> Hazard:
+    """Return the hazard of one slope, from half of the first level to twice the last."""
+    ends = levels[[0, -1]] * np.array([0.5, 2.0])
+    return Hazard(ends, (ends / ends[0]) ** -slope)
 
 
 def bounds() -> Iterator[scores.Score]:
@@ -115,15 +155,11 @@ def least_reach(
     return math.exp(float(ndtri(0.95)) * math.sqrt(variance / stations))
 
 
-def rates_of_sites(curve: Fragility, pool: np.ndarray, slope: float) -> np.ndarray:
-    """Return the annual rate (n,) of each site, whose curves (n, k) are `pool`, under a hazard of one slope."""
-    ends = curve.levels[[0, -1]] * np.array([0.5, 2.0])
-    hazard = Hazard(ends, (ends / ends[0]) ** -slope)
-    of_each = (
-        replace(curve, probability=own, exceedance=own[None], sample=Sample.scattered([str(place)]))
-        for place, own in enumerate(pool)
-    )
-    return np.array([each.annual_rate(hazard).value for each in of_each])
+def rates_of_sites(levels: np.ndarray, curves: np.ndarray, slope: float) -> np.ndarray:
+    """Return the annual rate (n,) of each site by its curve, (n, k), under a hazard of one slope."""
+    hazard = hazard_of(levels, slope)
+    alone = Sample.scattered(["alone"])
+    return np.array([annual_rate(levels, own, own[None], alone, hazard).value for own in curves])
 
 
 def _lognormal(rng: np.random.Generator, count: int, slope: float) -> np.ndarray:

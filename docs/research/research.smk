@@ -23,6 +23,7 @@ TARGETS_OF_RESEARCH = {
         [],
     ),
     "pulse_shapes": ("Try half a sine, a cosine and several cycles beside one sine", REAL_RECORDS[1:], []),
+    "worth": ("Hold the closed form under the best sine against the integration", REAL_RECORDS, []),
     "measure_scatter": ("Measure by how much the level that overturns scatters", REAL_RECORDS, []),
     "govern": ("Try the governing crack on stacks of courses", REAL_RECORDS, ["cracks.csv"]),
     "hold": (
@@ -30,6 +31,7 @@ TARGETS_OF_RESEARCH = {
         REAL_RECORDS,
         ["held_walls.csv"],
     ),
+    "tie_forces": ("Hold the forces of ties in motion against those of statics", REAL_RECORDS, ["ties.csv"]),
     "stand": (
         "Hold verdicts with and without contact dynamics against stacks",
         REAL_RECORDS,

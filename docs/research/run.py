@@ -27,7 +27,9 @@ def targets() -> "dict[str, Callable[[Target], None]]":
         shapes,
         stability,
         stacks,
+        tie_forces,
         tiers,
+        worth,
     )
     from docs.research.comparison import table
 
@@ -39,10 +41,12 @@ def targets() -> "dict[str, Callable[[Target], None]]":
         "cover_rate": rates.cover_rate,
         "cover_earthquakes": earthquakes.cover_earthquakes,
         "pulse_shapes": shapes.pulse_shapes,
+        "worth": worth.worth,
         "measure_scatter": measures.measure_scatter,
         "govern": cracks.govern,
         "stand": stacks.stand,
         "hold": held_walls.hold,
+        "tie_forces": tie_forces.tie_forces,
         "screen": ensembles.screen,
         "stability": stability.stability,
         "floors": floors.floors,

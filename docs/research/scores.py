@@ -78,15 +78,16 @@ def interval_of(
     Where all or none of the cases that count show something, no draw tells how often others do: the bounds are then
     those of a share, of which each site counts once.
     """
-    if not callable(given):
-        values = np.asarray(given, dtype=float)
-        counts = ~np.isnan(values)
-        if counts.any() and np.unique(values[counts]).tolist() in ([0.0], [1.0]):
-            tried = np.bincount(sample.of_record, weights=counts, minlength=sample.count) > 0
-            shown = tried * values[counts][0]
-            low, high = sample.share_bounds(shown, tried=tried.astype(float))
-            return float(low), float(high)
-    return sample.interval(lambda weights: measure(rows_of(weights, sample)), replicates)
+    values = np.array([np.nan]) if callable(given) else np.asarray(given, dtype=float)
+    counts = ~np.isnan(values)
+    if np.unique(values[counts]).tolist() in ([0.0], [1.0]):
+        tried = np.bincount(sample.of_record, weights=counts, minlength=sample.count) > 0
+        shown = tried * values[counts][0]
+        bounds = sample.share_bounds(shown, tried=tried.astype(float))
+        return float(bounds[0]), float(bounds[1])
+    low, high = sample.interval(lambda weights: measure(rows_of(weights, sample)), replicates)
+    is_share = bool(counts.any()) and values[counts].min() >= 0 and values[counts].max() <= 1
+    return (low, min(high, 1.0)) if is_share else (low, high)
 
 
 def rows_of(weights: np.ndarray, sample: Sample) -> np.ndarray:

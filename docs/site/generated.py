@@ -15,7 +15,7 @@ from rocking.described import described_values, parts_of
 from rocking.products.trade.measure import what_follows as sentences_of_trade
 from rocking.products.trade.rows import TradeRow
 from rocking.pulses import PULSE_METHODS
-from rocking.quantities import ACCELERATION_UNITS
+from rocking.quantities import ACCELERATION_UNITS, counted
 from rocking.records.formats import FORMATS
 from rocking.sine_pulse import Regime
 from rocking.structures.fields import Form
@@ -26,7 +26,9 @@ from rocking.study.strengthening import StrengtheningRow
 from rocking.tables import data_package, read_table
 
 MEASURED = Path(__file__).parents[1] / "measured"
-"""The tables that were measured once, each with what made it in docs/pages/trade.md."""
+"""The tables that were measured once, each with what made it in figures.csv."""
+FEWEST_INTERVALS = 50
+"""Intervals below which a cell of coverage says nothing: of few draws a rate is told."""
 
 
 def formats() -> str:
@@ -138,6 +140,7 @@ def trade() -> str:
     """The measured trade over all structures."""
     head = (
         "method",
+        "stations",
         "cases",
         "median error",
         "wrong verdicts",
@@ -153,7 +156,8 @@ def trade() -> str:
         counts = (str(each.wrong_verdicts), str(each.unsafe_verdicts))
         found = (f"{each.falls_found} of {each.falls}", str(each.false_alarms))
         times = (f"{1e3 * each.cpu_s:.2g}", f"{1e3 * each.preparation_record_s:.2g}")
-        body.append((each.method, str(each.cases), error, *counts, *found, *times))
+        of = f"{each.stations} of {counted(each.earthquakes, 'earthquake')}"
+        body.append((each.method, of, str(each.cases), error, *counts, *found, *times))
     return table(head, body)
 
 
@@ -165,7 +169,7 @@ def earthquakes() -> str:
         ("median, made", "made", "median"),
         ("median, real sites", "real", "median"),
         ("annual rate, made", "made", "annual rate"),
-        ("annual rate, real sites", "real", "annual rate"),
+        ("annual rate that is told, real sites", "real", "annual rate"),
         ("upper bound of a share of 0.3", "made", "bound of a share of 0.3"),
         ("expected falls", "made", "expected falls"),
     )
@@ -178,18 +182,87 @@ def earthquakes() -> str:
                 for row in rows
                 if (row["earthquakes"], row["stations_each"]) == drawn
                 and (row["truth"], row["measure"]) == (truth, measure)
+                and int(row["intervals"]) >= FEWEST_INTERVALS
             ]
             held = _least_to_largest(row["held"] for row in own)
             before = _least_to_largest(row["held_as_if_independent"] for row in own)
-            cells.append(f"{held} %" if drawn[1] == "1" else f"{held} % ({before})")
+            cells.append(
+                f"{held} % ({before})" if before and drawn[1] != "1" else f"{held} %" if held else "–"
+            )
         body.append(cells)
     return table(("earthquakes × stations", *(name for name, _, _ in columns)), body)
 
 
 def _least_to_largest(shares: Iterable[str]) -> str:
-    percent = [f"{100 * float(share):.0f}" for share in shares]
+    percent = [f"{100 * float(share):.0f}" for share in shares if share]
+    if not percent:
+        return ""
     least, largest = min(percent, key=int), max(percent, key=int)
     return least if least == largest else f"{least}–{largest}"
+
+
+def rates() -> str:
+    """What the intervals of an annual rate hold: of each structure at real sites, of all populations; widest first."""
+    with (MEASURED / "rates.csv").open(encoding="utf-8", newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    real = [row for row in rows if row["truth"] == "real"]
+    stations = list(dict.fromkeys(row["stations"] for row in rows))
+    widest = sorted(
+        dict.fromkeys((row["subject"], row["slope"]) for row in real),
+        key=lambda of: -max(float(row["reach"] or 0) for row in real if (row["subject"], row["slope"]) == of),
+    )
+    body = []
+    for subject, slope in widest:
+        own = {row["stations"]: row for row in real if (row["subject"], row["slope"]) == (subject, slope)}
+        body.append((subject, slope, *(_cell_of_rate([own[count]]) for count in stations)))
+    for slope in dict.fromkeys(row["slope"] for row in rows):
+        made = [row for row in rows if row["truth"] == "made" and row["slope"] == slope]
+        cells = (_cell_of_rate([row for row in made if row["stations"] == count]) for count in stations)
+        body.append(("populations", slope, *cells))
+    head = ("stations from", "slope", *(f"{count} stations" for count in stations))
+    return table(head, body)
+
+
+def _cell_of_rate(rows: Sequence[Mapping[str, str]]) -> str:
+    """How often a rate is told, what its intervals hold, and their upper end over it, least to largest of some rows."""
+
+    def span(name: str, scale: float, unit: str) -> str:
+        values = [scale * float(row[name]) for row in rows if row[name]]
+        low, high = (f"{end:.3g}" if scale == 1 else f"{end:.0f}" for end in (min(values), max(values)))
+        return f"{low}{unit}" if low == high else f"{low} to {high}{unit}"
+
+    told = [float(row["told"]) for row in rows]
+    if max(told) == 0:
+        return f"never told; ends hold {span('held_by_ends', 100, ' %')}"
+    words = f"holds {span('held', 100, ' %')}, reach {span('reach', 1, '')}"
+    return words if min(told) == 1 else f"told {span('told', 100, ' %')}; {words}"
+
+
+def stands() -> str:
+    """Of each kind of structure that stands by one of three words, how many fall as stacks of courses."""
+    with (MEASURED / "stands.csv").open(encoding="utf-8", newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    body = []
+    for row in rows:
+        cells = [row["structure"], f"{row['sites']} of {row['earthquakes']} earthquakes", row["trials"]]
+        for word in ("mechanisms", "without", "with"):
+            stand, fall = int(row[f"{word}_stand"]), int(row[f"{word}_fall"])
+            if not stand:
+                cells.append("none that lifts stands")
+                continue
+            low, high = (f"{100 * float(row[f'{word}_{end}']):.0f}" for end in ("low", "high"))
+            between = f"{low}–{high} %" if fall else f"below {high} %"
+            cells.append(f"{fall} of {stand} ({between})")
+        body.append(cells)
+    head = (
+        "structure",
+        "sites",
+        "trials",
+        "mechanisms alone",
+        "the package without contact dynamics",
+        "with it",
+    )
+    return table(head, body)
 
 
 def pulse_shapes() -> str:
@@ -211,7 +284,7 @@ GENERATED: Mapping[str, Callable[[], str]] = {
     part.__name__: part
     for part in (
         *(formats, units, settings, structures, tables, equations, pulse_methods, blocks, regimes),
-        *(what_follows, trade, earthquakes, pulse_shapes),
+        *(what_follows, trade, earthquakes, rates, stands, pulse_shapes),
     )
 } | {f"api_{topic}": partial(api, topic) for topic in TOPICS}
 """What may stand behind `generated:` in a page."""

@@ -1,9 +1,10 @@
 """Measured figures that know their age: each with what made it, and whether the code that it measures has changed
 since.
 
-`docs/measured/figures.csv` holds a row for each. A page prints one by `<!-- measured: NAME -->`. Run as a script it
-lists the figures whose code has changed since in meaning; `--first-screen` fails where one that a reader meets first is
-older, and `--renew` writes the hashes of the code as it is, for figures that were just measured again.
+`docs/measured/figures.csv` holds a row for each. A page prints one by `<!-- measured: NAME -->`, and by
+`<!-- measured by: NAME -->` what made it and how old it is, beside a table or a sentence that tells it. Run as a script
+it lists the figures whose code has changed since in meaning; `--first-screen` fails where one that a reader meets first
+is older, and `--renew` writes the hashes of the code as it is, for figures that were just measured again.
 """
 
 import argparse
@@ -26,10 +27,11 @@ FIGURES = ROOT / "docs" / "measured" / "figures.csv"
 class Figure:
     """One measured figure.
 
-    name: by which a page prints it. value, interval: in words. sites, earthquakes: how many; 0 of made data. seed: of
-    the draws. records_sha256: of the lists of the records, "" of none. script: what measures it again, as it is called.
-    commit: at which it was measured. files: what of the code it measures, apart by blanks. code_sha256: the meaning of
-    these then. first_screen: "yes" of one that the first screen of the README or of a page shows.
+    name: by which a page prints it. value, interval: in words. sites, earthquakes: how many; 0 of made data, "" where
+    it was not kept. seed: of the draws. records_sha256: of the lists of the records, "" of none. script: what measures
+    it again, as it is called. commit: at which it was measured. files: what of the code it measures, apart by blanks.
+    code_sha256: the meaning of these then, "" where it was not kept, which counts as older. first_screen: "yes" of one
+    that the first screen of the README or of a page shows.
     """
 
     name: str
@@ -54,10 +56,23 @@ class Figure:
     def words(self) -> str:
         """The figure as a page prints it: value, interval, numbers and, where it is older than its code, its age."""
         told = self.value
-        of = f"{self.sites} sites of {self.earthquakes} earthquakes" if self.sites != "0" else ""
-        if beside := "; ".join(filter(None, (self.interval, of))):
+        if beside := "; ".join(filter(None, (self.interval, self._of))):
             told += f" ({beside})"
         return f"{told} [measured at {self.commit}, code changed since]" if self.is_older else told
+
+    @property
+    def origin(self) -> str:
+        """What made it, on what and when: "`snakemake stand` at 1a2b3c4d, 50 sites of 20 earthquakes"."""
+        told = ", ".join(filter(None, (f"`{self.script}` at {self.commit}", self._of)))
+        return f"{told}, code changed since" if self.is_older else told
+
+    @property
+    def _of(self) -> str:
+        """On what: "50 sites of 20 earthquakes", "" of made data."""
+        if self.sites in ("", "0"):
+            return ""
+        of_earthquakes = f" of {self.earthquakes} earthquakes" if self.earthquakes else ""
+        return f"{self.sites} sites{of_earthquakes}"
 
 
 def figures(path: Path = FIGURES) -> dict[str, Figure]:
@@ -74,12 +89,12 @@ def figures(path: Path = FIGURES) -> dict[str, Figure]:
     return found
 
 
-def measured(name: str) -> str:
-    """Return a figure as a page prints it. Raises ConfigurationError for a name that the table does not hold."""
+def measured(name: str) -> Figure:
+    """Return a figure by its name. Raises ConfigurationError for one that the table does not hold."""
     known = figures()
     if name not in known:
         raise ConfigurationError(f"measured figure is {name!r}, but must be one of {', '.join(known)}.")
-    return known[name].words
+    return known[name]
 
 
 def code_sha256(files: Iterable[str]) -> str:

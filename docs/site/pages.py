@@ -1,8 +1,9 @@
 """From the pages to a site that opens without a network: filled and illustrated by the code, then set by MkDocs.
 
 `<!-- generated: NAME -->` stands for what the function NAME of `generated` returns, `<!-- file: PATH -->` for a file
-of the repository, `<!-- measured: NAME -->` within a line for a figure of docs/measured/figures.csv with its age, and
-`<!-- figure: NAME. CAPTION -->` for the figure of the axes that the examples above left in `axes`.
+of the repository, `<!-- measured: NAME -->` within a line for a figure of docs/measured/figures.csv with its age,
+`<!-- measured by: NAME -->` for what made it, and `<!-- figure: NAME. CAPTION -->` for the figure of the axes that the
+examples above left in `axes`.
 """
 
 import io
@@ -34,7 +35,7 @@ _RC: dict[str, object] = {
     "svg.hashsalt": "rocking",
 }
 _MARK = re.compile(r"^<!-- (generated|file): (\S+) -->$", re.M)
-_MEASURED = re.compile(r"<!-- measured: (\S+) -->")
+_MEASURED = re.compile(r"<!-- measured( by)?: (\S+) -->")
 _EXAMPLE = re.compile(r"^```python\n(.*?)^```$|^<!-- figure: (\w+)\. (.*?) -->$", re.M | re.S)
 
 
@@ -111,7 +112,11 @@ def filled(text: str, name: str) -> str:
             raise ConfigurationError(f"{name}: generated part is {part!r}, but must be one of {names}.")
         return GENERATED[part]()
 
-    return _MEASURED.sub(lambda match: measured(match[1]), _MARK.sub(content, text))
+    def figure(match: re.Match[str]) -> str:
+        told = measured(match[2])
+        return told.origin if match[1] else told.words
+
+    return _MEASURED.sub(figure, _MARK.sub(content, text))
 
 
 def illustrated(text: str, page: str) -> tuple[str, dict[str, str]]:

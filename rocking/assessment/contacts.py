@@ -44,8 +44,7 @@ RUNS = 24
 MOST_RUNS = UNANIMOUS
 """Runs with fidelity: contact, none of which falls where the word is "stands"."""
 LEAST_KEPT = 0.3
-"""Restitution by the balance of momentum below which joints close one after the other: 2 of 6 walls that stand so fell
-in contact dynamics, none of 41 above (theory: section 11)."""
+"""Restitution by the balance of momentum below which joints close one after the other (theory: section 11)."""
 STEPS = (*7 * (STEP,), STEP / 2)
 """Time steps of contact dynamics, s, which its runs take in turn: every eighth one at a finer step."""
 

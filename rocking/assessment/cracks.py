@@ -29,8 +29,8 @@ from rocking.structures.tied import Tied
 IN_DOUBT = 0.3
 """Rotation ratio of a member beyond which it is in doubt that a mechanism other than that of statics stands."""
 FAR_FROM_DOUBT = IN_DOUBT / 2
-"""Rotation ratio of its equivalent block up to which a mechanism is not followed itself, which saves its table: of 741
-such cracks (35 components of FEMA P-695, walls loaded or not and façades) none turned by more than 0.15."""
+"""Rotation ratio of its equivalent block up to which a mechanism is not followed itself, which saves its table: half of
+what is in doubt, as a mechanism may rotate more than its block."""
 
 
 @dataclass(frozen=True)

@@ -573,7 +573,7 @@ class HeldWall:
         stops = self.stops
         heights = feet = sorted({*stops, *joints})
         if not len(joints):
-            # In 500 directions of 250 walls drawn no bulge that stood elsewhere was the weakest to its side.
+            # A bulge that stands elsewhere is not the weakest to its side.
             feet = list(stops)
             heights = [
                 float(place)

@@ -18,8 +18,7 @@ from rocking.structures.mechanism import Tie
 MOST_COURSES = 40
 """Courses that a stack may have: its cost grows with their number, and a wall of more is followed as well by these."""
 COURSES = 6
-"""Courses of a member that does not say how many it has. Six give the verdict of eight to thirteen in 82 of 87 trials
-of LMGC90 (docs/pages/validation.md)."""
+"""Courses of a member that does not say how many it has."""
 FRICTION = 5.0
 """Friction coefficient at the joints: more than courses that only rock need, so that none slides."""
 _STEP = 5e-4

@@ -7,8 +7,15 @@ import pytest
 from scipy.special import gamma
 
 from docs.research import rates
-from docs.research.rates import POPULATIONS, bounds, interval_scores, least_reach, rates_of_sites
-from rocking.fragility.curves import fragility_of
+from docs.research.fragilities import RealSites
+from docs.research.rates import (
+    POPULATIONS,
+    bounds,
+    interval_scores,
+    least_reach,
+    rates_of_sites,
+    study_scores,
+)
 from rocking.records.sample import Sample
 
 SLOPE = 1.5
@@ -60,8 +67,7 @@ def test_a_site_that_overturns_from_a_level_upwards_has_the_hazard_of_that_level
     levels = np.geomspace(0.1, 8.0, 400)
     thresholds = np.array([0.5, 1.0, 4.0])
     pool = (levels > thresholds[:, None]).astype(float)
-    curve = fragility_of(levels, pool, Sample.scattered("abc"))
-    found = rates_of_sites(curve, pool, SLOPE)
+    found = rates_of_sites(levels, pool, SLOPE)
     # A level lies within 1.1 % of the next, and a step of the integral is 1.3 %.
     assert found == pytest.approx((thresholds / 0.05) ** -SLOPE, rel=0.04)
 
@@ -85,3 +91,19 @@ def test_the_scores_count_what_they_name(monkeypatch):
     )
     below = {row.measure: row.value for row in interval_scores("alike", SLOPE, 0.005, alike)}
     assert below["rate below the interval"] == 1
+
+
+def test_a_rate_is_told_where_the_factor_of_a_study_reaches_and_else_its_ends(monkeypatch):
+    """Of equal sites all or none reach the level at which half of the rate is made."""
+    monkeypatch.setattr(rates, "REAL_TRIALS", 4)
+    monkeypatch.setattr(rates, "STATIONS", (8,))
+    levels = np.geomspace(0.1, 8.0, 60)
+    curves = np.tile((levels > 1.0).astype(float), (8, 1))
+    for limit, told in ((4.0, 1.0), (0.5, 0.0)):
+        pool = RealSites(
+            levels, curves, np.where(levels > limit, np.nan, curves), Sample.scattered("abcdefgh")
+        )
+        found = {row.measure: row.value for row in study_scores("alike", SLOPE, pool)}
+        assert found["rates that are told"] == told
+        held = "intervals that hold the rate" if told else "ends that hold the rate where it is not told"
+        assert found[held] == 1

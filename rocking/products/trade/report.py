@@ -39,7 +39,7 @@ def write_trade_report(
         rows,
         ("Method", "1.4", "l", lambda row: row.method),
         ("Structure", "1.6", "l", lambda row: row.structure or "all"),
-        *printing.columns_of(TradeRow, "cases", "0.5"),
+        *printing.columns_of(TradeRow, "stations earthquakes cases", "0.5"),
         ("Median error (%)", "0.8", "r", lambda row: printing.number(100 * row.error, 2)),
         ("95 % quantile (%)", "0.8", "r", lambda row: printing.number(100 * row.error_high, 2)),
         *printing.columns_of(

@@ -40,7 +40,14 @@ class Trade(Work):
 
         # The methods are compared on records: what stands on a support is taken on the ground.
         motions = _components(study, job.records, job.tell, tried, net)
-        rows[TradeRow] += trade(motions, study.structures, settings=study.settings, tell=job.tell, within=net)
+        rows[TradeRow] += trade(
+            motions,
+            study.structures,
+            settings=study.settings,
+            tell=job.tell,
+            within=net,
+            each_unnamed=study.settings.unnamed_events == "each",
+        )
         write_tables({TradeRow: rows[TradeRow]}, folder, "rocking-trade", "trade.json")
         write = partial(write_trade_report, rows)
         write_beside(write, folder / "trade.pdf", folder / "trade.svg", job, rows[FailureRow])
@@ -57,13 +64,13 @@ class Trade(Work):
 
 def trade_lines(rows: Sequence[TradeRow]) -> Iterator[str]:
     """Yield the table of the trade of error for time over all structures, and what follows from it."""
-    yield f"{'method':<26}  cases  median error  wrong (unsafe)  ms a structure  ms a record"
+    yield f"{'method':<26}  stations  cases  median error  wrong (unsafe)  ms a structure  ms a record"
     for row in rows:
         if row.structure == "":
             error = f"{100 * row.error:.2g} %" if row.error >= 0 else "–"
             wrong = f"{row.wrong_verdicts} ({row.unsafe_verdicts})"
             times = f"{1e3 * row.cpu_s:>14.2g}  {1e3 * row.preparation_record_s:>11.2g}"
-            yield f"{row.method:<26}  {row.cases:>5}  {error:>12}  {wrong:>14}  {times}"
+            yield f"{row.method:<26}  {row.stations:>8}  {row.cases:>5}  {error:>12}  {wrong:>14}  {times}"
     for sentence in what_follows(rows):
         yield from wrap(sentence, WIDTH)
     if rows:

@@ -2,6 +2,8 @@
 
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,12 +11,14 @@ import pytest
 import rocking
 from rocking.assessment.rows import FailureRow
 from rocking.products.trade import measure as trade_module
+from rocking.products.trade import work
 from rocking.products.trade.measure import TradeMethod, break_even, what_follows
 from rocking.products.trade.report import write_trade_report
 from rocking.products.trade.rows import TradeRow
 from rocking.products.trade.work import trade_lines
 from rocking.reports.pages import Part
 from rocking.study.job import costs_no_other
+from rocking.study.settings import Settings
 from rocking.study.terminal import line_writer
 
 STRUCTURES = {"block": rocking.Block(2.0, 0.15), "stout": rocking.Block(2.0, 0.7)}
@@ -150,6 +154,8 @@ def test_the_report_says_what_the_table_says_in_percent_and_milliseconds(tmp_pat
     assert table.table.rows[1] == (
         TradeMethod.MECHANISM,
         "all",
+        "20",
+        "8",
         "200",
         "1.2",
         "30",
@@ -168,6 +174,18 @@ def test_the_report_says_what_the_table_says_in_percent_and_milliseconds(tmp_pat
 
 def test_what_was_measured_is_told_on_the_terminal():
     lines = list(trade_lines([ONE_SINE, MECHANISM]))
-    assert lines[1].split() == ["one", "sine", "200", "1.2", "%", "8", "(1)", "0.04", "11"]
+    own = str(ONE_SINE.stations)
+    assert lines[1].split() == ["one", "sine", own, "200", "1.2", "%", "8", "(1)", "0.04", "11"]
     assert lines[-1] == "Measured on Abacus"
     assert max(map(len, lines)) <= 104
+
+
+@pytest.mark.parametrize("declared", ["one", "each"])
+def test_the_trade_of_a_study_takes_what_is_declared_of_earthquakes_that_nobody_names(monkeypatch, declared):
+    taken = {}
+    monkeypatch.setattr(work, "trade", lambda *_, **named: taken.update(named) or [])
+    for name in ("write_tables", "write_beside"):
+        monkeypatch.setattr(work, name, lambda *_: None)
+    study = SimpleNamespace(settings=Settings(unnamed_events=declared), structures={})
+    work.Trade().make(SimpleNamespace(study=study, folder=Path(), records=(), tell=print, log=Path()))
+    assert taken["each_unnamed"] is (declared == "each")

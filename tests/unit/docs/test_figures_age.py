@@ -5,10 +5,12 @@ from dataclasses import replace
 
 import pytest
 
+from docs.research.run import targets
 from docs.site import measured as module
 from docs.site.measured import FIGURES, ROOT, code_sha256, figures, main, meaning
 from docs.site.pages import filled, written_pages
 from rocking.errors import ConfigurationError
+from rocking.reports.printing import MEASURED
 
 SOURCE = '''"""A module."""
 import math
@@ -63,15 +65,28 @@ def test_a_figure_says_that_its_code_has_changed_since(monkeypatch, tmp_path, ca
 def test_every_page_prints_figures_that_there_are_and_every_figure_names_files_that_there_are():
     known = figures()
     for page in written_pages():
-        for name in re.findall(r"<!-- measured: (\S+) -->", page.read_text(encoding="utf-8")):
+        for name in re.findall(r"<!-- measured(?: by)?: (\S+) -->", page.read_text(encoding="utf-8")):
             assert name in known, f"{page.name}: {name}"
     for figure in known.values():
         assert all((ROOT / file).is_file() for file in figure.files.split()), figure.name
         assert figure.script and figure.commit
 
 
+def test_every_target_of_the_research_on_a_page_and_every_figure_of_a_report_has_a_row():
+    scripts = {figure.script for figure in figures().values()}
+    for page in written_pages():
+        for name in re.findall(r"`snakemake (\w+)`", page.read_text(encoding="utf-8")):
+            assert name not in {*targets(), "validate"} or f"snakemake {name}" in scripts, (
+                f"{page.name}: {name}"
+            )
+    for name, figure in MEASURED.items():
+        assert not figure.source.startswith("docs/research") or name in figures(), name
+
+
 def test_a_page_prints_a_figure_within_its_line():
     name, figure = next(iter(figures().items()))
     assert filled(f"It is <!-- measured: {name} -->.", "page") == f"It is {figure.words}."
+    assert filled(f"By <!-- measured by: {name} -->.", "page") == f"By {figure.origin}."
+    assert figure.script in figure.origin and figure.commit in figure.origin
     with pytest.raises(ConfigurationError, match="measured figure is 'nothing'"):
         filled("<!-- measured: nothing -->", "page")

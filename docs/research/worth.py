@@ -1,0 +1,85 @@
+"""What the closed form under a record's best sine is worth, by the share of the energy that the sine explains.
+
+The integration under the whole record is the truth. The records took no part in the choice of the classes, which are
+round numbers; what a report says of a sine (`rocking.pulses.pulse.WORTHS`) comes from here.
+"""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+
+from docs.research.report import Target
+from docs.research.scores import Measured, Score, scored
+from docs.research.sites import SiteRecord, independent, sample_of, structures_tried
+from rocking.assessment.methods import Agreement, agreement, rests
+from rocking.errors import PulseError
+from rocking.motion.integration import integrate
+from rocking.pulses import extract_pulses
+from rocking.pulses.pulse import WORTHS
+from rocking.sine_pulse import predict_maximum
+from rocking.structures import Structure
+
+FACTORS = (0.7, 1.4, 2.8)
+"""On each record, so that some structures rest, some rock and some overturn."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """One structure under one record. explained: share of its energy in its best sine; then the rotation ratios."""
+
+    site: str
+    earthquake: str
+    explained: float
+    integrated: float
+    predicted: float
+
+
+def worth(target: Target) -> None:
+    """Score the closed form by classes of explained energy."""
+    cases: list[Case] = []
+    for component in independent(target.records):
+        cases += cases_of(component, structures_tried())
+        target.tell(f"{component.identifier}: {len(cases)} cases")
+    target.publish("What one sine is worth", f"{len(cases)} cases.", {Score: list(worth_scores(cases))})
+
+
+def cases_of(component: SiteRecord, structures: Mapping[str, Structure]) -> Iterator[Case]:
+    """Yield the structures that a record moves, or that its best sine does."""
+    try:
+        evidence = extract_pulses(component.accelerogram).ranked[0]
+    except PulseError:
+        return
+    for factor in FACTORS:
+        record = component.accelerogram.scaled(factor)
+        pulse = replace(evidence.pulse, amplitude=factor * evidence.pulse.amplitude)
+        for structure in structures.values():
+            mechanism = structure.mechanism()
+            integrated = integrate(mechanism, record).rotation_ratio
+            predicted = predict_maximum(mechanism.equivalent_block(), pulse).rotation_ratio
+            if not (rests(integrated) and rests(predicted)):
+                yield Case(
+                    component.site, component.earthquake, evidence.explained_energy, integrated, predicted
+                )
+
+
+def worth_scores(cases: Sequence[Case]) -> Iterator[Score]:
+    """Yield for each class of energy how often both end alike, and which falls the closed form sees."""
+    edges = [math.inf, *(each.energy for each in WORTHS)]
+    for most, least in pairwise(edges):
+        own = [each for each in cases if least <= each.explained < most]
+        if not own:
+            continue
+        falls = np.isinf([each.integrated for each in own])
+        said = np.isinf([each.predicted for each in own])
+        alike = [agreement(each.predicted, each.integrated) is Agreement.SAME for each in own]
+        measures: dict[str, Measured] = {
+            "same outcome": np.array(alike, dtype=float),
+            "falls found": np.where(falls, said, np.nan),
+        }
+        sample = sample_of([each.site for each in own], [each.earthquake for each in own])
+        yield from scored(
+            "closed form under the best sine", f"{least:g} or more of the energy", measures, sample
+        )

@@ -1,0 +1,33 @@
+"""What a sine is worth: a record that is one sine is predicted, and each outcome is counted once."""
+
+import math
+
+import numpy as np
+import pytest
+
+from docs.research.sites import SiteRecord
+from docs.research.worth import FACTORS, Case, cases_of, worth_scores
+from rocking import Accelerogram, Block, Pulse
+
+
+def test_a_record_that_is_one_sine_is_explained_by_it_and_ends_as_said():
+    pulse = Pulse(amplitude=3.0, circular_frequency=2 * math.pi / 0.8, start_time=0.5)
+    record = Accelerogram(pulse.acceleration(np.arange(500) * 0.01), 0.01)
+    cases = list(cases_of(SiteRecord("made", "site", "made", record), {"block": Block.of_size(0.6, 3.0)}))
+    assert len(cases) == len(FACTORS)
+    assert all(each.explained == pytest.approx(1.0, abs=0.01) for each in cases)
+    assert [math.isinf(each.predicted) for each in cases] == [math.isinf(each.integrated) for each in cases]
+
+
+def test_each_class_counts_its_own_outcomes():
+    """Of three falls under weak sines one is found; where the sine dominates the one that rocks does so in both."""
+    cases = [
+        Case("a", "A", 0.05, math.inf, math.inf),
+        Case("b", "B", 0.05, math.inf, 0.3),
+        Case("b", "B", 0.05, math.inf, 0.0),
+        Case("c", "C", 0.7, 0.4, 0.2),
+    ]
+    found = {(row.part, row.measure): row.value for row in worth_scores(cases)}
+    assert found["0 or more of the energy", "falls found"] == pytest.approx(1 / 3)
+    assert found["0 or more of the energy", "same outcome"] == pytest.approx(1 / 3)
+    assert found["0.5 or more of the energy", "same outcome"] == 1
