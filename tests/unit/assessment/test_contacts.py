@@ -285,6 +285,14 @@ def test_what_needs_more_friction_than_the_study_has_slides_and_does_not_fall():
     assert contact_share(front, motions, rough).falls > 0
 
 
+def test_a_tie_that_is_too_stiff_for_the_usual_step_is_followed_at_a_shorter_one():
+    tie = {"tie_heights": (3.0,), "tie_stiffness": 1e9, "tie_strength": 5e3}
+    front = rocking.Facade((3.6,), (0.4,), 18e3, restitution=0.6, behind="cross_walls", **tie)
+    assert front.stack().longest_step < STEP
+    share = contact_share(front, GroundMotions.of(sine(3.0)), runs=2)
+    assert share.runs and not share.reason
+
+
 def test_the_cost_that_is_told_beforehand_is_that_of_its_bodies_and_steps():
     """Of still ground none, of twice the runs twice, of what is no stack or is not asked none."""
     motion = sine(2.0)

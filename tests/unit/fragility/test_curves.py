@@ -213,6 +213,7 @@ def test_a_cloud_keeps_the_records_as_they_are():
     ("changed", "sentence"),
     [
         ({"levels": [0.5, 0.3]}, "levels hold 0.3 after 0.5, but must ascend"),
+        ({"levels": [0.5]}, "levels must be at least two finite numbers"),
         ({"levels": [0.5, math.nan]}, "levels must be at least two finite numbers"),
         ({"stations": ["one"] * 6}, "come from 1 station, but a fragility needs at least 2"),
         ({"stations": ["one", "two"]}, "stations names 2, but must name one for each of 6"),
@@ -225,6 +226,10 @@ def test_a_cloud_keeps_the_records_as_they_are():
 def test_bad_input_is_one_sentence(changed, sentence):
     with pytest.raises(ConfigurationError, match=sentence):
         fragility(RECORDS, BLOCK, **changed)
+
+
+def test_two_levels_are_enough():
+    assert fragility(RECORDS, BLOCK, levels=[0.2, 0.3]).levels.tolist() == [0.2, 0.3]
 
 
 def test_a_record_without_the_measure_is_named():

@@ -143,6 +143,13 @@ def test_too_few_stations_show_nothing_and_it_says_how_many_would():
     assert f"at the largest one it is {made.tried[-1].in_words}, " in made.words
 
 
+def test_a_bound_at_the_target_holds_and_one_just_above_it_does_not():
+    made = _made(np.zeros((GRID, 30)))
+    bound = made.tried[-1].interval[1]
+    assert replace(made, target=bound).value == VALUES[0]
+    assert math.isnan(replace(made, target=math.nextafter(bound, 0)).value)
+
+
 def test_a_range_of_which_no_value_holds_names_its_last_two():
     made = _made(np.full((GRID, 30), 0.5))
     assert math.isnan(made.value) and math.isnan(made.needed_stations)
