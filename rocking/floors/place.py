@@ -86,7 +86,9 @@ class Place:
         """Return what the support of this first period makes of the ground, as the motion `there`; 0: the ground."""
         spectral_acceleration = math.nan
         by_code = math.nan
-        support = next((each for each in self.supports if period and each.first_period == period), None)
+        support = next(
+            (support for support in self.supports if period and support.first_period == period), None
+        )
         if support is not None:
             spectral_acceleration = spectrum_of(there)(period, FLOOR_DAMPING)
             if has_code_spectrum(support):
@@ -243,7 +245,7 @@ def _period_range(mode: Mapping[str, Any], yields: bool) -> tuple[float, float]:
     both = given if isinstance(given, list) else [given, given]
     if len(both) != 2:
         raise ConfigurationError(f"period_s is {given!r}, but must be a number or a range of two.")
-    low, high = (finite(ConfigurationError, "period_s", each, "s") for each in both)
+    low, high = (finite(ConfigurationError, "period_s", period, "s") for period in both)
     if not 0 < low <= high or (isinstance(given, list) and low == high) or math.isinf(high):
         raise ConfigurationError(
             f"period_s is {given!r} s, but must be above 0, and the first of a range below the second."

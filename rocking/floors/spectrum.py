@@ -68,7 +68,7 @@ def floor_spectrum(
     damping_ratio = within(RecordError, "damping_ratio", damping_ratio, LEAST_DAMPING, 0.999)
     periods = np.array([finite(RecordError, "period", period, "s") for period in np.atleast_1d(periods)])
     of_modes = [_of_mode(mode, periods, damping_ratio, ground) for mode in support.modes]
-    spectrum = np.sqrt(sum(np.square(each) for each in of_modes))
+    spectrum = np.sqrt(sum(np.square(of_mode) for of_mode in of_modes))
     of_ground = np.array([ground(float(period), damping_ratio) for period in periods])
     first_period = max(mode.period for mode in support.modes)
     at_least_the_ground = np.maximum(spectrum, of_ground)

@@ -224,7 +224,7 @@ class Support:
             "of still ground after it."
         )
         made = record.processed_by(motion, sentence, time_step=step, smooth_steps=finer)
-        left = sum(each.level(after) for each in ringing)
+        left = sum(mode.level(after) for mode in ringing)
         if left <= 2 * RINGING * made.peak_acceleration:
             return made
         share = left / made.peak_acceleration
@@ -337,13 +337,13 @@ class _Ringing:
 def _check_alike(records: Sequence[Accelerogram]) -> None:
     size = records[0].acceleration.size
     step = records[0].time_step
-    for each in records:
-        if each.acceleration.size != size or abs(each.time_step / step - 1) > 1e-9:
+    for record in records:
+        if record.acceleration.size != size or abs(record.time_step / step - 1) > 1e-9:
             raise RecordError.naming(
                 "records",
                 records,
-                f"the components hold {size} samples at {step:g} s and {each.acceleration.size} at "
-                f"{each.time_step:g} s, but a support needs the same ones; cut or resample one of them.",
+                f"the components hold {size} samples at {step:g} s and {record.acceleration.size} at "
+                f"{record.time_step:g} s, but a support needs the same ones; cut or resample one of them.",
             )
 
 
@@ -364,14 +364,14 @@ def _sampling(record: Accelerogram, ringing: Sequence[_Ringing]) -> FloorSamplin
     below SHORTEST_STEP, which a support of less than .02 s would ask for, are not made.
     """
     step = record.time_step
-    at_samples = record.acceleration + sum(each.excess[:-1].imag for each in ringing)
+    at_samples = record.acceleration + sum(mode.excess[:-1].imag for mode in ringing)
     peak = float(np.abs(at_samples).max())
     if peak == 0:
         return FloorSampling(finer=1, after=1)
-    coarse = step**2 / 8 * sum(each.curvature for each in ringing) / (INTERPOLATION_ERROR * peak)
+    coarse = step**2 / 8 * sum(mode.curvature for mode in ringing) / (INTERPOLATION_ERROR * peak)
     finer = max(1, min(math.ceil(math.sqrt(coarse)), int(step / SHORTEST_STEP)))
     allowed = RINGING * peak / len(ringing)
-    quiet = max(each.time_to(allowed) for each in ringing)
+    quiet = max(mode.time_to(allowed) for mode in ringing)
     after = 1 + math.ceil(min(quiet, LONGEST_RINGING) / step)
     number = (record.acceleration.size + after) * finer
     if number > MOST_SAMPLES:
@@ -399,13 +399,13 @@ def _finer(acceleration: np.ndarray, ringing: Sequence[_Ringing], finer: int, af
     np.subtract(ground[1:], ground[:-1], out=starts[1])
     weights[1] = np.arange(finer) / finer
     last = ground[-1]
-    for row, each in zip(range(2, len(starts), 2), ringing, strict=True):
-        still = each.still(after)
-        during = each.excess.size - 1
+    for row, mode in zip(range(2, len(starts), 2), ringing, strict=True):
+        still = mode.still(after)
+        during = mode.excess.size - 1
         for place, part in ((row, "imag"), (row + 1, "real")):
-            starts[place, :during] = getattr(each.excess[:-1], part)
+            starts[place, :during] = getattr(mode.excess[:-1], part)
             starts[place, during:] = getattr(still[:-1], part)
-        within_sample = each.within_sample(finer)
+        within_sample = mode.within_sample(finer)
         weights[row] = within_sample.real
         weights[row + 1] = within_sample.imag
         last += still[-1].imag

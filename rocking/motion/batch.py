@@ -113,9 +113,11 @@ def integrate_batch(
 
 def _plain_blocks(structures: Sequence[Rocking], forcing: Forcing) -> list[EquivalentBlock]:
     """The structures, where they are blocks that one call can follow: alike, exact, and without a rotation_map."""
-    blocks = [each for each in structures if not forcing.vertical and solvable_exactly(each, forcing)]
-    kinds = {(len(each.sides), each.one_sided) for each in blocks}
-    mapped = any(side.rotation_map for each in blocks for side in each.sides)
+    blocks = [
+        structure for structure in structures if not forcing.vertical and solvable_exactly(structure, forcing)
+    ]
+    kinds = {(len(block.sides), block.one_sided) for block in blocks}
+    mapped = any(side.rotation_map for block in blocks for side in block.sides)
     return blocks if len(blocks) == len(structures) and len(kinds) == 1 and not mapped else []
 
 

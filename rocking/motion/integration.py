@@ -75,7 +75,7 @@ class Runs(NamedTuple):
 
     def at(self, places: np.ndarray) -> "Runs":
         """Return the runs at `places`."""
-        return Runs(*(None if each is None else each[places] for each in self))  # type: ignore[arg-type]
+        return Runs(*(None if values is None else values[places] for values in self))  # type: ignore[arg-type]
 
 
 class RunOptions(NamedTuple):
@@ -214,7 +214,7 @@ def solvable_exactly(structure: Rocking, forcing: Forcing) -> TypeGuard[Equivale
     """Whether the closed form per sample holds without a vertical component: a block, a sampled record, a sane p Δt."""
     if not isinstance(structure, EquivalentBlock) or forcing.ground.circular_frequency != 0:
         return False
-    frequency = max(each.frequency_parameter for each in structure.sides)
+    frequency = max(side.frequency_parameter for side in structure.sides)
     return frequency * forcing.ground.time_step <= LARGEST_GROWTH
 
 
@@ -377,7 +377,7 @@ def _is_fragile(
     neighbours = (
         _response(reduced, forcing, tolerance, start, factor=factor) for factor in (1 - change, 1 + change)
     )
-    return any(each.outcome is not response.outcome for each in neighbours)
+    return any(neighbour.outcome is not response.outcome for neighbour in neighbours)
 
 
 def _states(table: MechanismTable, log: np.ndarray, begin: float) -> dict[str, Any]:
@@ -397,7 +397,7 @@ def _sensitivity(reduced: Mechanism | EquivalentBlock, forcing: Forcing, start: 
     """d ln φ_max / d ln a, by a central difference of two tightly integrated neighbours; inf where one overturns."""
     factors = (1 - _NUDGE, 1 + _NUDGE)
     below, above = (
-        _response(reduced, forcing, _TIGHT, start, factor=each).rotation_ratio for each in factors
+        _response(reduced, forcing, _TIGHT, start, factor=factor).rotation_ratio for factor in factors
     )
     if not (0 < below < math.inf and 0 < above < math.inf):
         return math.inf
@@ -613,7 +613,7 @@ def concluded(sides: Sequence[SideTable | EquivalentBlock], results: np.ndarray)
     if len(sides) == 1:
         one, other = sides[0].rotation_ratios(arcs)
     else:
-        one, other = (each.rotation_ratios(own) for each, own in zip(sides, arcs, strict=True))
+        one, other = (side.rotation_ratios(own) for side, own in zip(sides, arcs, strict=True))
     ratio = np.maximum(one, other)
     side = np.where(one >= other, 1, -1)
     side[status == 0] = 0

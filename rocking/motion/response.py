@@ -171,7 +171,7 @@ def check_model(
     try:
         states = turned[rocks], velocity[rocks], None, ground, lift, largest_so_far(turned)[rocks]
         contacts = structure.contact_forces(*states)
-        holding = tuple(float(each.force.max()) for each in structure.reactions(*states))
+        holding = tuple(float(reaction.force.max()) for reaction in structure.reactions(*states))
     except UnknownContacts as why:
         return ModelCheck(reason=str(why))
     largest = min(float(rotation.max()), structure.mechanism().positive.end_rotation)
@@ -198,7 +198,7 @@ def lifting_friction(structure: Structure) -> float:
     if not structure.linkages:
         return 0.0
     sides = structure.mechanism().sides
-    side = min(sides, key=lambda each: each.uplift_multiplier)
+    side = min(sides, key=lambda side: side.uplift_multiplier)
     sign = 1.0 if side is sides[0] else -1.0
     ground = np.array([-sign * side.uplift_multiplier * GRAVITY])
     least = np.array([1e-12 * side.end_rotation])

@@ -230,7 +230,7 @@ class _Forcings:
 
     def _forget(self, record: "ref[Accelerogram]") -> None:
         with self._lock:
-            self._bytes -= sum(each.own_bytes for each in self._kept.pop(record, {}).values())
+            self._bytes -= sum(kept.own_bytes for kept in self._kept.pop(record, {}).values())
 
 
 _FORCINGS = _Forcings()
@@ -501,7 +501,7 @@ def _near_rest(reach: float, values: np.ndarray) -> tuple[float, ...]:
     # v²/2 = g G̃ q: over still ground a slower start turns back within the arc, by the least G̃ that it meets.
     speed = np.sqrt(2 * GRAVITY * max(least_gravity, 0.0) * reach)
     bounds = (reach, least_gravity, largest_gravity, largest_ground, gravity_slope, ground_slope, speed)
-    return tuple(float(each) for each in bounds)
+    return tuple(float(bound) for bound in bounds)
 
 
 def _hold(gravity: Function, ground: Function, rotation: Function, starts: np.ndarray) -> np.ndarray:
@@ -642,7 +642,7 @@ def table_of(mechanism: Mechanism | EquivalentBlock, vertical: bool = False) -> 
 @lru_cache(maxsize=1024)
 def linear_table(block: EquivalentBlock) -> MechanismTable:
     """Return the table of an equivalent block: exact, and without an end unless its rotation_map has one."""
-    return _stacked(tuple(linear_side(each) for each in block.sides), block.one_sided)
+    return _stacked(tuple(linear_side(side) for side in block.sides), block.one_sided)
 
 
 def _stacked(sides: tuple[SideTable, ...], one_sided: bool) -> MechanismTable:
@@ -666,15 +666,15 @@ def _stacked(sides: tuple[SideTable, ...], one_sided: bool) -> MechanismTable:
 
 def stacked_ties(sides: Sequence[Ties | None], pieces: int) -> Ties | None:
     """Return the ties of one side or two with as many pieces each; a tie that one side lacks has no force there."""
-    count = max((each.law.shape[1] for each in sides if each is not None), default=0)
+    count = max((ties.law.shape[1] for ties in sides if ties is not None), default=0)
     if not count:
         return None
     pieces_of = np.zeros((len(sides) * count, pieces, 24))
     law = np.zeros((len(sides), count, 8))
     law[:, :, 2:6] = np.inf
-    for k, each in enumerate(sides):
-        if each is not None:
-            own = each.law.shape[1]
-            pieces_of[k * count : k * count + own, : each.pieces.shape[1]] = each.pieces
-            law[k, :own] = each.law[0]
+    for k, ties in enumerate(sides):
+        if ties is not None:
+            own = ties.law.shape[1]
+            pieces_of[k * count : k * count + own, : ties.pieces.shape[1]] = ties.pieces
+            law[k, :own] = ties.law[0]
     return Ties(pieces_of, law)

@@ -145,12 +145,12 @@ def energy_map(
 def _thinned(accelerogram: Accelerogram, settings: PulseSettings) -> Accelerogram:
     """Return every sample that the search needs: itself where that is all of them."""
     enough = 1 / (SAMPLES_ENOUGH * settings.highest_frequency)
-    each = math.floor(enough / accelerogram.time_step * (1 + 1e-9))
-    if each < LEAST_THINNING or accelerogram.acceleration.size <= 2 * each:
+    stride = math.floor(enough / accelerogram.time_step * (1 + 1e-9))
+    if stride < LEAST_THINNING or accelerogram.acceleration.size <= 2 * stride:
         return accelerogram
-    thinned = accelerogram.acceleration[::each]
+    thinned = accelerogram.acceleration[::stride]
     return replace(
-        accelerogram, acceleration=thinned, time_step=each * accelerogram.time_step, smooth_steps=1
+        accelerogram, acceleration=thinned, time_step=stride * accelerogram.time_step, smooth_steps=1
     )
 
 
@@ -235,9 +235,9 @@ class PulseSearch:
         from rocking.pulses.scan import apart
 
         refined = self.refined_maxima(samples, maxima, self.settings.candidates)
-        starts = np.array([each.pulse.start_time for each in refined])
-        ends = np.array([each.pulse.end_time for each in refined])
-        gains = np.array([each.gain for each in refined])
+        starts = np.array([evidence.pulse.start_time for evidence in refined])
+        ends = np.array([evidence.pulse.end_time for evidence in refined])
+        gains = np.array([evidence.gain for evidence in refined])
         chosen = apart(starts, ends, gains, self.settings.alternatives, self.settings.overlap)
         return tuple(refined[place] for place in chosen)
 

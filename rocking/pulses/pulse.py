@@ -260,7 +260,7 @@ class PulseAnalysis(Drawn):
 
     def __repr__(self) -> str:
         share = f"explains {100 * self.explained_energy:.0f} % of the energy"
-        flags = [f"flags: {', '.join(each.kind for each in self.flags)}"] if self.flags else []
+        flags = [f"flags: {', '.join(flag.kind for flag in self.flags)}"] if self.flags else []
         rivals = counted(len(self.alternatives), "alternative")
         return f"PulseAnalysis({', '.join([f'dominant {self.dominant!r}', share, rivals, *flags])})"
 
@@ -304,13 +304,13 @@ class PulseAnalysis(Drawn):
 
         return DataFrame(
             {
-                "amplitude_m_s2": each.pulse.amplitude,
-                "period_s": each.pulse.period,
-                "start_time_s": each.pulse.start_time,
-                "gain_m2_s3": each.gain,
-                "explained_energy": each.explained_energy,
+                "amplitude_m_s2": evidence.pulse.amplitude,
+                "period_s": evidence.pulse.period,
+                "start_time_s": evidence.pulse.start_time,
+                "gain_m2_s3": evidence.gain,
+                "explained_energy": evidence.explained_energy,
             }
-            for each in self.ranked
+            for evidence in self.ranked
         )
 
     def _repr_html_(self) -> str:

@@ -139,8 +139,10 @@ def _place_in(archive: Path, name: str) -> tuple[str, str]:
     rest = name
     for _ in range(_DEEPEST - 1):
         packed = _packed(archive, place)
-        parents = [each.as_posix() for each in PurePosixPath(rest).parents if each.as_posix() in packed.names]
-        inner = next((each for each in parents if ending_of(each)), "")
+        parents = [
+            parent.as_posix() for parent in PurePosixPath(rest).parents if parent.as_posix() in packed.names
+        ]
+        inner = next((parent for parent in parents if ending_of(parent)), "")
         if not inner:
             break
         place = f"{place}/{inner}" if place else inner
@@ -230,7 +232,7 @@ def _of_zip(archive: zipfile.ZipFile) -> _Packed:
         with archive.open(name) as stream:
             return stream.read(size)
 
-    sizes = {each.filename: each.file_size for each in archive.infolist() if not each.is_dir()}
+    sizes = {entry.filename: entry.file_size for entry in archive.infolist() if not entry.is_dir()}
     return _Packed(_checked(sizes), start_of)
 
 
@@ -239,10 +241,10 @@ def _of_tar(source: str | bytes) -> _Packed:
     end = Path(source).stat().st_size if isinstance(source, str) else len(source)
     stream = None if isinstance(source, str) else io.BytesIO(source)
     with tarfile.open(source if isinstance(source, str) else None, "r:", stream) as archive:
-        entries = [each for each in archive.getmembers() if each.isreg() and not each.issparse()]
-    if end % tarfile.BLOCKSIZE or any(each.offset_data + each.size > end for each in entries):
+        entries = [entry for entry in archive.getmembers() if entry.isreg() and not entry.issparse()]
+    if end % tarfile.BLOCKSIZE or any(entry.offset_data + entry.size > end for entry in entries):
         raise tarfile.ReadError("it is cut")
-    places = {each.name.removeprefix("./"): (each.offset_data, each.size) for each in entries}
+    places = {entry.name.removeprefix("./"): (entry.offset_data, entry.size) for entry in entries}
 
     def start_of(name: str, size: int) -> bytes:
         at, whole = places[name]

@@ -106,13 +106,13 @@ class CatalogueRecord:
     def __post_init__(self) -> None:
         """Turn the cells of numbers into numbers, and tell all that is wrong at once."""
         defects = []
-        for name, each in described_values(CatalogueRecord).items():
-            if each.kind is str and isinstance(getattr(self, name), str):
+        for name, column in described_values(CatalogueRecord).items():
+            if column.kind is str and isinstance(getattr(self, name), str):
                 continue
             try:
-                object.__setattr__(self, name, each.checked(getattr(self, name)))
+                object.__setattr__(self, name, column.checked(getattr(self, name)))
             except ValueError as error:
-                defects.append(f"{each.key} is {error}")
+                defects.append(f"{column.key} is {error}")
         checks = (*_checks_of_files(self), *_checks_of_source(self))
         defects += [sentence for is_right, sentence in checks if not is_right]
         if self.scale_factor == 0:
@@ -153,7 +153,7 @@ class CatalogueRecord:
         return tuple(filter(None, _parts(self.component)))
 
 
-COLUMNS = tuple(each.key for each in described_values(CatalogueRecord).values())
+COLUMNS = tuple(column.key for column in described_values(CatalogueRecord).values())
 """Columns of a catalogue. Required: id and file; sha256 and the source columns for files that are fetched."""
 
 
@@ -269,7 +269,7 @@ def read_rows(path: Path) -> list[tuple[int, dict[str, str]]]:
 
 
 _NUMBERS = (
-    *(each.key for each in described_values(CatalogueRecord).values() if each.kind is not str),
+    *(column.key for column in described_values(CatalogueRecord).values() if column.kind is not str),
     "scale_to",
 )
 """Columns in which a comma can only be a decimal sign."""
@@ -278,13 +278,15 @@ _NUMBERS = (
 def record_of_row(row: Mapping[str, str], folder: Path) -> CatalogueRecord:
     """Return the record of a row of a catalogue in `folder`. Raises CatalogueError at its first defect."""
     values: dict[str, Any] = {"id": "", "file": "", "folder": folder}
-    for name, each in described_values(CatalogueRecord).items():
-        if cell := (row.get(each.key) or "").strip():
-            if each.kind is not str and not is_number(cell):
+    for name, column in described_values(CatalogueRecord).items():
+        if cell := (row.get(column.key) or "").strip():
+            if column.kind is not str and not is_number(cell):
                 raise CatalogueError.naming(
-                    each.key, cell, f"{each.key} is {shown(cell)}, but must be a number{number_hint(cell)}."
+                    column.key,
+                    cell,
+                    f"{column.key} is {shown(cell)}, but must be a number{number_hint(cell)}.",
                 )
-            values[name] = float(cell) if each.kind is not str else plain(cell) if name in _PROSE else cell
+            values[name] = float(cell) if column.kind is not str else plain(cell) if name in _PROSE else cell
     return CatalogueRecord(**values)
 
 
@@ -302,7 +304,7 @@ def repeated(records: Iterable[CatalogueRecord]) -> tuple[Remark, ...]:
     for record, file in [(row, file) for row in records for file in row.files if file.sha256]:
         same = earlier.setdefault((file.sha256, record.scale_factor, record.scale_to), [])
         chosen = set(record.components)  # none names all
-        both = (each for each in same if not (chosen and each.components) or chosen & set(each.components))
+        both = (twin for twin in same if not (chosen and twin.components) or chosen & set(twin.components))
         if other := next(both, None):
             remarks.append(
                 Remark.of(

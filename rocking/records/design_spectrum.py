@@ -316,7 +316,9 @@ class PointSpectrum(DesignSpectrum):
     def at(self, level: float) -> Self:
         """Return it with all ordinates scaled so that the first one is `level` [m/s²]."""
         factor = level / self.level
-        return replace(self, accelerations=tuple(factor * each for each in self.accelerations))
+        return replace(
+            self, accelerations=tuple(factor * acceleration for acceleration in self.accelerations)
+        )
 
     def largest_displacement(
         self, shortest: float, longest: ArrayLike, level: ArrayLike, damping: float

@@ -255,10 +255,10 @@ def vertical_doubt(channels: Sequence[Channel]) -> Remark | None:
 
 def pair_doubt(horizontal: Sequence[Channel]) -> Remark | None:
     """Return a remark where the angle of two horizontal components is neither known nor said by their names."""
-    if len(horizontal) != 2 or any(each.vertical for each in horizontal):
+    if len(horizontal) != 2 or any(channel.vertical for channel in horizontal):
         return None
     one, other = map(Direction.of_channel, horizontal)
-    first, second = (each.component for each in horizontal)
+    first, second = (channel.component for channel in horizontal)
     if one.angle_to(other) is not None or one.is_across(other):
         return None
     if names_no_direction(first) and names_no_direction(second):

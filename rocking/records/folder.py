@@ -116,8 +116,8 @@ def catalogue_of_folder(
     new = rows_of_files(listed, (row["id"].lower() for row in rows))
     of_store = [readings.remark] if readings.remark else []
     idle = [
-        Remark.of(RecordKind.ANSWER_IDLE, NAME, line=each.line, answer=each.text)
-        for each in layouts.idle(signatures)
+        Remark.of(RecordKind.ANSWER_IDLE, NAME, line=answer.line, answer=answer.text)
+        for answer in layouts.idle(signatures)
     ]
     asked = layouts.text((file.file, file.question) for file in listed if file.question)
     return FolderCatalogue(listed, rows, new, (*of_store, *renamed, *apart, *idle), asked)
@@ -273,7 +273,7 @@ def _remarks(group: Sequence[ListedFile], level: Sequence[ListedChannel]) -> Ite
     yield from dict.fromkeys(doubt for file in group for doubt in doubts_of(file))
     angle = angle_between(*level) if len(level) == 2 else None
     if angle is not None and abs(angle - 90) > SQUARE:
-        first, second = (each.component for each in level)
+        first, second = (channel.component for channel in level)
         yield Remark.of(RecordKind.NOT_SQUARE, first=first, second=second, angle_deg=min(angle, 180 - angle))
     if doubt := pair_doubt(level):
         yield doubt
@@ -337,7 +337,7 @@ def unlisted(catalogue: Path) -> tuple[Remark, ...]:
 
 def _was_refused(path: Path, folder: Path, readings: Readings) -> bool:
     """Whether the file was read for a catalogue as it stands, and can get no row there whatever is answered."""
-    listed = [listed_file(each, path, folder, NOTHING_DECLARED) for each in readings.kept_of(path)]
+    listed = [listed_file(reading, path, folder, NOTHING_DECLARED) for reading in readings.kept_of(path)]
     return bool(listed) and all(
         not file.question and (file.refusal or not any(channel.is_horizontal for channel in file.channels))
         for file in listed

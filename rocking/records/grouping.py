@@ -170,7 +170,7 @@ def _why_apart(group: Sequence[ListedFile]) -> Remark | None:
         return Remark.of(
             RecordKind.TOO_MANY_COMPONENTS, horizontal=len(level), vertical=len(channels) - len(level)
         )
-    if any(each.declarations != group[0].declarations for each in group):
+    if any(file.declarations != group[0].declarations for file in group):
         return Remark(RecordKind.DECLARED_BY_SOME)
     return _why_no_pair(group, level)
 
@@ -179,7 +179,7 @@ def _why_no_pair(group: Sequence[ListedFile], level: Sequence[ListedChannel]) ->
     """Return why two horizontal components are no pair; None where they are, or are not two."""
     if len(level) != 2:
         return None
-    first, second = (each.component for each in level)
+    first, second = (channel.component for channel in level)
     angle = angle_between(*level)
     if angle is not None and min(angle, 180 - angle) < SQUARE:
         return Remark.of(RecordKind.POINT_THE_SAME_WAY, first=first, second=second)

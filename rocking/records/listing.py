@@ -191,7 +191,7 @@ def _doubts_of(channels: Sequence[Accelerogram], passed_over: Collection[Kind] =
 
 def _without_samples(record: Accelerogram, is_known: bool) -> ListedChannel:
     """Return what is listed of a channel, with its peaks where unit and time step are known."""
-    of_record: dict[str, Any] = {each.name: getattr(record, each.name, "") for each in fields(ListedChannel)}
+    of_record: dict[str, Any] = {fact.name: getattr(record, fact.name, "") for fact in fields(ListedChannel)}
     speed = ""  # of a record that is too short to be processed
     with suppress(RecordError):
         speed = f"{abs(velocity(process(record))).max():.3g}" if is_known else ""
@@ -238,7 +238,7 @@ def _why_not_listed(path: Path, folder: Path) -> str:
 
 def doubts_of(file: ListedFile) -> list[Remark]:
     """Return the doubts about a file that hold whatever its row calls it."""
-    return [each for each in file.doubts if not (file.direction and each.kind in _OF_DIRECTION)]
+    return [doubt for doubt in file.doubts if not (file.direction and doubt.kind in _OF_DIRECTION)]
 
 
 _HEAD = ("file", "component", "format", "step s", "samples", "PGA g", "PGV m/s")

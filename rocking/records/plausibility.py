@@ -267,7 +267,7 @@ def damage_warnings(record: Accelerogram) -> tuple[Remark, ...]:
         _zeros_in_shaking(record),
         _still_stretch(record),
     )
-    return tuple(each for each in tests if each is not None)
+    return tuple(remark for remark in tests if remark is not None)
 
 
 _ALONE = 3.0, 2.0

@@ -202,7 +202,7 @@ def checked_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
     checked = []
     for record in distinct_channels(records):
         doubts = (*pass_limits(record, record.source.format), *damage_warnings(record))
-        checked.append(record.warned(*(each for each in doubts if each not in record.warnings)))
+        checked.append(record.warned(*(doubt for doubt in doubts if doubt not in record.warnings)))
     return checked
 
 

@@ -408,7 +408,7 @@ class Sample:
         if count < FEWEST:
             own = [statistic((self.of_station == event).astype(float)) for event in range(count)]
             middle = statistic(np.ones(self.count))
-            if not all(0 < each < math.inf for each in (*own, middle)):
+            if not all(0 < result < math.inf for result in (*own, middle)):
                 return 0.0, math.inf
             # A wide one overflows: nothing is known then.
             reach = min(Spread(np.log(own), self.sizes / self.count).reach(), 700.0)

@@ -76,7 +76,7 @@ def _channels_of(
     options = Options(record.unit or None, record.time_step, inventory, path.parent, layouts=layouts)
     with through("catalogue"):
         channels = read_raw(raw, path, options)
-    return [replace(each, source=replace(each.source, path=file.name)) for each in channels]
+    return [replace(channel, source=replace(channel.source, path=file.name)) for channel in channels]
 
 
 def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Station:
@@ -91,8 +91,8 @@ def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sta
         horizontal = _horizontal(channels, record, vertical)
         if record.components:
             horizontal = [
-                replace(each, warnings=tuple(w for w in each.warnings if w.kind not in _ANSWERED))
-                for each in horizontal
+                replace(channel, warnings=tuple(w for w in channel.warnings if w.kind not in _ANSWERED))
+                for channel in horizontal
             ]
         elif doubt := vertical_doubt([*horizontal, *filter(None, [vertical])]):
             raise RecordError(str(doubt))
@@ -115,7 +115,7 @@ def _named_by_row(channels: Sequence[Accelerogram], record: CatalogueRecord) -> 
 
 def _called_now(channel: Accelerogram, name: str) -> Accelerogram:
     """Return a channel with another name, and with what is in doubt of the direction that this one says."""
-    kept = tuple(each for each in channel.warnings if each.kind is not RecordKind.DIRECTION_UNKNOWN)
+    kept = tuple(warning for warning in channel.warnings if warning.kind is not RecordKind.DIRECTION_UNKNOWN)
     named = replace(channel, **directed({"component": name}), warnings=kept)
     return named.warned(*doubts_of_channel(named))
 

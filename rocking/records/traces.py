@@ -187,13 +187,13 @@ def _check_gain(gain: float, response: Any, name: str, removal: str) -> tuple[Re
             f"the overall sensitivity is {gain:g}, but must be above 0 and below {LARGEST_GAIN:g}; the StationXML is "
             "damaged: fetch it again.",
         )
-    staged = [each for each in response.response_stages or () if each.stage_gain]
-    product = float(np.prod([float(each.stage_gain) for each in staged])) if staged else gain
+    staged = [stage for stage in response.response_stages or () if stage.stage_gain]
+    product = float(np.prod([float(stage.stage_gain) for stage in staged])) if staged else gain
     off = abs(product / gain - 1)
     if removal == "full" or off <= _STAGES_AGREE:
         return ()
     at = response.instrument_sensitivity.frequency
-    others = [each.stage_gain_frequency for each in staged if each.stage_gain_frequency is not None]
+    others = [stage.stage_gain_frequency for stage in staged if stage.stage_gain_frequency is not None]
     if at is not None and any(other > 0 and abs(other / at - 1) > _SAME_FREQUENCY for other in others if at):
         return (Remark.of(RecordKind.SENSITIVITY_ELSEWHERE, name, at_hz=float(at), off=off),)
     if staged:

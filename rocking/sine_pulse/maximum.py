@@ -440,7 +440,7 @@ def pulse_spectrum(
     amplitudes = _axis("amplitude_ratios", amplitude_ratios, 0.0)
     eta = within(StructureError, "restitution", restitution, 0, 1)
     rows = np.tile([1.0, 1.0, eta, 1.0, math.inf, 1.0], (1, 2, 1))  # p = gλ = 1
-    omegas, strengths = (each.ravel() for each in np.meshgrid(frequencies, amplitudes, indexing="ij"))
+    omegas, strengths = (axis.ravel() for axis in np.meshgrid(frequencies, amplitudes, indexing="ij"))
     peaks = np.empty((1, omegas.size, 2))
     margins = np.empty((1, omegas.size))
     begins, ends = (np.full(omegas.size, phase) for phase in sine_pulse.kernel.FULL_SINE)

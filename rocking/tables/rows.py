@@ -89,9 +89,9 @@ class RowOf(Row, Generic[S]):
         """Return the row about `subject`; a column of a part that it lacks is empty."""
         made: Any = cls
         values = {name: _read_by(reads, subject) for name, reads in cls.table.kept.items()}
-        for each in cls.table.columns:
-            value = _read_by(each.more["reads"], subject)
-            values[each.name] = empty(each) if value is None else value
+        for column in cls.table.columns:
+            value = _read_by(column.more["reads"], subject)
+            values[column.name] = empty(column) if value is None else value
         row: Self = made(**values)
         return row
 
@@ -179,13 +179,13 @@ def row(name: str = "", description: str = "", first: Sequence[str] = ()) -> Cal
         row_class: Any = dataclass(frozen=True, slots=True, kw_only=True)(cls)
         columns = []
         values = dict(described_values(row_class))
-        leading = [values.pop(each) for each in first]
-        following = sorted(values.values(), key=lambda each: each.more["last"])
-        for each in (*leading, *following):
-            ends = (unit for end, unit in _UNITS.items() if each.name.endswith(f"_{end}"))
-            columns.append(replace(each, unit=each.unit or next(ends, "")))
+        leading = [values.pop(attribute) for attribute in first]
+        following = sorted(values.values(), key=lambda column: column.more["last"])
+        for column in (*leading, *following):
+            ends = (unit for end, unit in _UNITS.items() if column.name.endswith(f"_{end}"))
+            columns.append(replace(column, unit=column.unit or next(ends, "")))
         summary = description or (cls.__doc__ or "").partition("\n")[0].rstrip(".")
-        kept = {each.name: each.metadata["kept"] for each in fields(row_class) if "kept" in each.metadata}
+        kept = {part.name: part.metadata["kept"] for part in fields(row_class) if "kept" in part.metadata}
         row_class.table = Table(name, summary, tuple(columns), kept)
         _check_subjects(row_class)
         result: type[R] = row_class
@@ -201,15 +201,15 @@ def _check_subjects(row_class: type[Row]) -> None:
     for base in getattr(row_class, "__orig_bases__", ()):
         for subject in get_args(base):
             subject = getattr(subject, "__bound__", subject)
-            for each in row_class.table.columns:
-                own = each.more.get("subject")
+            for column in row_class.table.columns:
+                own = column.more.get("subject")
                 if own is None or not issubclass(subject, own):
                     raise TypeError(
-                        f"{row_class.__name__}.{each.name} is not read from a {subject.__name__}."
+                        f"{row_class.__name__}.{column.name} is not read from a {subject.__name__}."
                     )
-                if each.more["may_lack"] and not each.optional and empty(each) is None:
+                if column.more["may_lack"] and not column.optional and empty(column) is None:
                     raise TypeError(
-                        f"{row_class.__name__}.{each.name} has no value where its part is missing."
+                        f"{row_class.__name__}.{column.name} has no value where its part is missing."
                     )
 
 
@@ -248,17 +248,17 @@ def unguarded(text: str) -> str:
     return text[1:] if text[:1] == "'" and _FORMULA.match(text) else text
 
 
-def value_of(each: Described, text: str) -> Any:
+def value_of(column: Described, text: str) -> Any:
     """The value of a cell. Raises ValueError with the column and what is allowed."""
-    holds = each.holds
-    if text == "" and (each.optional or holds is float):
-        return None if each.optional else math.nan
+    holds = column.holds
+    if text == "" and (column.optional or holds is float):
+        return None if column.optional else math.nan
     if holds is str:
         return unguarded(text)
     if holds is tuple:
         parts = unguarded(text).split("; ") if text else []
-        return tuple(typed(each.name, each.item, part) for part in parts)
-    return typed(each.name, holds, text)
+        return tuple(typed(column.name, column.item, part) for part in parts)
+    return typed(column.name, holds, text)
 
 
 def typed(name: str, kind: Any, text: str) -> Any:
@@ -404,7 +404,10 @@ def data_package(name: str, paths: Mapping[type[Row], str | list[str]]) -> bytes
             "path": path,
             "profile": "tabular-data-resource",
             "description": kind.table.description,
-            "schema": {"fields": [_field(each) for each in kind.table.columns], "missingValues": ["", "nan"]},
+            "schema": {
+                "fields": [_field(column) for column in kind.table.columns],
+                "missingValues": ["", "nan"],
+            },
         }
         for kind, path in paths.items()
     ]
@@ -429,25 +432,25 @@ def frame(
     """
     import pandas as pd  # here, because half the commands make no data frame and it takes half a second to import
 
-    chosen = [each for each in row_class.table.columns if columns is None or each.name in set(columns)]
-    names = [each.name for each in chosen]
+    chosen = [column for column in row_class.table.columns if columns is None or column.name in set(columns)]
+    names = [column.name for column in chosen]
     if isinstance(source, Path | str):
         rows = list(_read_values(row_class, Path(source), names))
     else:
         rows = [[getattr(row, name) for name in names] for row in source]
     table = pd.DataFrame(index=range(len(rows)))
-    for place, each in enumerate(chosen):
+    for place, column in enumerate(chosen):
         values = [row[place] for row in rows]
-        if each.holds is tuple:
+        if column.holds is tuple:
             values = ["; ".join(map(str, value)) for value in values]
         dtypes: dict[Any, Any] = {
             float: "float64",
             bool: "boolean",
-            int: "Int64" if each.optional else "int64",
+            int: "Int64" if column.optional else "int64",
         }
-        if issubclass(each.holds, StrEnum):
-            dtypes[each.holds] = pd.CategoricalDtype([choice.value for choice in each.holds])
-        table[each.name] = pd.Series(values, dtype=dtypes.get(each.holds, "str"))
+        if issubclass(column.holds, StrEnum):
+            dtypes[column.holds] = pd.CategoricalDtype([choice.value for choice in column.holds])
+        table[column.name] = pd.Series(values, dtype=dtypes.get(column.holds, "str"))
     return table
 
 

@@ -52,8 +52,10 @@ def workbook(
         sheet = _add_sheet(book, bold, kind, rows)
         if kind is opens_on:
             sheet.activate()
-        for each in kind.table.columns:
-            for place, text in enumerate((kind.table.name, _head(each), each.name, each.unit, each.meaning)):
+        for column in kind.table.columns:
+            for place, text in enumerate(
+                (kind.table.name, _head(column), column.name, column.unit, column.meaning)
+            ):
                 about.write_string(line, place, text)
             line += 1
     book.close()
@@ -68,13 +70,13 @@ def _head(column: Described) -> str:
 def _add_sheet(book: Any, bold: Any, kind: type[Row], rows: Sequence[Row]) -> Any:
     columns = kind.table.columns
     sheet = book.add_worksheet(kind.table.name[:31])
-    for place, each in enumerate(columns):
-        head = _head(each)
+    for place, column in enumerate(columns):
+        head = _head(column)
         sheet.write_string(0, place, head, bold)
         sheet.set_column(place, place, min(len(head) + 2, _WIDEST))
     sheet.freeze_panes(1, 1)
     for number, row in enumerate(rows, start=1):
-        _write_row(sheet, number, (getattr(row, each.name) for each in columns))
+        _write_row(sheet, number, (getattr(row, column.name) for column in columns))
     sheet.autofilter(0, 0, len(rows), len(columns) - 1)
     return sheet
 

@@ -54,7 +54,7 @@ def _stream(content: bytes, form: str, **options: Any) -> Any:
             raise RecordError.naming(
                 "format", form, f"damaged {form} file, {reason}; fetch it again."
             ) from error
-    messages = [first_line(each.message) for each in caught] + [first_line(line) for line in lines]
+    messages = [first_line(warning.message) for warning in caught] + [first_line(line) for line in lines]
     if form == "MSEED" and (damage := [text for text in messages if _DAMAGE.search(text)]):
         raise RecordError.naming("format", form, f"damaged {form} file, {damage[0]}; fetch it again.")
     samples = sum(trace.stats.npts for trace in result)

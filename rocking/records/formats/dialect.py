@@ -58,7 +58,9 @@ def _is_decimal_sign(sample: bytes) -> bool | None:
     first_line = next(line for line in lines if line.strip())
     counts = [row.split(",")[0] for row in rows]
     rise = (
-        np.diff([int(each) for each in counts]) if len(rows) > 2 and all(map(str.isdecimal, counts)) else [0]
+        np.diff([int(count) for count in counts])
+        if len(rows) > 2 and all(map(str.isdecimal, counts))
+        else [0]
     )
     rises_evenly = rise[0] > 0 and len(set(rise)) == 1  # as times do
     return False if rises_evenly or re.search(r"[A-Za-z]", first_line) else None

@@ -101,7 +101,7 @@ class ColumnLabel:
         if match := _BRACKETS.search(self.text):
             return acceleration_unit(match[1])
         found = (match[1] for pattern in _BARE_UNIT if (match := pattern.search(self.text)))
-        return next((unit for each in found if (unit := acceleration_unit(each))), None)
+        return next((unit for word in found if (unit := acceleration_unit(word))), None)
 
     @property
     def other(self) -> str:

@@ -55,7 +55,7 @@ class Column:
             return "-"
         if self.role == "open":
             return f"{OPEN} {self.unit}" if self.unit else OPEN
-        unit = next((f" {name}" for name, each in _TIMES.items() if each == self.seconds != 1.0), "")
+        unit = next((f" {name}" for name, seconds in _TIMES.items() if seconds == self.seconds != 1.0), "")
         if self.role == "time":
             return f"t{unit}"
         return f"{self.name or 'a'} {self.unit or OPEN}"
@@ -96,11 +96,11 @@ class TableLayout:
             raise RecordError.naming(
                 "answer", answer, f"no column of {answer!r} is of acceleration; answer like {_EXAMPLES}."
             )
-        if unit := [each for each in layout.columns if each.role == "acceleration"][-1].unit:
-            is_bare = [each.role == "acceleration" and not each.unit for each in layout.columns]
+        if unit := [column for column in layout.columns if column.role == "acceleration"][-1].unit:
+            is_bare = [column.role == "acceleration" and not column.unit for column in layout.columns]
             named = (
-                replace(each, unit=unit) if bare else each
-                for each, bare in zip(layout.columns, is_bare, strict=True)
+                replace(column, unit=unit) if bare else column
+                for column, bare in zip(layout.columns, is_bare, strict=True)
             )
             layout = replace(layout, columns=tuple(named))
         return layout
@@ -293,7 +293,7 @@ def families(questions: Iterable[tuple[str, Question]]) -> list[Family]:
             file, first = group[0]
             peaks = _range_of(group)
             signature = replace(first.signature, peaks=peaks)
-            told = first.holds + "; " + _counts(group, [each for each in groups if each is not group])
+            told = first.holds + "; " + _counts(group, [other for other in groups if other is not group])
             found.append(Family(tuple(name for name, _ in group), Question(signature, told, first.proposal)))
     return found
 
@@ -404,7 +404,7 @@ class Layouts:
 
         Raises RecordError where two lines answer otherwise.
         """
-        found = {each.text: each for each in self._matching(signature)}
+        found = {answer.text: answer for answer in self._matching(signature)}
         if len(found) > 1:
             first, second = list(found.values())[:2]
             raise RecordError.naming(

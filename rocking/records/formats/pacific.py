@@ -39,7 +39,7 @@ def _read_cwb(content: bytes, options: Options) -> list[Accelerogram]:
     facts = typed_magnitude(" ".join(scale + value for scale, value in scales))
     lines = (optional(rf"^.*MAX.*\b{label}\s*:(.*)", head) for label in labels)
     extremes = (re.findall(NUMBER, line, re.I) for line in lines)  # the greatest and the least
-    facts["peaks"] = [max((abs(float(each)) for each in two), default=None) for two in extremes]
+    facts["peaks"] = [max((abs(float(number)) for number in two), default=None) for two in extremes]
     facts["event_time"] = in_zone(_CWB.text("event_time", head), "+08:00")
     facts["event"] = facts["event_time"]
 

@@ -68,7 +68,7 @@ def _are_one(steps: Collection[float]) -> bool:
 
 def contradicts(steps: Collection[float], step: float) -> bool:
     """Whether none of `steps` [s], of which a page speaks, is `step`; False where it speaks of none."""
-    return bool(steps) and not any(_are_one((each, step)) for each in steps)
+    return bool(steps) and not any(_are_one((stated, step)) for stated in steps)
 
 
 OF_ACCELERATION = re.compile(r"(?i)(?<![a-z])(acc|acel|beschl|amplitud)")

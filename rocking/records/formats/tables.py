@@ -124,7 +124,9 @@ class NumberTable:
     def page(self, folder: str) -> Signature:
         """Return what its page has in common with tables for which the same answer holds; folder: in which it lies."""
         # The long numbers of a name that says nothing are those of a station or an event.
-        shapes = (each.text if each.is_known else re.sub(r"\d{3,}", "#", each.text) for each in self.labels)
+        shapes = (
+            label.text if label.is_known else re.sub(r"\d{3,}", "#", label.text) for label in self.labels
+        )
         above = dict.fromkeys(filter(None, map(meaning, (*self.remarks, *self.words))))
         words = " / ".join([*(["n, dt"] if self.counts else []), *above])
         names = plain(" | ".join(shapes)).lstrip("=+-@ ")
@@ -236,9 +238,10 @@ def _are_units(units: tuple[str, ...]) -> bool:
     bare = [unit.strip("()[] ") for unit in units]
     given = [ColumnLabel(f"({unit})") for unit in bare]
     are_all = all(
-        each.unit or each.is_time or each.other or not unit for each, unit in zip(given, bare, strict=True)
+        label.unit or label.is_time or label.other or not unit
+        for label, unit in zip(given, bare, strict=True)
     )
-    return are_all and any(each.unit for each in given)
+    return are_all and any(label.unit for label in given)
 
 
 _SPECTRAL = re.compile(r"(?i)\s*(period|freq(uency)?)\b.*|f(_hz)?|.*[(\[]\s*hz\s*[)\]]")
@@ -534,7 +537,7 @@ def _drawn(table: NumberTable, values: np.ndarray, is_parted: bool, declared: fl
     for place, label in enumerate(labels):
         if label.text == "T" and sum(times) > 1 and not _is_clock(rows[1:, place]):
             columns[place] = Column("acceleration", unit=said.unit)  # transverse
-        if _LETTER.fullmatch(label.text) and any(each.is_plain_acceleration for each in labels):
+        if _LETTER.fullmatch(label.text) and any(other.is_plain_acceleration for other in labels):
             columns[place] = Column(
                 "open", unit=said.unit
             )  # v and u beside "a" are of velocity and displacement
@@ -623,7 +626,7 @@ def _ask_where_open(
     accelerations = [column for column in drawn.columns if column.role == "acceleration"]
     has_step = bool(drawn.time_step or table.counts) or any(column.role == "time" for column in drawn.columns)
     is_complete = (
-        not open_ones and has_step and bool(table.labels) and all(each.unit for each in accelerations)
+        not open_ones and has_step and bool(table.labels) and all(column.unit for column in accelerations)
     )
     names = [table.labels[at] for at in open_ones if table.labels and table.labels[at].text]
     is_strange = any(name.is_strange or not options.unit for name in names)
@@ -790,7 +793,7 @@ def _channels(
     labels = table.labels if len(table.labels) == len(columns) else (ColumnLabel(""),) * len(columns)
     if "n" in above:
         text.whole(rows[:, 0], text.count("number of samples", f"{above['n']:g}"), per_line=0)
-    every = {at: rows[:, at] * each.seconds for at, each in enumerate(columns) if each.role == "time"}
+    every = {at: rows[:, at] * column.seconds for at, column in enumerate(columns) if column.role == "time"}
     repeats = () if every else _repeats(rows.ravel())
     records = []
     for place, (column, label) in enumerate(zip(columns, labels, strict=True)):

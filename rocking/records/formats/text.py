@@ -93,7 +93,7 @@ def check_plain(text: bytes) -> None:
     if not text.translate(None, b"-0123456789 \t\n\r"):  # of whole numbers obspy refuses what is none
         return
     # A dash of typography is named before numbers that merely touch, which is how some formats write.
-    for line, row in sorted(enumerate(lines(text), 1), key=lambda each: each[1].isascii()):
+    for line, row in sorted(enumerate(lines(text), 1), key=lambda numbered: numbered[1].isascii()):
         for token in row.split():
             if not is_number(token):
                 defect = f"line {line} of the samples holds {token[:40]!r}"
@@ -214,7 +214,7 @@ def even_step(times: np.ndarray) -> float | None:
         )
     off = np.abs(times - (times[0] + step * np.arange(times.size))).max()
     shifted = (times * 10.0**digits for digits in range(9))
-    digits = (n for n, each in enumerate(shifted) if np.allclose(each, np.round(each), 0, 1e-4))
+    digits = (n for n, scaled in enumerate(shifted) if np.allclose(scaled, np.round(scaled), 0, 1e-4))
     quantum = 10.0 ** -next(digits, 9)
     # Half a printed digit for the time itself, and as much for the line through the rounded first and last ones. A
     # digit as coarse as the step rounds nothing: a line that is missing would pass for rounding.
@@ -324,7 +324,7 @@ def iso_date(text: str) -> str:
     >>> iso_date("Mon Feb 13, 2012 13:06:45.0 PST"), iso_date("1/17/94, 12:31")
     ('2012-02-13T13:06:45-08:00', '1994-01-17T12:31')
     """
-    match = next((found for each in _SPELLINGS if (found := each.fullmatch(text))), None)
+    match = next((found for spelling in _SPELLINGS if (found := spelling.fullmatch(text))), None)
     if match is None:
         return text
     parts = match.groupdict()

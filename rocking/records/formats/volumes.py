@@ -118,7 +118,7 @@ def _reals(head: list[str]) -> list[float]:
             rows = head[i + 1 :][: text.count("real-header lines", match[2])]
             values = text.fields(rows, int(match[3]) or 1)
             if values.size == text.count("real-header values", match[1]) > _PEAK_TIME:
-                return [float(each) for each in values]
+                return [float(value) for value in values]
     raise RecordError.naming(
         "header",
         "reals",

@@ -212,7 +212,7 @@ def _earthquake(file: Any, name: str) -> dict[str, Any]:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             events = read_events(BytesIO(content), format="QUAKEML")
-        event = next(each for each in events if str(each.resource_id).endswith(name))
+        event = next(candidate for candidate in events if str(candidate.resource_id).endswith(name))
         origin = event.preferred_origin() or event.origins[0]
         magnitude = event.preferred_magnitude() or event.magnitudes[0]
     except Exception:  # obspy raises what it likes of what is not there
