@@ -25,7 +25,7 @@ EARTHQUAKES = (2, 4, 8, 16)
 STATIONS = (1, 3, 5)
 """Of each earthquake."""
 TRIALS = 300
-MEDIANS = 100
+MEDIANS = 40
 """Of these the ones with the interval of a median, which resamples."""
 SLOPE = 2.5
 """Of the logarithm of the hazard over that of the level, downwards."""
