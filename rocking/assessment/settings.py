@@ -21,9 +21,9 @@ class Heading(StrEnum):
     ENSEMBLE = "Ensemble: the uncertain inputs of a case vary within these ranges"
     DESIGN = "Design level, drawn beside the spectra of the records"
     CHECKS = (
-        "Checks of the Italian code at the design level, and the sets of records for them: rocking select"
+        "Checks of the Italian code at the design level, and the sets of records for them: rocking checks"
     )
-    FRAGILITY = "Fragility from all records of the study: snakemake fragility"
+    FRAGILITY = "Fragility from all records of the study: rocking fragility"
     TRADE = "Trade of error for time: rocking trade"
     OUTPUT = "Output"
 
