@@ -67,11 +67,11 @@ class RockingError(Exception):
         return error
 
     def __str__(self) -> str:
-        return self.beside("")
+        return self.without_place("")
 
-    def beside(self, place: str) -> str:
+    def without_place(self, place: str) -> str:
         """Return the sentence for where `place`, one of the places, already stands beside it."""
-        return ": ".join((*(each for each in self.places if each != place), super().__str__()))
+        return ": ".join((*(own for own in self.places if own != place), super().__str__()))
 
 
 class FaultError(RockingError):

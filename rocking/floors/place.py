@@ -189,9 +189,11 @@ def _modes(mapping: Mapping[str, Any]) -> list[dict[str, Any]]:
     if listed is None:
         mode = {key: mapping[key] for key in _MODE_KEYS if mapping.get(key) is not None}
         return [_complete(mode, _by_storeys(mapping))]
-    beside = sorted((_MODE_KEYS | _STOREY_KEYS) & set(mapping))
-    if beside:
-        raise ConfigurationError(f"a support is given {', '.join(beside)} beside modes; give one of the two.")
+    surplus = sorted((_MODE_KEYS | _STOREY_KEYS) & set(mapping))
+    if surplus:
+        raise ConfigurationError(
+            f"a support is given {', '.join(surplus)} beside modes; give one of the two."
+        )
     if not isinstance(listed, list) or not listed:
         raise ConfigurationError(f"modes is {listed!r}, but must be a list of at least one mode.")
     for mode in listed:

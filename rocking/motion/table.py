@@ -436,7 +436,7 @@ def _tabulated(side: Side, arc: Arc, inverse: RotationMap, last: float, apart: b
         grid=(split, *zones, 1 / widths[0], 1 / widths[1]),
         lift=lift,
         hold=_hold(gravity, side.ground, rotation_at, starts),
-        critical=_standing(gravity, rotation_at, critical) if apart else critical,
+        critical=_first_unrestored(gravity, rotation_at, critical) if apart else critical,
         end=end,
         rest_speed=_reaching_speed(side, rest) * runs.REST_ENERGY**0.5,
         longest_step=1 / np.sqrt(GRAVITY * max(steepest, lift[0] / critical)),
@@ -467,7 +467,7 @@ def _ties(side: Side, arc: Arc, powers: np.ndarray) -> Ties:
     return Ties(np.concatenate([pulls, stretch[:, 0]], axis=2), np.array(laws)[None])
 
 
-def _standing(gravity: Function, rotation: Function, critical: float) -> float:
+def _first_unrestored(gravity: Function, rotation: Function, critical: float) -> float:
     """An arc up to `critical` below which `gravity` restores."""
     arcs = np.linspace(0.0, critical, 513)
     falls = np.flatnonzero(gravity(rotation(arcs)) <= 0)

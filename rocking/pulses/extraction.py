@@ -211,11 +211,13 @@ class PulseSearch:
         """
         from rocking.pulses.scan import local_maxima
 
-        sought = self.frequencies if frequencies is None else frequencies
+        frequencies_searched = self.frequencies if frequencies is None else frequencies
         first, last, _ = onsets.indices(samples.size)
         begin = max(first - 1, 0)
-        met = samples[np.newaxis, begin : last + math.ceil(1 / (sought[0] * self.time_step)) + 2]
-        angles = 2 * np.pi * self.time_step * sought
+        met = samples[
+            np.newaxis, begin : last + math.ceil(1 / (frequencies_searched[0] * self.time_step)) + 2
+        ]
+        angles = 2 * np.pi * self.time_step * frequencies_searched
         places, gains = local_maxima(met, self.time_step, angles, first - begin, last - begin, share)
         large = gains >= share * gains.max(initial=0.0)
         return Maxima(places[large, 0] + begin, places[large, 1], gains[large])
@@ -227,8 +229,8 @@ class PulseSearch:
         onsets = slice(max(first, 0), min(last, samples.size))
         elsewhere = (maxima.onsets < onsets.start) | (maxima.onsets >= onsets.stop)
         kept = Maxima(*(values[elsewhere] for values in maxima))
-        sought = self.maxima(samples, onsets)
-        return Maxima(*(np.concatenate([old, new]) for old, new in zip(kept, sought, strict=True)))
+        added = self.maxima(samples, onsets)
+        return Maxima(*(np.concatenate([old, new]) for old, new in zip(kept, added, strict=True)))
 
     def ranked(self, samples: np.ndarray, maxima: Maxima) -> tuple[PulseEvidence, ...]:
         """Return the best pulses that do not cover one another, by refined gain."""
@@ -354,7 +356,7 @@ def _raised(
         PulseKind.PULSE_FILTERED: high_pass is not None and pulse.period > FILTERED_CYCLES / high_pass,
         PulseKind.PULSE_SYMMETRIC: equal and second is not None and _twin(pulse, second.pulse),
         PulseKind.PULSE_AT_BAND_LIMIT: not low * (1 + 1e-9) < frequency < high * (1 - 1e-9),
-        PulseKind.PULSE_BESIDE_GAP: (np.diff(changes).max(initial=1) - 1) * step > GAP_DURATION,
+        PulseKind.PULSE_NEXT_TO_GAP: (np.diff(changes).max(initial=1) - 1) * step > GAP_DURATION,
         PulseKind.PULSE_RECORD_SHORT: low > search.settings.lowest_frequency,
         PulseKind.PULSE_SAMPLING_COARSE: high < search.settings.highest_frequency,
     }

@@ -39,7 +39,7 @@ class PulseKind(Kind):
         "Il campionamento è troppo rado per la frequenza superiore; i periodi più brevi sono stati "
         "tralasciati.",
     )
-    PULSE_BESIDE_GAP = auto(), Sentence(
+    PULSE_NEXT_TO_GAP = auto(), Sentence(
         "The record holds a run of identical samples longer than a second, which may be a gap that was "
         "filled.",
         "La registrazione contiene una serie di campioni uguali più lunga di un secondo, che può essere una "

@@ -31,8 +31,8 @@ _HASH = re.compile(r"[0-9a-f]{64}")
 _COMMIT = re.compile(r"[0-9a-f]{40}")
 _REPOSITORY = re.compile(r"(?!\.+/)[\w.-]+/(?!\.+$)[\w.-]+", re.ASCII)
 _PROSE = ("event", "station", "licence", "note")
-_MOST_TOLD = 40
-"""Defects of a catalogue that are told; the others are counted."""
+_MOST_NAMED = 40
+"""Defects of a catalogue that are named; the others are counted."""
 
 
 @dataclass(frozen=True)
@@ -228,22 +228,22 @@ def load_catalogue(path: str | Path) -> tuple[CatalogueRecord, ...]:
     path = Path(path)
     rows = read_rows(path)
     records = []
-    told: dict[str, list[str]] = {}
+    lines_of: dict[str, list[str]] = {}
     for line, row in rows:
         try:
             records.append(record_of_row(row, path.parent))
         except RockingError as error:
-            told.setdefault(str(error), []).append(f"line {line} ({row.get('id') or 'no id'})")
-    defects = [f"{few(places)}: {defect}" for defect, places in told.items()]
+            lines_of.setdefault(str(error), []).append(f"line {line} ({row.get('id') or 'no id'})")
+    defects = [f"{few(places)}: {defect}" for defect, places in lines_of.items()]
     counts = Counter(row["id"].strip().lower() for _, row in rows if row["id"].strip())
     twice = [(name, n) for name, n in counts.items() if n > 1]
     defects += [f"id {shown(name)} stands {n} times (upper and lower case count as one)" for name, n in twice]
     if defects:
         number = "a defect" if len(defects) == 1 else f"{len(defects)} defects"
-        rest = len(defects) - _MOST_TOLD
+        rest = len(defects) - _MOST_NAMED
         more = [f"and {rest} more"] if rest > 0 else []
         raise CatalogueError.naming(
-            "catalogue", defects, f"{path.name} has {number}: " + " | ".join([*defects[:_MOST_TOLD], *more])
+            "catalogue", defects, f"{path.name} has {number}: " + " | ".join([*defects[:_MOST_NAMED], *more])
         )
     return tuple(records)
 
@@ -255,7 +255,7 @@ def few(names: Sequence[str]) -> str:
 
 
 _NAMED = 3
-"""Names that are told of those that share a sentence."""
+"""Names that are given of those that share a sentence."""
 
 
 def read_rows(path: Path) -> list[tuple[int, dict[str, str]]]:

@@ -45,7 +45,7 @@ LARGEST_LEVEL = 3 * GRAVITY
 """m/s²; a design level above it is a number in another unit."""
 
 _LARGEST_FILE = 2**20
-_SOUGHT = 401
+_PERIODS_TRIED = 401
 """Periods at which the largest displacement of a spectrum by its points is sought, beside the points."""
 _ACCELERATIONS = {"acceleration_m_s2": 1.0, "acceleration_g": GRAVITY}
 
@@ -326,7 +326,7 @@ class PointSpectrum(DesignSpectrum):
         """Return that among many periods and the points within the range; it is in proportion to the level."""
         ends = self._checked(longest)
         begins = np.minimum(shortest, ends)
-        even = np.linspace(begins, ends, _SOUGHT, axis=-1)
+        even = np.linspace(begins, ends, _PERIODS_TRIED, axis=-1)
         points = np.clip(np.array(self.periods), begins[..., None], ends[..., None])
         periods = np.concatenate([even, points], axis=-1)
         shapes = self.ordinates(periods, self.level, damping) / self.level * (periods / (2 * math.pi)) ** 2

@@ -42,7 +42,7 @@ def path_of(record: CatalogueRecord, file: RecordFile, mirror: str | Path | None
             raise RecordError.naming(
                 "file", record.example_name, f"obspy installs no example file {record.example_name!r}."
             ) from None
-    if path := beside_catalogue(record, file.name, mirror):
+    if path := in_catalogue_folder(record, file.name, mirror):
         return path
     if record.is_remote:
         source = record.source_repository, record.source_commit, file.source_path
@@ -61,16 +61,16 @@ def local_files(record: CatalogueRecord, mirror: str | Path | None = None) -> li
     """
     own = [] if record.example_name else [file.name for file in record.files]
     paths: list[Path] = []
-    beside: list[Path] = []
+    inventories: list[Path] = []
     for name in filter(None, [*own, record.inventory]):
         with suppress(RecordError):
-            paths += filter(None, [beside_catalogue(record, name, mirror)])
+            paths += filter(None, [in_catalogue_folder(record, name, mirror)])
     paths = list(dict.fromkeys(archive_of(path) or path for path in paths))
     for path in () if record.inventory or record.unit else paths:
         head = read_start(path, 1024)
         if head.startswith(b"\x1f\x8b") or may_be_counts(head):
-            beside += sorted(path.parent.glob("*.xml"))
-    return paths + beside
+            inventories += sorted(path.parent.glob("*.xml"))
+    return paths + inventories
 
 
 def files_by_name(record: CatalogueRecord) -> dict[str, str]:
@@ -99,7 +99,7 @@ def answers_of(record: CatalogueRecord, mirror: str | Path | None = None) -> dic
     answers = {}
     for file in record.files if layouts.are_answered else ():
         with suppress(RecordError):
-            if path := beside_catalogue(record, file.name, mirror):
+            if path := in_catalogue_folder(record, file.name, mirror):
                 place = PurePosixPath(file.name).parent.as_posix()
                 answers[file.name] = layouts.text_of(
                     signature_in(bytes_of(path), path.name, place if place != "." else "")
@@ -107,7 +107,7 @@ def answers_of(record: CatalogueRecord, mirror: str | Path | None = None) -> dic
     return {f"{NAME} of {name}": sha256_of_bytes(text.encode()) for name, text in answers.items() if text}
 
 
-def beside_catalogue(record: CatalogueRecord, file: str, mirror: str | Path | None) -> Path | None:
+def in_catalogue_folder(record: CatalogueRecord, file: str, mirror: str | Path | None) -> Path | None:
     """Return `file` in the mirror or the catalogue's folder, None where neither holds it.
 
     Raises RecordError for a link that leads out of them.

@@ -37,14 +37,14 @@ _FORMULA = "=+-@"  # signs that make a spreadsheet compute what comes after them
 class FolderCatalogue:
     """The rows that a folder of files gives for its catalogue.
 
-    files: every file, in the order of names. standing: the rows that the catalogue holds already, with the new names of
+    files: every file, in the order of names. existing: the rows that the catalogue holds already, with the new names of
     files that were renamed, and without the request to fill in what was typed. new: the rows of the other files.
     remarks: what there is to say beyond the files. layouts: the text of layouts.csv with the questions that are new,
     None where none is.
     """
 
     files: list[ListedFile]
-    standing: list[Row]
+    existing: list[Row]
     new: list[Row]
     remarks: tuple[Remark, ...] = ()
     layouts: str | None = None
@@ -68,12 +68,12 @@ def catalogue_of_folder(
     folder: str | Path,
     *,
     declared: Mapping[str, str | float | None] = NOTHING_DECLARED,
-    standing: Iterable[Mapping[str, str]] = (),
+    existing: Iterable[Mapping[str, str]] = (),
     keeps_readings: bool = False,
     answers: Path | None = None,
     watched: Callable[[Sequence[Path]], Iterable[Path]] = iter,
 ) -> FolderCatalogue:
-    """Return the catalogue of the files under `folder`: its `standing` rows, and new ones for files that none names.
+    """Return the catalogue of the files under `folder`: its `existing` rows, and new ones for files that none names.
 
     Files of one event, station and start share a row, the vertical component among them. declared: unit and time_step
     [s], used only where neither a file nor its row declares them. keeps_readings: whether what was read of each file is
@@ -86,7 +86,7 @@ def catalogue_of_folder(
         raise RecordError.naming(
             "folder", folder, f"{folder}: this is no folder; give the folder that holds the records."
         )
-    rows = [dict(row) for row in standing]
+    rows = [dict(row) for row in existing]
     rows_of = {_bare(name): row for row in rows for name in row["file"].split(";")}
     layouts = Layouts(answers or folder)
     readings = Readings(folder, layouts, is_kept=keeps_readings)

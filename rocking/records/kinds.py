@@ -258,7 +258,7 @@ class RecordKind(Kind):
         "gmprocess rejects this record: {reason}; check whether it can be used.",
         "gmprocess scarta questa registrazione: {reason}; verificare se è utilizzabile.",
     )
-    TOLD_BY_OBSPY = auto(), Sentence("obspy: {text}.", "obspy: {text}.")
+    WARNING_OF_OBSPY = auto(), Sentence("obspy: {text}.", "obspy: {text}.")
 
     # Where a component points, and where its instrument stood.
     DIRECTION_UNKNOWN = auto(), Sentence(

@@ -152,15 +152,15 @@ def _read_for_listing(
         except UndeclaredError as error:
             question = question or (error.question if isinstance(error, AskedError) else None)
             if error.field in missing or error.field not in CELLS:
-                refusal = printable(error.beside(printable(path.name)))
+                refusal = printable(error.without_place(printable(path.name)))
                 return Reading(sha256, refusal=refusal, question=question)
             missing = (*missing, error.field)
             asked = asked or error
         except RecordError as error:
             # A unit that stood in for one that nobody declared is no reason to refuse: what is missing is.
             stood_in = asked is not None and not all(declared[name] for name in missing)
-            told = asked if asked is not None and stood_in else error
-            return Reading(sha256, refusal=printable(told.beside(printable(path.name))))
+            reason = asked if asked is not None and stood_in else error
+            return Reading(sha256, refusal=printable(reason.without_place(printable(path.name))))
     is_known = all(declared[name] for name in missing)
     is_unit_known = "unit" not in missing or bool(declared["unit"])
     remarks = list(_doubts_of(channels, () if is_unit_known else _OF_UNIT))

@@ -45,8 +45,8 @@ def from_traces(
     for trace in traces:
         with about(trace.id):
             records.append(_from_trace(trace, inventory, unit, response, calibration))
-    told = tuple(_unlike(records))
-    return [record.warned(*told) for record in records]
+    remarks = tuple(_unlike(records))
+    return [record.warned(*remarks) for record in records]
 
 
 def _unlike(records: list[Accelerogram]) -> Iterator[Remark]:

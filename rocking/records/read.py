@@ -230,7 +230,7 @@ def bare_text(content: bytes) -> bytes:
 
 
 _BY_OBSPY = "Or: rocking.from_obspy(obspy.read(path), unit=...)"
-_TOLD = tuple((re.compile(pattern, re.I), sentence) for pattern, sentence in (
+_OTHER_KINDS = tuple((re.compile(pattern, re.I), sentence) for pattern, sentence in (
     (rb"PK\x03\x04", "this is a zip archive; call it .zip, or unpack it."),
     (rb"(.|\n){257}ustar", "this is a tar archive; call it .tar, or unpack it."),
     (rb"BZh|\xfd7zXZ\0", "this is a packed file of bzip2 or xz; unpack it."),
@@ -274,7 +274,7 @@ def recognise(content: bytes) -> Format:
             "format", "pickle", "this is a pickled Python object, which could run code; it is never opened."
         )
     forms = [form for form in FORMATS if not form.yields and form.recognise(content)]
-    for pattern, sentence in _TOLD if not forms else ():
+    for pattern, sentence in _OTHER_KINDS if not forms else ():
         if pattern.match(content[:400]):
             raise UnknownFormatError.naming("format", content[:8], sentence)
     # Bare numbers last: what stands above them, and how, takes longer than all the other first lines together.

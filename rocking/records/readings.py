@@ -43,7 +43,7 @@ class Readings:
         self._is_kept = is_kept
         self._before: dict[str, Reading] = {}
         self._now: dict[str, Reading] = {}
-        self._beside: dict[Path, str] = {}
+        self._inventory_hashes: dict[Path, str] = {}
         self.remark: Remark | None = None
         if is_kept and self._store.exists():
             try:
@@ -57,11 +57,11 @@ class Readings:
         try:
             raw = bytes_of(path)
         except RecordError as error:
-            return Reading("", refusal=printable(error.beside(printable(path.name))))
+            return Reading("", refusal=printable(error.without_place(printable(path.name))))
         sha256 = sha256_of_bytes(raw)
         unit = declared["unit"]
         time_step = declared["time_step"]
-        key = json.dumps([sha256, printable(path.name), unit, time_step, self._metadata_beside(path.parent)])
+        key = json.dumps([sha256, printable(path.name), unit, time_step, self._inventory_hash(path.parent)])
         layouts = self._layouts.at(path.parent.relative_to(self._folder).as_posix())
         reading = self._before.get(key)
         if (
@@ -85,7 +85,7 @@ class Readings:
     def kept_of(self, path: Path) -> list[Reading]:
         """Return what is kept of the file at `path` as it stands and is answered, by whatever was declared of it."""
         sha256 = sha256_of_bytes(bytes_of(path))
-        own = (printable(path.name), self._metadata_beside(path.parent))
+        own = (printable(path.name), self._inventory_hash(path.parent))
         layouts = self._layouts.at(path.parent.relative_to(self._folder).as_posix())
         kept = []
         for key, reading in self._before.items():
@@ -94,12 +94,12 @@ class Readings:
                 kept += [reading] if (name, metadata) == own else []
         return kept
 
-    def _metadata_beside(self, folder: Path) -> str:
+    def _inventory_hash(self, folder: Path) -> str:
         """Return a hash of the StationXML files of a folder, by which counts of the other files are read."""
-        if folder not in self._beside:
+        if folder not in self._inventory_hashes:
             hashes = [_hash_of(path).encode() for path in sorted(folder.glob("*.xml"))]
-            self._beside[folder] = sha256_of_bytes(*hashes)
-        return self._beside[folder]
+            self._inventory_hashes[folder] = sha256_of_bytes(*hashes)
+        return self._inventory_hashes[folder]
 
     def save(self) -> None:
         """Keep the readings that were asked for, where the folder can be written in."""

@@ -77,13 +77,17 @@ class _Earthquake:
         # A day before a year: an hour stands beside it, KOBE 01/16/95 2046.
         short = re.search(r"\b\d{1,2}/\d{1,2}/(\d\d)\b", event)
         year = re.search(r"\b(1[89]\d\d|20\d\d)(?!\d)", event)
-        told = int(year[1]) if year else None
+        stated_year = int(year[1]) if year else None
         if short:
-            told = int(short[1]) + (1900 if int(short[1]) > 30 else 2000)
-        if told is None and instant is not None:
-            told = datetime.fromtimestamp(instant, UTC).year
+            stated_year = int(short[1]) + (1900 if int(short[1]) > 30 else 2000)
+        if stated_year is None and instant is not None:
+            stated_year = datetime.fromtimestamp(instant, UTC).year
         return cls(
-            stem, ((number[1] or number[2]).lstrip("0") or "0") if number else "", told, instant, has_hour
+            stem,
+            ((number[1] or number[2]).lstrip("0") or "0") if number else "",
+            stated_year,
+            instant,
+            has_hour,
         )
 
     def is_of(self, other: "_Earthquake") -> bool:
@@ -122,20 +126,20 @@ def earthquakes_of(records: Iterable[Recorded]) -> list[str]:
     Names are alike in their first four letters where neither number, year nor day says otherwise, and whatever they
     are where both say one time to five minutes.
     """
-    told: list[tuple[_Earthquake, str]] = []
+    known: list[tuple[_Earthquake, str]] = []
     named = []
     for record in records:
         if not (record.event.strip() or record.event_time.strip()):
             named.append("")
             continue
         own = _Earthquake.named(record.event, record.event_time)
-        name = next((name for earlier, name in told if own.is_of(earlier)), None)
+        name = next((name for earlier, name in known if own.is_of(earlier)), None)
         if name is None:
             name = record.event.strip() or record.event_time.strip()
-            taken = {name for _, name in told}
+            taken = {name for _, name in known}
             if name in taken:  # one name for two earthquakes of other days
                 name = f"{name}, {record.event_time.strip() or len(taken)}"
-        told.append((own, name))
+        known.append((own, name))
         named.append(name)
     return named
 
@@ -149,14 +153,14 @@ def stations_of(
     Catalogues differ in how much they add to a name: those of one earthquake are one station whose words begin alike,
     as far as the shorter name goes.
     """
-    told: dict[str, list[tuple[list[str], str]]] = {}
+    known: dict[str, list[tuple[list[str], str]]] = {}
     named = []
     for place, (record, earthquake) in enumerate(zip(records, earthquakes, strict=True)):
         words = re.findall(r"\w+", record.station.lower())
         if not words:
             named.append(rows[place] if rows is not None else f"record {place}")
             continue
-        earlier = told.setdefault(earthquake, [])
+        earlier = known.setdefault(earthquake, [])
         alike = (name for of_station, name in earlier if _begin_alike(of_station, words))
         name = next(alike, f"{record.event}; {record.station}")
         earlier.append((words, name))

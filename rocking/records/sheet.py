@@ -52,11 +52,11 @@ def table_of_workbook(raw: bytes) -> bytes:
         ) from error
     named = {title: table for title, table in tables.items() if table}
     if len(named) != 1:
-        held = f"the sheets {', '.join(named)} hold" if named else "no sheet of the workbook holds"
+        what = f"the sheets {', '.join(named)} hold" if named else "no sheet of the workbook holds"
         raise RecordError.naming(
             "sheets",
             tuple(named),
-            f"{held} times and accelerations with their units in names above them; {_ADVICE}.",
+            f"{what} times and accelerations with their units in names above them; {_ADVICE}.",
         )
     return next(iter(named.values()))
 
@@ -81,10 +81,10 @@ def _written(names: list[str], places: list[int], rows: list[tuple[Any, ...]]) -
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow([names[place].replace(",", " ") for place in places])
     every = ([row[place] if place < len(row) else None for place in places] for row in rows)
-    held = [
+    kept = [
         ["" if cell is None else cell for cell in cells]
         for cells in every
         if any(c is not None for c in cells)
     ]
-    writer.writerows(held)
-    return text.getvalue().encode() if len(held) >= _FEWEST else b""
+    writer.writerows(kept)
+    return text.getvalue().encode() if len(kept) >= _FEWEST else b""

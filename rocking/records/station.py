@@ -17,7 +17,7 @@ from rocking.records.direction import (
     vertical_doubt,
 )
 from rocking.records.doors import through
-from rocking.records.files import beside_catalogue, path_of
+from rocking.records.files import in_catalogue_folder, path_of
 from rocking.records.formats import Options
 from rocking.records.formats.layouts import Layouts
 from rocking.records.joining import joined
@@ -44,7 +44,7 @@ def open_station(record: CatalogueRecord, mirror: str | Path | None = None) -> S
     and file.
     """
     with about(record.id):
-        inventory = beside_catalogue(record, record.inventory, mirror) if record.inventory else None
+        inventory = in_catalogue_folder(record, record.inventory, mirror) if record.inventory else None
         if record.inventory and inventory is None:
             raise RecordError.naming(
                 "inventory",
@@ -99,10 +99,10 @@ def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sta
         if doubt := pair_doubt(horizontal):
             horizontal = [channel.warned(doubt) for channel in horizontal]
         declared = [_as_declared(channel, record) for channel in horizontal]
-        beside = None if vertical is None else _as_declared(vertical, record)
+        upright = None if vertical is None else _as_declared(vertical, record)
         if record.scale_to:
-            declared, beside = scaled_to(ScalingTarget.parse(record.scale_to), declared, beside)
-        return Station(tuple(declared), beside)
+            declared, upright = scaled_to(ScalingTarget.parse(record.scale_to), declared, upright)
+        return Station(tuple(declared), upright)
 
 
 def _named_by_row(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sequence[Accelerogram]:
@@ -143,9 +143,9 @@ def _horizontal(
     surface = named or [channel for channel in channels if not channel.borehole]
     horizontal = [channel for channel in surface if channel is not vertical and not channel.vertical]
     if not horizontal:
-        held = _listed(channels)
+        names = _listed(channels)
         raise RecordError.naming(
-            "component", held, f"the file holds no horizontal component, only {held}; name one."
+            "component", names, f"the file holds no horizontal component, only {names}; name one."
         )
     return horizontal
 

@@ -301,7 +301,7 @@ def steps_of(record: CatalogueRecord, job: Job) -> Iterator[Steps]:
     except RockingError as error:
         if steps.is_read:
             raise
-        failure = Failure("read", error.beside(record.id))
+        failure = Failure("read", error.without_place(record.id))
     except (OSError, MemoryError):
         raise
     except Exception as fault:
@@ -399,7 +399,7 @@ def assess_catalogued(
         with clock.stage("read"):
             horizontal, vertical = opened or study.open(record)
     except RockingError as error:
-        unread = Failure("read", error.beside(record.id))
+        unread = Failure("read", error.without_place(record.id))
         return RecordResult(record=record.id, failures=(("", unread),), durations=dict(clock.durations))
     return study.assessor(store, clock).assess(record.id, horizontal, study.scenes, vertical)
 

@@ -52,11 +52,11 @@ def write_catalogue(folder: Path, target: Path, unit: str | None, time_step: flo
     layout. Raises RecordError, and writes nothing, when no file could be read, and
     CatalogueError when `target` is no catalogue.
     """
-    standing = [row for _, row in read_rows(target)] if target.exists() else []
+    existing = [row for _, row in read_rows(target)] if target.exists() else []
     found = catalogue_of_folder(
         folder,
         declared={"unit": unit, "time_step": time_step},
-        standing=standing,
+        existing=existing,
         keeps_readings=True,
         answers=target.parent,
         watched=partial(bar, what="file"),
@@ -70,19 +70,19 @@ def write_catalogue(folder: Path, target: Path, unit: str | None, time_step: flo
     )
     if found.layouts is not None:
         write_whole(target.with_name(NAME), found.layouts.encode())
-    if not rows and not standing and asked:
+    if not rows and not existing and asked:
         return listing_text(files) + "\n".join(["", *asked])
-    if not rows and not standing:
+    if not rows and not existing:
         reasons = "; ".join(f"{file.file}: {file.refusal}" for file in files) or "it holds no file"
         raise RecordError(f"{folder}: no accelerogram was read ({reasons}).")
-    if rows or found.standing != standing:
-        columns = dict.fromkeys(chain(standing[0] if standing else COLUMNS, *rows))
-        write_whole(target, catalogue_text([*found.standing, *rows], list(columns), target).encode())
+    if rows or found.existing != existing:
+        columns = dict.fromkeys(chain(existing[0] if existing else COLUMNS, *rows))
+        write_whole(target, catalogue_text([*found.existing, *rows], list(columns), target).encode())
     records = {file.record for file in files}
     of_folder = (
-        each for each in found.standing if not (each.get("source_repository") or "obspy:" in each["file"])
+        each for each in found.existing if not (each.get("source_repository") or "obspy:" in each["file"])
     )
     note = "{}: its row stays in the catalogue, but its file is not there; remove the row or add the file."
     lost = [note.format(each["id"]) for each in of_folder if each["id"] not in records]
-    count = f"{target}: {counted(len(standing) + len(rows), 'record')}, {len(rows)} of them new"
+    count = f"{target}: {counted(len(existing) + len(rows), 'record')}, {len(rows)} of them new"
     return listing_text(files) + "\n".join(["", *map(str, found.remarks), *lost, *asked, count])

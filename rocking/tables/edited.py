@@ -13,7 +13,7 @@ from rocking.tables.files import read_start, read_whole
 
 _LARGEST = 16 * 2**20
 """Bytes: a hundred thousand rows."""
-_MOST_TOLD = 40
+_MOST_NAMED = 40
 """Columns that a sentence names, and characters of a name that is compared with them."""
 
 
@@ -47,7 +47,7 @@ def read_edited(
         if row.get("")
     ]
     if defects:
-        allowed = f"; the columns are {', '.join(columns)}" if len(columns) <= _MOST_TOLD else ""
+        allowed = f"; the columns are {', '.join(columns)}" if len(columns) <= _MOST_NAMED else ""
         raise error.naming("columns", defects, f"{path.name}: {'; '.join(defects)}{allowed}.")
     if separator == ";":
         for _, row in rows:
@@ -56,7 +56,7 @@ def read_edited(
 
 
 def _unknown(name: str, columns: Sequence[str]) -> str:
-    near = get_close_matches(name[:_MOST_TOLD], columns, n=1)
+    near = get_close_matches(name[:_MOST_NAMED], columns, n=1)
     return f"column {shown(name)} is not known ({f'did you mean {near[0]}?' if near else 'remove it'})"
 
 

@@ -14,8 +14,8 @@ def test_the_places_of_an_error_stand_before_its_sentence_and_no_place_is_read_o
         raise RecordError("one: is no number.")
     error = caught.value
     assert str(error) == "one: a: b.AT2: one: is no number."
-    assert error.beside("one") == "a: b.AT2: one: is no number."
-    assert error.beside("a") == str(error)
+    assert error.without_place("one") == "a: b.AT2: one: is no number."
+    assert error.without_place("a") == str(error)
 
 
 def test_an_error_keeps_its_places_from_one_process_to_another():

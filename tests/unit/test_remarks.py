@@ -34,7 +34,7 @@ def test_every_sentence_is_filled_by_its_values_alone(kind):
     said = {remark.sentence_in(language) for language in get_args(Language)}
     assert all(text and "{" not in text for text in said)
     # What another program says is repeated as it says it.
-    assert len(said) == len(get_args(Language)) or kind is RecordKind.TOLD_BY_OBSPY
+    assert len(said) == len(get_args(Language)) or kind is RecordKind.WARNING_OF_OBSPY
 
 
 def test_a_sentence_without_one_of_the_languages_cannot_be_made():

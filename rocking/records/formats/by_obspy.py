@@ -66,7 +66,7 @@ def _stream(content: bytes, form: str, **options: Any) -> Any:
             samples,
             f"the file unpacks to {samples} samples, more than {LARGEST_SERIES}; cut it first.",
         )
-    notes += [Remark.of(RecordKind.TOLD_BY_OBSPY, text=text) for text in messages]
+    notes += [Remark.of(RecordKind.WARNING_OF_OBSPY, text=text) for text in messages]
     for _, station, _, channel, _, begin, length, _ in result.get_gaps():
         if length < 0:
             of = f"{station} {channel}"
@@ -325,13 +325,13 @@ def _check_lists(content: bytes, is_of_pairs: bool) -> None:
     for declared, body in zip(heads, bodies, strict=True):
         numbers = re.sub(rb"(?m)^[ \t]*\S+", b"", body) if is_of_pairs else body
         text.check_plain(numbers)
-        held = len(numbers.split())
-        if held != declared:
+        found = len(numbers.split())
+        if found != declared:
             raise RecordError.naming(
                 "samples",
-                held,
-                f"a head declares {declared} samples, but {held} stand below it: the file is cut or damaged; fetch the "
-                "whole file.",
+                found,
+                f"a head declares {declared} samples, but {found} stand below it: the file is cut or damaged; fetch "
+                "the whole file.",
             )
 
 

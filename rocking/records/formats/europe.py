@@ -114,9 +114,9 @@ def _read_esd(content: bytes, options: Options) -> list[Accelerogram]:
     sections = [rows[begin:end] for begin, end in zip(begins, ends, strict=True)]
     of_motion = [lines for lines in sections if re.match(r"\s*-> *corrected acc", lines[0], re.I)]
     if len(of_motion) != 1:
-        held = ", ".join(lines[0].strip(" \t->")[:40] for lines in sections)
+        titles = ", ".join(lines[0].strip(" \t->")[:40] for lines in sections)
         raise RecordError.naming(
-            "quantity", held, f"the file holds {held}; use the file of corrected acceleration (.cor)."
+            "quantity", titles, f"the file holds {titles}; use the file of corrected acceleration (.cor)."
         )
     (title, *numbers) = of_motion[0]
     start = _ESD_START.search(head)

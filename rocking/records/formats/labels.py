@@ -47,7 +47,7 @@ _MULTIPLIED = re.compile(
 """A power of ten by which a label says that its numbers are multiplied."""
 _PARTS = re.compile(r"[\s_.,:;()\[\]]+|(?<=[a-z])(?=[A-Z])|成分|方向")
 """The places at which the words of a label part."""
-_BESIDE_DIRECTION = re.compile(
+_NO_DIRECTION = re.compile(
     r"(?i)linear|ground|input|raw|corr(ected)?|(un)?filt(ered)?|acc\w*|acel\w*|beschl\w*|ivme\w*|comp\w*|dir\w*|"
     r"axis|eje|ch(an(nel)?)?\d{0,2}|canal|kanal|\d{1,2}|g|a"
 )
@@ -165,7 +165,7 @@ class ColumnLabel:
             return (
                 ColumnLabel(before.rstrip(".")).is_plain_acceleration and Direction.of(brackets[1]).is_known
             )
-        is_named = any(not _BESIDE_DIRECTION.fullmatch(word) for word in _PARTS.split(before) if word)
+        is_named = any(not _NO_DIRECTION.fullmatch(word) for word in _PARTS.split(before) if word)
         return not is_named and Direction.of(brackets[1]).is_known
 
 
@@ -175,8 +175,8 @@ def _only_direction(name: str) -> str:
         return ""
     words = [_LEADING.sub("", word.strip("-")) for word in _PARTS.split(name)]
     words = [part for word in words for part in ([word] if _points(word) else word.split("-"))]
-    told = [word for word in words if word and not _BESIDE_DIRECTION.fullmatch(word)]
-    return told[0] if len(told) == 1 and _points(told[0]) else ""
+    directions = [word for word in words if word and not _NO_DIRECTION.fullmatch(word)]
+    return directions[0] if len(directions) == 1 and _points(directions[0]) else ""
 
 
 def _points(word: str) -> bool:

@@ -105,15 +105,15 @@ class TableLayout:
             layout = replace(layout, columns=tuple(named))
         return layout
 
-    def proposal(self, has_step: bool, told: Sequence[float] = ()) -> str:
+    def proposal(self, has_step: bool, steps: Sequence[float] = ()) -> str:
         """Return it as an answer that a person completes; has_step: whether something else says the time step.
 
-        told: the steps [s] that the text of the file speaks of, of which the only one is proposed. Where nothing in it
+        steps: the steps [s] that the text of the file speaks of, of which the only one is proposed. Where nothing in it
         is open, it begins with the sign for what is: to take that away is the answer.
         """
         is_timed = any(column.role == "time" for column in self.columns) or {"dt", "hz"} & set(self.above)
         has_step = has_step or bool(self.time_step) or bool(is_timed)
-        step = f", dt {told[0]:g}" if len(told) == 1 else f", dt {OPEN}"
+        step = f", dt {steps[0]:g}" if len(steps) == 1 else f", dt {OPEN}"
         answer = str(replace(self, time_step=None)) + ("" if has_step else step)
         return answer if OPEN in answer else f"{OPEN} {answer}"
 
@@ -293,8 +293,8 @@ def families(questions: Iterable[tuple[str, Question]]) -> list[Family]:
             file, first = group[0]
             peaks = _range_of(group)
             signature = replace(first.signature, peaks=peaks)
-            told = first.holds + "; " + _counts(group, [other for other in groups if other is not group])
-            found.append(Family(tuple(name for name, _ in group), Question(signature, told, first.proposal)))
+            holds = first.holds + "; " + _counts(group, [other for other in groups if other is not group])
+            found.append(Family(tuple(name for name, _ in group), Question(signature, holds, first.proposal)))
     return found
 
 
@@ -320,11 +320,11 @@ def _range_of(group: Sequence[tuple[str, Question]]) -> str:
 def _counts(group: Sequence[tuple[str, Question]], others: Sequence[Sequence[tuple[str, Question]]]) -> str:
     """Return how many files there are of a family, and where their peaks lie beside those of the other families."""
     count = sum(map(len, others)) + len(group)
-    told = counted(count, "file") if not others else f"{len(group)} of {count} files"
+    how_many = counted(count, "file") if not others else f"{len(group)} of {count} files"
     if peaks := _range_of(group):
-        told += f" with peaks {peaks.replace('..', '–')}"
+        how_many += f" with peaks {peaks.replace('..', '–')}"
     kept = [f"{len(other)} of {peaks.replace('..', '–')}" for other in others if (peaks := _range_of(other))]
-    return told + (f" (the others: {', '.join(kept)})" if kept else "")
+    return how_many + (f" (the others: {', '.join(kept)})" if kept else "")
 
 
 class AskedError(UndeclaredError):
@@ -437,7 +437,7 @@ class Layouts:
 
         questions: with the file that each is drawn from.
         """
-        held = [Signature.of_row(row) for _, row in self.rows]
+        present = [Signature.of_row(row) for _, row in self.rows]
         new = [
             {
                 "answer": family.question.proposal,
@@ -448,7 +448,7 @@ class Layouts:
             for family in families(
                 (file, question)
                 for file, question in questions
-                if all(row.distance(question.signature) is None for row in held)
+                if all(row.distance(question.signature) is None for row in present)
             )
         ]
         if not new:

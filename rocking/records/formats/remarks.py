@@ -17,14 +17,14 @@ class Declarations:
     """Facts that remarks state of the numbers below them, None (the component: "") where none does, or several differ.
 
     unit: of acceleration. time_step: s. component: where the only channel points. samples: their number, as written.
-    told: the steps [s] of every rate that is spoken of, but for those of filters.
+    stated_steps: the steps [s] of every rate that is spoken of, but for those of filters.
     """
 
     unit: str | None = None
     time_step: float | None = None
     component: str = ""
     samples: str = ""
-    told: tuple[float, ...] = ()
+    stated_steps: tuple[float, ...] = ()
 
     @classmethod
     def of(cls, remarks: Sequence[str]) -> "Declarations":
@@ -36,13 +36,15 @@ class Declarations:
         steps = {step for line in of_numbers for step in _steps(line)}
         components = {component.upper(): component for line in of_numbers for component in _components(line)}
         counts = {match[1] or match[2] for line in remarks for match in _SAMPLES.finditer(line)}
-        told = {1 / rate for line in of_numbers for rate in _rates(line)}
+        stated_steps = {1 / rate for line in of_numbers for rate in _rates(line)}
         # A rate beside another one may be the one that the numbers were recorded at, and not theirs.
-        is_sampled_twice = any(_SAMPLED.search(line) for line in of_numbers) and not _are_one(told | steps)
+        is_sampled_twice = any(_SAMPLED.search(line) for line in of_numbers) and not _are_one(
+            stated_steps | steps
+        )
         return cls(
             unit=_the_only(units),
             time_step=None if is_sampled_twice else _the_only(steps),
-            told=tuple(sorted(told | steps)),
+            stated_steps=tuple(sorted(stated_steps | steps)),
             component=_the_only(components.values()) or "",
             samples=_the_only(counts) or "",
         )
@@ -109,7 +111,7 @@ _RATE = re.compile(
     rf"\bsampled at ({NUMBER})\s*(?:hz|sps){_END}",
     re.I,
 )
-_RATE_TOLD = re.compile(
+_RATE_STATED = re.compile(
     rf"(?<![\w.])({NUMBER})\s*(?:hz|sps|samples? ?(?:/|per) ?s(?:ec(?:ond)?)?)(?![a-z])", re.I
 )
 _SAMPLED = re.compile(
@@ -203,7 +205,9 @@ def _rates(remark: str) -> set[float]:
     """The rates [Hz] that a remark speaks of, but for those of filters."""
     if _OF_FILTER.search(remark):
         return set()
-    return {rate for match in _RATE_TOLD.finditer(remark) if (rate := float(match[1])) >= _FEWEST_PER_SECOND}
+    return {
+        rate for match in _RATE_STATED.finditer(remark) if (rate := float(match[1])) >= _FEWEST_PER_SECOND
+    }
 
 
 def _components(remark: str) -> list[str]:

@@ -394,11 +394,13 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     table, body, values, drawn = seen.table, seen.body, seen.values, seen.drawn
 
     has_step = bool(above or options.time_step or table.said.time_step)
-    question = Question(signature, _holds(table, drawn, values), drawn.proposal(has_step, table.said.told))
+    question = Question(
+        signature, _holds(table, drawn, values), drawn.proposal(has_step, table.said.stated_steps)
+    )
     notes = (
         *seen.notes,
         *factor_warnings((*table.remarks, *table.words, *table.tail)),
-        *_told_of_tail(table),
+        *_tail_remarks(table),
     )
     if answer and layout:
         if not table.labels and layout.is_series != drawn.is_series:
@@ -475,10 +477,10 @@ def _parted(below: bytes, width: int) -> tuple[bytes, tuple[str, ...]]:
     tail: list[str] = []
     while lines and len(tail) <= _LONGEST_TAIL and not _is_row(lines[-1], width):
         tail.insert(0, lines.pop())
-    told = [line.strip() for line in tail if line.strip()]
-    if not told or not lines or len(tail) > _LONGEST_TAIL:
+    text_below = [line.strip() for line in tail if line.strip()]
+    if not text_below or not lines or len(tail) > _LONGEST_TAIL:
         return below, ()
-    return below[: len(below) - len("\n".join(tail))], tuple(told)
+    return below[: len(below) - len("\n".join(tail))], tuple(text_below)
 
 
 def _is_row(line: str, width: int) -> bool:
@@ -493,10 +495,14 @@ def _is_row(line: str, width: int) -> bool:
     return is_like_one or (width == 1 == len(cells) and bool(re.search(r"\d", bare)))
 
 
-def _told_of_tail(table: NumberTable) -> tuple[Remark, ...]:
+def _tail_remarks(table: NumberTable) -> tuple[Remark, ...]:
     """Return a remark on text below the numbers that is more than a word for their end."""
-    told = [line for line in table.tail if not _END.fullmatch(line)]
-    return (Remark.of(RecordKind.TAIL_PASSED_OVER, text=plain(" / ".join(told))[:80]),) if told else ()
+    text_below = [line for line in table.tail if not _END.fullmatch(line)]
+    return (
+        (Remark.of(RecordKind.TAIL_PASSED_OVER, text=plain(" / ".join(text_below))[:80]),)
+        if text_below
+        else ()
+    )
 
 
 _FILLING = re.compile(rb"(?i)(?:[ \t]+nan)+\s*\Z")
@@ -596,11 +602,11 @@ def _holds(table: NumberTable, drawn: TableLayout, values: np.ndarray) -> str:
     """Return what a table holds as far as it can be seen, for a person who knows the rest."""
     rows = values.size // table.width
     size = f"{rows:,} rows".replace(",", " ")
-    if told := [line for line in table.tail if not _END.fullmatch(line)]:
-        size += f"; below them {plain(' / '.join(told))[:60]!r}"
+    if text_below := [line for line in table.tail if not _END.fullmatch(line)]:
+        size += f"; below them {plain(' / '.join(text_below))[:60]!r}"
     if drawn.is_series:
         return f"one series in {drawn.columns[0].unit or '?'}, {table.width} a line; {size}"
-    told = []
+    contents = []
     for place, column in enumerate(drawn.columns):
         name = f" ({table.labels[place].text})" if table.labels and table.labels[place].text else ""
         first = values[place :: table.width][:_HEAD] * column.seconds
@@ -611,8 +617,8 @@ def _holds(table: NumberTable, drawn: TableLayout, values: np.ndarray) -> str:
             "open": f"? in {column.unit}" if column.unit else "?",
         }
         what = kinds.get(column.role, f"acceleration in {column.unit or '?'}")
-        told.append(f"column {place + 1}{name}: {what}")
-    return "; ".join([*told, size])
+        contents.append(f"column {place + 1}{name}: {what}")
+    return "; ".join([*contents, size])
 
 
 def _ask_where_open(
@@ -667,8 +673,8 @@ def _fitted(answer: LayoutAnswer, layout: TableLayout, table: NumberTable, drawn
         component = label.component if label.is_direction else said.component if len(labels) < 3 else ""
         if _point_apart(component, column.name):
             raise answer.wrong(f"column {place} of this file is {component!r} by its own words.")
-    if layout.time_step and contradicts(said.told, layout.time_step):
-        steps = " or ".join(f"{step:.6g}" for step in said.told)
+    if layout.time_step and contradicts(said.stated_steps, layout.time_step):
+        steps = " or ".join(f"{step:.6g}" for step in said.stated_steps)
         raise answer.wrong(f"the time step of this file is {steps} s by its own words.")
     if not layout.is_series and layout.per_line == len(layout.columns):
         return replace(layout, per_line=0)
@@ -831,11 +837,11 @@ def _refuse_all(labels: Sequence[ColumnLabel]) -> None:
         raise RecordError.naming(
             "quantity", quantity, f"this is a file of {quantity}; use the acceleration of the same record."
         )
-    held = "; ".join(f"{name[:40]!r} is {what}" for name, what in others.items())
+    contents = "; ".join(f"{name[:40]!r} is {what}" for name, what in others.items())
     raise RecordError.naming(
         "columns",
         others,
-        f"no column is of acceleration in a unit that is known: {held}; convert the column, or use another file.",
+        f"no column is of acceleration in a unit that is known: {contents}; convert the column, or use another file.",
     )
 
 

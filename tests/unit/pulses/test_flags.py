@@ -107,8 +107,8 @@ def test_a_filled_gap_is_told_and_padding_is_not():
     holed, padded = samples.copy(), samples.copy()
     holed[1500:1650] = 0.0
     padded[:500] = padded[2000:] = 0.0
-    assert PulseKind.PULSE_BESIDE_GAP in flags(holed)
-    assert PulseKind.PULSE_BESIDE_GAP not in flags(padded)
+    assert PulseKind.PULSE_NEXT_TO_GAP in flags(holed)
+    assert PulseKind.PULSE_NEXT_TO_GAP not in flags(padded)
 
 
 @pytest.mark.parametrize(

@@ -69,8 +69,8 @@ def test_members_that_were_unpacked_are_followed_by_their_content(tmp_path):
     rows = list_folder(tmp_path)[1]
     shutil.unpack_archive(archive, tmp_path)
     archive.unlink()
-    followed = catalogue_of_folder(tmp_path, standing=rows)
-    assert followed.standing[0]["file"] == ";".join(FILES) and not followed.new
+    followed = catalogue_of_folder(tmp_path, existing=rows)
+    assert followed.existing[0]["file"] == ";".join(FILES) and not followed.new
 
 
 @pytest.mark.parametrize(

@@ -164,5 +164,5 @@ def test_nothing_is_decided_by_the_words_of_a_remark(tmp_path: Path, monkeypatch
     for kind in RecordKind:
         words = "".join(f"{{{name}}}" for name in kind.value_names)
         monkeypatch.setattr(kind, "said", Sentence(f"xyzzy{words}", f"xyzzy{words}"))
-    assert str(Remark(RecordKind.TOLD_BY_OBSPY, values=(("text", "a"),))) == "xyzzya"
+    assert str(Remark(RecordKind.WARNING_OF_OBSPY, values=(("text", "a"),))) == "xyzzya"
     assert found() == before

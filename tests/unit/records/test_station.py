@@ -91,7 +91,7 @@ def test_a_direction_that_the_row_says_is_in_doubt_no_more(tmp_path):
     first = catalogue_of_folder(tmp_path)
     (row,) = first.new
     assert row["component"] == "000;090"
-    again = catalogue_of_folder(tmp_path, standing=[row])
+    again = catalogue_of_folder(tmp_path, existing=[row])
     for listing in (first, again):
         assert [doubts_of(file) for file in listing.files] == [[], []]
     opened = open_station(_record(tmp_path, row["file"], component=row["component"]))
@@ -131,8 +131,8 @@ def test_a_file_that_a_catalogue_refused_is_not_said_to_be_new_until_it_is_anoth
     (station / "catalogue.csv").write_text("id,file\na,e.asc;n.asc\n")
     (told,) = unlisted(station / "catalogue.csv")
     assert told == Remark.of(RecordKind.FILES_UNLISTED, files=2, folder=str(station)), "nobody has read them"
-    standing = [{"id": "a", "file": "e.asc;n.asc"}]
-    found = catalogue_of_folder(station, standing=standing, keeps_readings=True)
+    existing = [{"id": "a", "file": "e.asc;n.asc"}]
+    found = catalogue_of_folder(station, existing=existing, keeps_readings=True)
     assert not found.new and all(file.refusal for file in found.files if not file.record)
     assert unlisted(station / "catalogue.csv") == ()
     _written(station, "short.asc", "HNE", VALUES)
