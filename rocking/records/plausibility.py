@@ -316,7 +316,7 @@ def _zeros_in_shaking(record: Accelerogram) -> Remark | None:
     return Remark.of(RecordKind.ZEROS_IN_SHAKING, samples=longest)
 
 
-_NEIGHBOURS = 100
+_STEPS_AROUND = 100
 """Samples on each side of a stretch by which it is judged, at least a fifth of which must be there."""
 _SHORT = 20
 """Samples in a row that may be the same at a crest, or where a trace was clipped, without a word."""
@@ -331,7 +331,7 @@ def _still_stretch(record: Accelerogram) -> Remark | None:
     """
     values = record.acceleration
     changes = np.flatnonzero(np.diff(values))
-    if changes.size < 2 * _NEIGHBOURS // 5:
+    if changes.size < 2 * _STEPS_AROUND // 5:
         return None
     steps = np.diff(changes) - 1
     # Not of the longest alone: a record that begins or ends still has a longer one there.
@@ -340,10 +340,10 @@ def _still_stretch(record: Accelerogram) -> Remark | None:
             break
         first = int(changes[place]) + 1
         last = int(changes[place + 1])
-        before = _share_of_changes(values[:first][-_NEIGHBOURS:])
-        after = _share_of_changes(values[last + 1 :][:_NEIGHBOURS])
+        before = _share_of_changes(values[:first][-_STEPS_AROUND:])
+        after = _share_of_changes(values[last + 1 :][:_STEPS_AROUND])
         share = min(before, after)
-        by_chance = (last - first) * math.log1p(-min(share, 1 - 1 / _NEIGHBOURS)) + math.log(values.size)
+        by_chance = (last - first) * math.log1p(-min(share, 1 - 1 / _STEPS_AROUND)) + math.log(values.size)
         if share >= _LIVELY and by_chance <= -3 * math.log(_ODDS):
             return Remark.of(
                 RecordKind.STILL_STRETCH, time_s=first * record.time_step, samples=last - first + 1
@@ -353,7 +353,7 @@ def _still_stretch(record: Accelerogram) -> Remark | None:
 
 def _share_of_changes(values: np.ndarray) -> float:
     """Return the share of the steps of `values` that change the value, 0 of too few."""
-    return float(np.mean(np.diff(values) != 0)) if values.size >= _NEIGHBOURS // 5 else 0.0
+    return float(np.mean(np.diff(values) != 0)) if values.size >= _STEPS_AROUND // 5 else 0.0
 
 
 _STILL = 1 / 200
@@ -366,13 +366,13 @@ def repeated_rows(records: Sequence[Accelerogram]) -> Remark | None:
     By chance no channel changes in the product of the shares in which each does not, from the steps beside it.
     """
     sizes = {record.acceleration.size for record in records}
-    if len(records) < 2 or len(sizes) > 1 or min(sizes) < 2 * _NEIGHBOURS:
+    if len(records) < 2 or len(sizes) > 1 or min(sizes) < 2 * _STEPS_AROUND:
         return None
     still = np.array([np.diff(record.acceleration) == 0 for record in records])
     steps = still.shape[1]
     places = np.flatnonzero(still.all(axis=0))
-    first = np.maximum(0, places - _NEIGHBOURS)
-    end = np.minimum(steps, places + _NEIGHBOURS + 1)
+    first = np.maximum(0, places - _STEPS_AROUND)
+    end = np.minimum(steps, places + _STEPS_AROUND + 1)
     counted = np.pad(np.cumsum(still, axis=1), ((0, 0), (1, 0)))
     others = counted[:, end] - counted[:, first] - 1  # but the step itself
     shares = np.maximum(others / (end - first - 1), _STILL)
