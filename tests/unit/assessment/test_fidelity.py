@@ -168,6 +168,14 @@ def test_a_block_that_stays_up_counts_as_turned_to_twice_its_critical_rotation_a
     assert at == beyond and at["block"] == at["block_high"] == pytest.approx(math.log(2.0), rel=1e-12)
 
 
+def test_a_block_that_overturns_counts_as_turned_to_its_critical_rotation():
+    """That it overturns is a term of its own; of what cannot be followed nothing else is known, either."""
+    for fallen in (math.inf, math.nan):
+        terms = fidelity.from_nudged(np.array([0.1, 0.2, fallen, 0.3, fallen]))
+        assert terms["block"] == terms["block_high"] == 0.0  # ln 1
+        assert (terms["block_overturns"], terms["block_overturning_share"]) == (1.0, 0.4)
+
+
 def test_an_estimate_is_the_logistic_curve_with_its_ends_on_either_side():
     """By hand: log odds 0.4 + 1.5 (3 − 2)/0.5 = 3.4, of which the variance is 0.04 + 2 · 2 · 0.01 + 4 · 0.09 = 0.44."""
     tier = Tier.PEAK_VELOCITY

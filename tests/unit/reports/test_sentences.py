@@ -22,6 +22,7 @@ from rocking.products.checks.pages import SignWords
 from rocking.products.checks.report import OWN_SENTENCES, CheckedStructure, structures_data
 from rocking.remarks import Language, Remark
 from rocking.reports.pages import Picture
+from rocking.reports.printing import displaying
 from rocking.reports.sentences import Sentences, catalogue
 from rocking.structures.structure_list import TYPES
 from rocking.study.settings import Settings
@@ -109,6 +110,14 @@ def test_every_sentence_of_the_catalogue_is_looked_up():
         if key not in looked_up | computed and not any(key.startswith(each) for each in prefixes)
     ]
     assert unused == []
+
+
+def test_a_quantity_is_shown_in_the_unit_of_the_study():
+    words = Sentences("en")
+    assert words.quantity(9.80665, "m/s²") == "9.81\u00a0m/s²"
+    with displaying(Settings(display_units="g and cm").for_pages):
+        assert words.quantity(9.80665, "m/s²") == "1.00\u00a0g"
+        assert words.quantity(0.25, "m") == "25.0\u00a0cm"
 
 
 def test_numbers_have_the_mark_of_their_language():
