@@ -220,20 +220,11 @@ def _rows_of(catalogue: str) -> tuple[CatalogueRecord, ...]:
 
 
 _LIBRARIES = (
-    *(
-        "rocking",
-        "matplotlib",
-        "numba",
-        "numpy",
-        "obspy",
-        "openpyxl",
-        "pandas",
-        "pydantic",
-        "pyyaml",
-    ),
-    *("scipy", "snakemake", "typst", "xlsxwriter"),
+    *("rocking", "h5py", "llvmlite", "matplotlib", "numba", "numpy", "obspy", "openpyxl", "pandas"),
+    *("pydantic", "pyyaml", "scipy", "snakemake", "typst", "xlsxwriter"),
 )
-"""All that this package declares, but for what loads, fetches and counts: none of these can change a result."""
+"""All that this package declares, but for what loads, fetches and counts: none of these can change a result; and what
+compiles the kernels."""
 
 
 @cache
