@@ -169,9 +169,13 @@ def _order(study: SmallStudy) -> None:
 
 
 LEVEL = {"ag_g": 0.2, "f0": 2.4, "tc_star_s": 0.35}
-IN_CI = {"title", "reports off and a breadth", "design level away"}
+IN_CI = {"reports off and a breadth, then on without a design level"}
 """Those that every change of the project is held against; the others run on demand."""
 RUNS: dict[str, tuple[Callable[[SmallStudy], object], ...]] = {
+    "reports off and a breadth, then on without a design level": (
+        _both(_settings(reports=False), _file("structures.yaml", "_m: 0.5", "_m: 0.6")),
+        _settings(design_spectrum=None, study="A town"),
+    ),
     "title": (_settings(study="A town"),),
     "reports off and a breadth": (_both(_settings(reports=False), _file("structures.yaml", "_m: 0.5", "_m: 0.6")),),
     "design level away": (_settings(design_spectrum=None),),

@@ -11,7 +11,7 @@ import pytest
 import yaml
 
 from rocking.study.flow import OWN_SNAKEFILE
-from tests.workflow.conftest import ROOT, SmallStudy
+from tests.workflow.conftest import ROOT, STRUCTURES, SmallStudy
 
 pytestmark = [
     pytest.mark.process,
@@ -97,9 +97,10 @@ def _compared(study: SmallStudy, machines: Machines) -> None:
 
 
 def test_jobs_that_share_no_folder_make_the_same_tables(start, tmp_path: Path) -> None:
-    """Of records, checks at a design level by its points, and summary; and after a title no table is another."""
+    """Of a record, checks at a design level by its points, and summary; and the next run has nothing to do."""
     study = SmallStudy(start.copy_to(tmp_path / "study").folder, ROOT)
-    study.write_catalogue(study.rows()[:2])
+    study.write_catalogue(study.rows()[:1])
+    (study.folder / "structures.yaml").write_text(yaml.safe_dump(STRUCTURES[:1]))
     (study.folder / "design.csv").write_text("period_s,acceleration_g\n0,0.2\n0.1,0.5\n0.5,0.5\n4,0.06\n")
     settings = {
         "ensemble": {"members": 16, "reserve": 0},

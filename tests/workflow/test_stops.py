@@ -89,8 +89,8 @@ def test_one_request_to_stop_ends_in_order(start, tmp_path: Path, number: int, e
         assert _is_gone(process.pid), "the process that jobs are forked from ends with the scheduler"
 
 
-def test_a_second_request_to_stop_is_final(finished, start, tmp_path: Path) -> None:
-    """Also for jobs that cannot end in order: here they stand still."""
+def test_a_second_request_to_stop_is_final(start, tmp_path: Path) -> None:
+    """Also for jobs that cannot end in order: here they stand still. It leaves what a kill leaves, see below."""
     study = start.copy_to(tmp_path / "study")
     with _started(study, until=lambda study: any(study.results.glob("summary/logs/batch/*.log"))) as process:
         run = psutil.Process(process.pid)
@@ -109,8 +109,6 @@ def test_a_second_request_to_stop_is_final(finished, start, tmp_path: Path) -> N
         assert process.returncode == 128 + signal.SIGINT
         _, alive = psutil.wait_procs(everyone, timeout=20)
         assert not [each for each in alive if each.status() != psutil.STATUS_ZOMBIE], "killed with it"
-    study.rocking("run", str(study.folder))
-    assert study.tables() == finished.tables() and not study.unfinished()
 
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, pytest.param(signal.SIGTERM, marks=ON_DEMAND)])
