@@ -423,8 +423,7 @@ def sizes(structure: Structure) -> list[Field]:
     return [
         each
         for each in described.form.fields
-        if each.unit
-        and (not isinstance(each.value.example, list | tuple) or len(lists.get(each.name, ())) == 1)
+        if each.unit and (not each.is_list or len(lists.get(each.name, ())) == 1)
     ]
 
 
@@ -511,8 +510,7 @@ def with_value(structure: Structure, size: Field, value: float) -> Structure | N
 
     Raises ConfigurationError where there is no such structure.
     """
-    is_list = isinstance(size.value.example, list | tuple)
-    outside = size.outward((value,) if is_list else value)
+    outside = size.outward((value,) if size.is_list else value)
     try:
         return structure_from_config({**structure.described.entry, size.key: outside})
     except DoesNotStandError:

@@ -32,6 +32,11 @@ TARGETS_OF_RESEARCH = {
         ["held_walls.csv"],
     ),
     "tie_forces": ("Hold the forces of ties in motion against those of statics", REAL_RECORDS, ["ties.csv"]),
+    "leaves": (
+        "Hold walls of two leaves beside stacks of each leaf",
+        REAL_RECORDS,
+        ["leaves.csv"],
+    ),
     "stand": (
         "Hold verdicts with and without contact dynamics against stacks",
         REAL_RECORDS,

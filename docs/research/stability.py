@@ -179,6 +179,7 @@ def very_many(structure: Structure, motions: GroundMotions) -> CrackEnsembles:
             each.position,
             drawn(each.mechanism, motions, lattice(MEMBERS), settings.ensemble),
             bulges=each.bulges,
+            part=each.part,
         )
         for each in several
     )

@@ -33,6 +33,7 @@ from rocking.records import Accelerogram
 from rocking.remarks import Remark
 from rocking.sine_pulse import AsPrinted, Maximum
 from rocking.structures import EquivalentBlock, Outcome, Structure
+from rocking.structures.leaves import parts_of
 from rocking.structures.structure import Candidate
 from rocking.structures.tied import Tied
 
@@ -162,8 +163,13 @@ class CaseResult:
     @property
     def largest_rotation_ratio(self) -> float:
         """The largest of all its runs, with any crack that was followed; inf where one overturns."""
+        return self.largest_of_part(None)
+
+    def largest_of_part(self, part: str | None) -> float:
+        """Return the largest of its runs in which a part falls by itself, a leaf or "" for all of it; None: of any."""
         if self.ensembles is not None:
-            of_each = [each.ensemble.rotation_ratios for each in self.ensembles.followed]
+            of_part = [each for each in self.ensembles.followed if part is None or each.part == part]
+            of_each = [each.ensemble.rotation_ratios for each in of_part]
             ratios = [ratio for each in of_each for ratio in each.tolist()]
             return max((ratio for ratio in ratios if not math.isnan(ratio)), default=math.nan)
         if self.answer is None or self.answer.outcome is Outcome.NO_UPLIFT:
@@ -176,6 +182,7 @@ class CaseResult:
         body: the structure. failures: why other components are missing.
         """
         several = counting_cracks(body)
+        held = {name for name, part in parts_of(body) if isinstance(part, Tied) and part.held_wall.holds}
         settled = None
         beyond = AssessmentKind.TIES_GIVE if self.ties_give else None
         other_runs = [
@@ -186,7 +193,7 @@ class CaseResult:
         if self.ensembles is not None:
             followed = [each for each in self.ensembles.followed if each.counts]
             rests = all(bool((each.ensemble.rotation_ratios == 0).all()) for each in followed)
-            if any(each.facts.farthest > BEYOND for each in followed):
+            if any(each.facts.farthest > BEYOND and each.part in held for each in followed):
                 beyond = AssessmentKind.HELD_BEYOND
         elif self.answer is not None and self.answer.response is None:
             settled = Verdict.OVERTURNS if self.overturns else Verdict.STANDS
@@ -203,7 +210,7 @@ class CaseResult:
             slides_at=own.slides_at if math.isnan(self.slides_at) else self.slides_at,
             friction_needed=self.friction_needed,
             doubts=(self.doubt,) if self.doubt else (),
-            held=isinstance(body, Tied) and bool(body.held_wall.holds),
+            held=bool(held),
             beyond=beyond,
             top=next(
                 (each.remark for each in body.restraints() if each.kind == "top" and each.lets_go), None

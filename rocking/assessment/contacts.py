@@ -6,7 +6,7 @@ bounds (theory: section 11). "Stands" is then not said.
 """
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import closing, suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -74,6 +74,7 @@ def doubt(
     rotation_ratio: float,
     settings: AssessmentSettings | None = None,
     bounces: bool | None = None,
+    of_leaves: Mapping[str, float] | None = None,
 ) -> Remark | None:
     """Return why a structure may be worse off than as a mechanism; None where nothing speaks for it.
 
@@ -82,9 +83,26 @@ def doubt(
     sign, at the largest amplitude; what cannot be followed there is in doubt, too. Where the balance of momentum keeps
     less than LEAST_KEPT of the velocity, the impact itself opens contacts. What rests has no contact to open; a single
     body on the ground lands too slowly below a fall of more than a radian; and the bulge of a wall that is held has row
-    8b of the decision instead, with `ties_give`: what they let stand did not fall as a stack (docs, validation).
+    8b of the decision instead, with `ties_give`: what they let stand did not fall as a stack (docs, validation). Of a
+    wall whose leaves may part each of these is asked, too; of_leaves: the largest rotation ratio of each.
     """
-    settings = settings or AssessmentSettings()
+    own = _doubt_of_part(structure, motions, rotation_ratio, settings or AssessmentSettings(), bounces)
+    ratios = of_leaves or {}
+    of_each = (
+        doubt(leaf, motions, ratios.get(name, rotation_ratio), settings)
+        for name, leaf in structure.leaves_alone
+    )
+    return own or next((each for each in of_each if each is not None), None)
+
+
+def _doubt_of_part(
+    structure: Structure,
+    motions: GroundMotions,
+    rotation_ratio: float,
+    settings: AssessmentSettings,
+    bounces: bool | None,
+) -> Remark | None:
+    """Return why one part may be worse off than as a mechanism; None where nothing speaks for it."""
     if not rotation_ratio > 0:
         return None
     if structure.tapers:
@@ -93,7 +111,7 @@ def doubt(
         return None
     if bounces:
         return Remark(AssessmentKind.CONTACTS_OPEN)
-    candidates = [each.structure for each in structure.candidates()]
+    candidates = [each.structure for each in structure.candidates() if not each.part]
     bulges = [each for each in candidates if isinstance(each, Tied) and each.opening]
     first = [each for each in candidates if each not in bulges][:1]
     asked = [each for each in first if not all(isinstance(part, Turning) for part in each.linkages)]
@@ -116,8 +134,11 @@ def ties_give(structure: Structure, motions: GroundMotions, settings: Assessment
 
     Its mechanisms stand on ties and lean on them as if these did not stretch. Until it cracks, such a wall swings on
     them as one body, and its bulge is shaken by the absolute acceleration of that oscillator: the bulge of least λ that
-    a tie holds or bears is followed under it, with both signs of every direction. What cannot be followed counts.
+    a tie holds or bears is followed under it, with both signs of every direction. What cannot be followed counts. So is
+    each leaf that may part.
     """
+    if any(ties_give(leaf, motions, settings) for _, leaf in structure.leaves_alone):
+        return True
     if not isinstance(structure, Tied) or not structure.tie_period:
         return False
     bulge = next((each.structure for each in structure.mechanisms() if structure.hangs_on_ties(each)), None)
@@ -213,17 +234,50 @@ class ContactShare:
 
 @lru_cache(maxsize=256)
 def stackable(structure: Laid) -> bool:
-    """Whether contact dynamics can follow a structure: it is laid in several courses, between which joints open."""
+    """Whether contact dynamics can follow a structure: it is laid in several courses, between which joints open.
+
+    Of a wall whose leaves may part, all of them together and each of them.
+    """
+    numbers = [_courses_of(each) for each in _parts(structure)]
+    return all(numbers) and max(numbers) > 1
+
+
+def _courses_of(structure: Laid) -> int:
+    """In how many courses it is laid; 0 of what is none."""
     try:
-        return len(structure.stack().courses) > 1
+        return len(structure.stack().courses)
     except RockingError:
-        return False
+        return 0
+
+
+def _parts(structure: Laid) -> list[Laid]:
+    """What falls by itself."""
+    return [structure, *(leaf for _, leaf in getattr(structure, "leaves_alone", ()))]
 
 
 def contact_share(
     structure: Laid, motions: GroundMotions, settings: AssessmentSettings | None = None, runs: int = RUNS
 ) -> ContactShare:
-    """Return how many stacks of the structure fall, between AMPLITUDES and at STEPS.
+    """Return how many stacks of the structure fall, of a wall whose leaves may part those of the part that falls most.
+
+    Of a part that is one body its mechanism says more.
+    """
+    parts = _parts(structure)
+    laid = [each for each in parts if len(parts) == 1 or _courses_of(each) != 1]
+    worst = ContactShare(reason="one rigid body moves as its mechanism does, whose members say more")
+    for each in laid:
+        share = _share_of(each, motions, settings or AssessmentSettings(), runs)
+        if not share.runs:
+            return share
+        if not worst.runs or share.falls * worst.runs > worst.falls * share.runs:
+            worst = share
+    return worst
+
+
+def _share_of(
+    structure: Laid, motions: GroundMotions, settings: AssessmentSettings, runs: int
+) -> ContactShare:
+    """Return how many stacks of one part fall, between AMPLITUDES and at STEPS.
 
     Every direction of a pair, of unlike sides every other one with both signs of the motion, is followed at as many
     amplitudes, at which steps and stacks take turns: so that there are `runs` in all. The strongest come first, and no
@@ -231,7 +285,6 @@ def contact_share(
     known and nothing holds it, else the courses that `Structure.stack` gives; a tapering member that does not state its
     courses is followed with COURSES and MANY_COURSES in turn.
     """
-    settings = settings or AssessmentSettings()
     signs = _signs(structure, settings)
     directions = [motions.horizontal[each] for each in _directions(motions)[:: len(signs)]]
     ways = [
@@ -283,11 +336,12 @@ def expected_seconds(
     runs = MOST_RUNS if settings.fidelity == "contact" else RUNS
     once = [
         seconds_of_run(stack, motion, min(step, stack.longest_step * step / STEP))
-        for stack in _stacks(structure, settings.friction_coefficient)
+        for part in _parts(structure)
+        for stack in _stacks(part, settings.friction_coefficient)
         for motion in components
         for step in STEPS
     ]
-    return runs * float(np.mean(once))
+    return runs * float(np.mean(once)) * len(_parts(structure))
 
 
 def _stacks(structure: Laid, friction: float) -> list[Stack]:

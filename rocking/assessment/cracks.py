@@ -23,6 +23,7 @@ from rocking.motion.response import lifting_friction
 from rocking.motion.table import forcing_of, table_of
 from rocking.remarks import Remark
 from rocking.structures import Mechanism, Structure
+from rocking.structures.leaves import of_leaf
 from rocking.structures.structure import CRACKS, WEAK_MASONRY, Candidate
 from rocking.structures.tied import Tied
 
@@ -39,8 +40,8 @@ class Crack:
 
     description: what opens, in words; "" of a structure with one mechanism. position: its height [m]; nan without one.
     structure: that has this crack. friction: the largest coefficient that a joint of the mechanism needs as it lifts; 0
-    without joints. counts, bulges: as of `CrackFacts`. of_geometry: whether it is the first one once more, with the
-    restitution of the geometry in place of a lower one that is typed.
+    without joints. counts, bulges, part: as of `CrackFacts`. of_geometry: whether it is the first one once more, with
+    the restitution of the geometry in place of a lower one that is typed.
     """
 
     description: str
@@ -51,6 +52,7 @@ class Crack:
     counts: bool = True
     bulges: bool = False
     of_geometry: bool = False
+    part: str = ""
 
     def slides_at(self, friction_coefficient: float) -> float:
         """Return the acceleration [g] at which a joint slides before this lifts; nan where none does.
@@ -70,8 +72,8 @@ class Crack:
 class FollowedCrack:
     """The ensemble of one crack; description and position [m] as those of `Crack`.
 
-    slides: whether it slides before it lifts, under a motion that reaches so far. counts, bulges: as of `CrackFacts`.
-    of_geometry: as of `Crack`.
+    slides: whether it slides before it lifts, under a motion that reaches so far. counts, bulges, part: as of
+    `CrackFacts`. of_geometry: as of `Crack`.
     """
 
     description: str
@@ -81,12 +83,13 @@ class FollowedCrack:
     counts: bool = True
     bulges: bool = False
     of_geometry: bool = False
+    part: str = ""
 
     @cached_property
     def facts(self) -> CrackFacts:
         """The facts of it from which the decision follows."""
         of_members = self.ensemble.facts(self.description)
-        return replace(of_members, slides=self.slides, counts=self.counts, bulges=self.bulges)
+        return replace(of_members, slides=self.slides, counts=self.counts, bulges=self.bulges, part=self.part)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -138,6 +141,7 @@ def cracks(structure: Structure) -> tuple[Crack, ...]:
             each.counts,
             bulges=_bulges(each),
             of_geometry=each.description.endswith(_OF_GEOMETRY),
+            part=each.part,
         )
         for each in _forms(structure)
     )
@@ -155,8 +159,23 @@ def _forms(structure: Structure) -> tuple[Candidate, ...]:
     """The candidates, and where a restitution is typed far below that of the geometry the first crack with that one.
 
     A typed restitution that dissipates more energy than the geometry implies needs a measurement to be relied upon.
+    Those of leaves that may part are those of each leaf; of what is weakest they come first.
     """
-    several = structure.candidates(CRACKS)
+    every = structure.candidates(CRACKS)
+    if not structure.leaves_alone:
+        return _with_geometry(structure, every)
+    forms: list[Candidate] = []
+    alone = dict(structure.leaves_alone)
+    for part in dict.fromkeys(each.part for each in every):
+        if part:
+            forms += [of_leaf(part, each) for each in _forms(alone[part])]
+        else:
+            forms += _with_geometry(structure, tuple(each for each in every if not each.part))
+    return tuple(forms)
+
+
+def _with_geometry(structure: Structure, several: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
+    """The candidates of one part, with the first crack once more where its restitution is typed too low."""
     first = next((each for each in several if each.counts and not _bulges(each)), None)
     balanced = None if first is None else first.structure.restitution_of_geometry
     if first is None or balanced is None:
@@ -245,17 +264,39 @@ def ensemble_over_cracks(
     *,
     exhaustive: bool = False,
 ) -> CrackEnsembles:
-    """Return the ensembles of the cracks that may govern.
+    """Return the ensembles of the cracks that may govern, of the structure and of each leaf that may part.
 
-    Where the crack that statics chooses overturns, it says all; where one that is known does, the others are followed
-    only until one of them overturns, too, so that the worst of them can be told beside it. Otherwise the bulge of a
-    held wall is followed in full, and every crack that `screened` leaves in doubt, and the one that then governs with
-    as many members as its word needs. A crack other than a bulge that slides before it lifts is left out where one that
-    counts is left. exhaustive: every crack is followed, whatever the screen says; docs/pages/validation.md counts what
-    it misses. With fidelity: auto only as many members are followed as the verdict needs. Raises MotionError as
-    `integrate` does.
+    Leaves are followed each by itself, the weakest part first, until one overturns. Of each part: where the crack that
+    statics chooses overturns, it says all; where one that is known does, the others are followed only until one of them
+    overturns, too, so that the worst of them can be told beside it. Otherwise the bulge of a held wall is followed in
+    full, and every crack that `screened` leaves in doubt, and the one that then governs with as many members as its
+    word needs. A crack other than a bulge that slides before it lifts is left out where one that counts is left.
+    exhaustive: every crack is followed, whatever the screen says; docs/pages/validation.md counts what it misses. With
+    fidelity: auto only as many members are followed as the verdict needs. Raises MotionError as `integrate` does.
     """
-    several = cracks(structure)
+    every = cracks(structure)
+    parts: list[CrackEnsembles] = []
+    for part in dict.fromkeys(each.part for each in every):
+        own = [each for each in every if each.part == part]
+        parts.append(_of_part(own, motions, settings, is_named=len(every) > 1, exhaustive=exhaustive))
+        if parts[-1].followed[0].facts.step(settings.ensemble.risk) is Verdict.OVERTURNS:
+            break
+    if len(parts) == 1:
+        return parts[0]
+    followed = tuple(each for part in parts for each in part.followed)
+    slides_at = [each.slides_at for each in parts if not math.isnan(each.slides_at)]
+    return CrackEnsembles(followed, min(slides_at, default=math.nan))
+
+
+def _of_part(
+    several: Sequence[Crack],
+    motions: GroundMotions,
+    settings: AssessmentSettings,
+    *,
+    is_named: bool,
+    exhaustive: bool,
+) -> CrackEnsembles:
+    """The ensembles of the cracks of one part that may govern it; is_named: whether anything else may form."""
     counting = [each for each in several if each.counts]
     sliding = sliding_first(several, motions, settings)
     lifting = [each for each in counting if each not in sliding] or counting
@@ -269,8 +310,10 @@ def ensemble_over_cracks(
         tolerance=settings.tolerance,
         verdict_only=settings.fidelity == "auto",
     )
-    name = first.description if len(several) > 1 or first.bulges else ""
-    statics = FollowedCrack(name, first.position, of_statics, first in sliding, bulges=first.bulges)
+    name = first.description if is_named or first.bulges else ""
+    statics = FollowedCrack(
+        name, first.position, of_statics, first in sliding, bulges=first.bulges, part=first.part
+    )
     risk = settings.ensemble.risk
     settled = statics.facts.step(risk) is Verdict.OVERTURNS
     if settled:
@@ -292,6 +335,7 @@ def ensemble_over_cracks(
             each.counts,
             each.bulges,
             each.of_geometry,
+            each.part,
         )
         mechanisms[followed] = each.mechanism
         if settled and followed.facts.step(risk) is Verdict.OVERTURNS:
@@ -425,7 +469,8 @@ def deciding(ensembles: CrackEnsembles) -> list[Deciding]:
             # Numbers of an interval go by the part of it in which they lie.
             groups = np.searchsorted(np.linspace(groups.min(), groups.max(), BINS + 1)[1:-1], groups)
         shares.append(Deciding(cause.name, explained(falls[known], groups[known]), cause.origin))
-    cracked = [each for each in ensembles.followed if each.counts and not each.bulges]
+    of_part = [each for each in ensembles.followed if each.part == ensembles.governing.part]
+    cracked = [each for each in of_part if each.counts and not each.bulges]
     counting = [each for each in cracked if not each.of_geometry]
     if len(cracked) > len(counting):
         typed_or_not = _explained_by_crack([counting[0], cracked[-1]])

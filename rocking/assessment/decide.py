@@ -6,7 +6,7 @@ more.
 """
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -126,7 +126,7 @@ class CrackFacts:
     could not be followed. farthest: largest rotation ratio of those followed; nan without any. slides: whether its
     joint slides before it lifts, under a motion that reaches so far. counts: whether it takes part in the word;
     otherwise it is reported beside the crack that is known. bulges: whether it is the bulge of a held wall, which may
-    form wherever that is cracked. Raises ValueError.
+    form wherever that is cracked. part: the leaf that falls alone, "" of the whole structure. Raises ValueError.
     """
 
     name: str
@@ -137,6 +137,7 @@ class CrackFacts:
     slides: bool = False
     counts: bool = True
     bulges: bool = False
+    part: str = ""
 
     def __post_init__(self) -> None:
         if not 0 <= self.falls <= self.followed or self.failed < 0:
@@ -473,7 +474,8 @@ def decide(facts: Facts) -> Decision:
         if facts.top is not None:
             why = f"{why}; {facts.top.brief}"
             tells = (*tells, Remark(AssessmentKind.TIE_THE_TOP))
-        first = next((each for each in followed if not each.bulges), governing)
+        of_part = [each for each in followed if each.part == governing.part]
+        first = next((each for each in of_part if not each.bulges), governing)
         disagree = not governing.bulges and governing.step(risk) is not first.step(risk)
         ends = {governing, first} if disagree else {governing}
         interval = min(each.falls / each.members for each in ends), share
@@ -531,8 +533,15 @@ def decide(facts: Facts) -> Decision:
 
 
 def _envelope(words: Iterable[tuple[CrackFacts, Verdict]]) -> Verdict:
-    """The word of all that may form: of the cracks only one does, but a held wall may bulge with any of them."""
-    each_with_word = list(words)
+    """The word of all that may form: the worst of its parts, each of which falls by itself."""
+    of_parts: dict[str, list[tuple[CrackFacts, Verdict]]] = {}
+    for each, word in words:
+        of_parts.setdefault(each.part, []).append((each, word))
+    return worse(*map(_envelope_of_part, of_parts.values()))
+
+
+def _envelope_of_part(each_with_word: Sequence[tuple[CrackFacts, Verdict]]) -> Verdict:
+    """The word of one part: of the cracks only one opens, but a held wall may bulge with any of them."""
     of_bulges = [word for each, word in each_with_word if each.bulges]
     of_cracks = [word for each, word in each_with_word if not each.bulges]
     if not of_cracks:

@@ -48,6 +48,7 @@ from rocking.pulses import Pulse, PulseEvidence, predicting_pulse
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_as_printed, predict_maximum
 from rocking.structures import Mechanism, Structure
+from rocking.structures.leaves import parts_of
 
 
 @dataclass
@@ -177,7 +178,8 @@ def with_contacts(
     if all(each in sliding for each in counting):
         return replace(case, slides_at=counting[0].slides_at(settings.friction_coefficient))
     if decide(case.facts(structure)).word.badness < Verdict.PROBABLY_OVERTURNS.badness:
-        reason = doubt(structure, motions, case.largest_rotation_ratio, settings, bounces)
+        ratios = {name: case.largest_of_part(name) for name, _ in parts_of(structure)}
+        reason = doubt(structure, motions, ratios.pop(""), settings, bounces, ratios)
         case = replace(case, doubt=reason)
     if decide(case.facts(structure)).word is Verdict.STANDS:
         case = replace(case, ties_give=ties_give(structure, motions, settings))

@@ -62,7 +62,7 @@ class LocalMechanism:
     T_0 of a part free to vibrate, s; 0 of one tied rigidly to the structure. support_loss: horizontal displacement of
     the control point at which what it carries falls, m; inf where nothing does. one_sided: whether it leans on
     something. released: how many ruptures of ties that limit its displacement are passed: its limit states lie on the
-    branch of the curve behind them, where that bears more.
+    branch of the curve behind them, where that bears more. part: the leaf that falls alone; "" of the whole structure.
     """
 
     description: str
@@ -74,6 +74,7 @@ class LocalMechanism:
     support_loss: float = math.inf
     one_sided: bool = False
     released: int = 0
+    part: str = ""
 
     @property
     def onset_multiplier(self) -> float:

@@ -22,8 +22,9 @@ from rocking.quantities import GRAVITY, kind_of, positive
 from rocking.records.design_spectrum import DesignSpectrum
 from rocking.remarks import Remark
 from rocking.structures import Structure
+from rocking.structures.leaves import parts_of
 from rocking.structures.linkage import FRICTION
-from rocking.structures.structure import Candidate, Crackable
+from rocking.structures.structure import AS_GIVEN, Candidate, Crackable
 from rocking.structures.tied import Tied
 
 _SAME = 1e-9
@@ -139,6 +140,7 @@ def _not_made(mechanism: LocalMechanism) -> Remark:
 
 def _local_mechanisms(structure: Structure, terms: CodeTerms) -> tuple[LocalMechanism, ...]:
     """The mechanisms of the structure that may open, with the values of the check in them."""
+    parts = dict(parts_of(structure)) if isinstance(structure, Structure) else {}
     return tuple(
         LocalMechanism(
             description=words,
@@ -148,43 +150,50 @@ def _local_mechanisms(structure: Structure, terms: CodeTerms) -> tuple[LocalMech
             confidence_factor=float(terms.confidence_factor),
             elastic_period=terms.elastic_period,
             support_loss=terms.support_loss,
-            one_sided=structure.one_sided,
+            one_sided=parts[part].one_sided,
+            part=part,
         )
-        for words, sign, body in _opening(structure)
+        for words, sign, body, part in _opening(structure)
     )
 
 
-def _opening(structure: Structure) -> Iterator[tuple[str, int, Structure]]:
-    """The mechanisms that may open: crack and side of the fall, sign of that side, and the structure with the crack.
+def _opening(structure: Structure) -> Iterator[tuple[str, int, Structure, str]]:
+    """The mechanisms that may open: crack and side of the fall, sign of that side, the structure with the crack, and
+    the leaf that falls alone.
 
     Those of `Structure.mechanisms` whose motion can be followed; of hinges between supports that which limit analysis
     finds and one that is typed, of other cracks all, and where the crack is known no other. What ties keep shut to one
-    side opens to the other alone.
+    side opens to the other alone. Behind them those of each leaf that may part, which is named first.
     """
     if not isinstance(structure, Structure):
         raise StructureError(
             f"the structure is {kind_of(structure)}, which has no capacity curve; give a structure with a "
             "geometry, as rocking.Block or rocking.Facade."
         )
-    cracked = [each for each in structure.candidates() if each.counts and not _bulges(each)]
+    own = [each for each in structure.candidates() if not each.part]
+    cracked = [each for each in own if each.counts and not _bulges(each)]
     if structure.statics_chooses:
         typed = structure.crack_in_words if isinstance(structure, Crackable) else ""
         cracked = [*cracked[:1], *(each for each in cracked[1:] if each.description == typed)]
-    bulges = [each for each in structure.mechanisms() if _bulges(each) and not each.refusal]
+    family = [each for each in structure.mechanisms() if not each.part]
+    bulges = [each for each in family if _bulges(each) and not each.refusal]
     for candidate in cracked:
         body = candidate.structure
-        opens = "" if candidate.description == "as given" else f"{candidate.description}, "
+        opens = "" if candidate.description == AS_GIVEN else f"{candidate.description}, "
         opens_elsewhere = bulges and not structure.crack_is_known
         shut = opens_elsewhere and isinstance(body, Tied) and not body.lets_go
         for sign, side in _sides(body):
             if shut and sign > 0:
                 continue
             falls = "" if body.symmetric else side
-            yield f"{opens}{falls}".removesuffix(", ") or "as given", sign, body
+            yield f"{opens}{falls}".removesuffix(", ") or AS_GIVEN, sign, body, ""
     for candidate in bulges:
         wall = candidate.structure
         assert isinstance(wall, Tied)
-        yield wall.way_in_words(candidate.sign), candidate.sign, wall
+        yield wall.way_in_words(candidate.sign), candidate.sign, wall, ""
+    for name, leaf in structure.leaves_alone:
+        for words, sign, body, _ in _opening(leaf):
+            yield f"{name} alone" if words == AS_GIVEN else f"{name} alone, {words}", sign, body, name
 
 
 def _sides(body: Structure) -> Iterator[tuple[int, str]]:

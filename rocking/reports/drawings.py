@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -27,6 +27,14 @@ if TYPE_CHECKING:
     from rocking.pulses import Pulse
     from rocking.records.accelerogram import Accelerogram
 
+
+class Line(NamedTuple):
+    """How a line is drawn: as SVG, and by matplotlib."""
+
+    by_hand: str
+    on_axes: dict[str, Any]
+
+
 _THIN = {"color": "0.35", "linewidth": 0.4}
 _PAPER = {"facecolor": "white", "edgecolor": "none", "pad": 0.4}
 _ARROW = {"arrowstyle": "-|>", "shrinkA": 0, "shrinkB": 0}
@@ -42,6 +50,14 @@ _HINGE: dict[str, Any] = {
     "markeredgewidth": 0.6,
 }
 _SUPPORT: dict[str, Any] = {"color": "0.45", "linewidth": 2.2, "solid_capstyle": "butt", "zorder": 3}
+_LEAVES = {
+    "leaf": Line('stroke="#4d4d4d" stroke-width="0.18"', {"color": "0.3", "linewidth": 0.6, "zorder": 2}),
+    "bonder": Line(
+        'stroke="#595959" stroke-width="0.78"',
+        {"color": "0.35", "linewidth": 2.2, "solid_capstyle": "butt", "zorder": 2},
+    ),
+}
+"""The faces between leaves, and the stones that hold these together."""
 _SIDES = {"load": ("center", "bottom"), "thrust": ("right", "center")}
 """The side of its value that touches the end of an arrow, horizontally and vertically."""
 _FALLEN = 3.0
@@ -148,6 +164,8 @@ def sketch(
         tail, tip = mark.line
         if mark.kind == "support":
             paths.append((mark.line, 'stroke="#737373" stroke-width="0.78"', False))
+        elif mark.kind in _LEAVES:
+            paths.append((mark.line, _LEAVES[mark.kind].by_hand, False))
         elif mark.kind == "tie":
             paths.append((mark.line, f'stroke="{_TIE}" stroke-width="0.35"', False))
             for end, size in zip(mark.line, (2.4, 1.8), strict=True):
@@ -213,6 +231,9 @@ def _draw_mark(axes: Axes, mark: Mark, where: Transform, corner: tuple[float, fl
         axes.plot(*mark.line.T, transform=where, **_SUPPORT)
         if corner is not None:
             axes.text(tail[0], tail[1], f" {mark.text}", ha="left", va="center", transform=where)
+        return
+    if mark.kind in _LEAVES:
+        axes.plot(*mark.line.T, transform=where, **_LEAVES[mark.kind].on_axes)
         return
     if mark.kind == "tie":
         axes.plot(*mark.line.T, color=_TIE, linewidth=1.0, zorder=3, transform=where)

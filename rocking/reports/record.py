@@ -205,6 +205,12 @@ class RecordReport:
         would_crush = [each.structure for each in self.result.worst_first if _would_crush(each)]
         if would_crush:
             concerned[Remark(ReportKind.CRUSHING_WOULD_TELL)] = [self.called(each) for each in would_crush]
+        of_one_leaf = [each for each in concerned if each.kind is StructureKind.ONE_LEAF]
+        if len(of_one_leaf) > 1:  # one line of all thicknesses
+            thicknesses = [text for each in of_one_leaf for text in str(each["thickness"]).split(", ")]
+            names = [name for each in of_one_leaf for name in concerned.pop(each)]
+            every = ", ".join(dict.fromkeys(thicknesses))
+            concerned[Remark.of(StructureKind.ONE_LEAF, thickness=every)] = names
         return {remark: list(dict.fromkeys(names)) for remark, names in concerned.items()}
 
     @property

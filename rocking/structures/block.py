@@ -132,7 +132,7 @@ class Block(Crushable):
     def _parts(self) -> list[tuple[int, np.ndarray]]:
         return [(0, rectangle(-self.breadth / 2, self.breadth / 2, 0.0, self.height))]
 
-    def _dimensions(self) -> dict[str, Path]:
+    def _dimensions(self) -> dict[str, Path | list[Path]]:
         half = self.breadth / 2
         height = self.height
         apart = 0.06 * self.height
@@ -278,7 +278,7 @@ class RigidBody(Crushable):
         top = 1j * self._outline_height
         return [(0, np.array([-self.left, self.right, self.left + top, -self.right + top]))]
 
-    def _dimensions(self) -> dict[str, Path]:
+    def _dimensions(self) -> dict[str, Path | list[Path]]:
         apart = np.array([0.0, -0.12 * self.centre_height])
         centre = [0.0, self.centre_height]
         return {

@@ -5,18 +5,94 @@ Each is a height and the thickness over which it rocks; its breadth across shows
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal
+from typing import Any, Literal, Self, Unpack
 
 import numpy as np
 
 from rocking.errors import SizeError
 from rocking.structures.block import Block, RigidBody, Spire
+from rocking.structures.drawing import Path
+from rocking.structures.facade import Facade
 from rocking.structures.fields import Field, Form, constructor, field_of, length
-from rocking.structures.structure import Structure
+from rocking.structures.leaves import Leaf, Leaved
+from rocking.structures.linkage import Restitution
+from rocking.structures.structure import USUAL_WEIGHT, Structure
+from rocking.structures.wall import WallOptions
 
 Sizes = Mapping[str, Any]
 """Sizes in SI by name: height, thickness, breadth and, of a chimney, wall_thickness; None where left out."""
 _SIZES = ("height", "thickness", "breadth", "wall_thickness")
+
+
+@dataclass(frozen=True, repr=False)
+class FreeWall(Block, Leaved):
+    """A block whose leaves may part, which a file describes as one of the rows."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self._check_leaves()
+
+    @classmethod
+    def of_size(
+        cls,
+        breadth: float,
+        height: float,
+        restitution: Restitution = None,
+        one_sided: bool = False,
+        **options: Unpack[WallOptions],
+    ) -> Self:
+        """Return the wall of that thickness and height [m]; options as for a block and for leaves."""
+        size = Block.of_size(breadth, height)
+        return cls(size.semi_diagonal, size.slenderness, restitution, one_sided, **options)
+
+    @property
+    def _sections(self) -> tuple[tuple[float, float, float, float], ...]:
+        return ((0.0, self.height, -self.breadth / 2, self.breadth / 2),)
+
+    def _alone(self, leaf: Leaf) -> Structure:
+        options: dict[str, Any] = {**_of_leaf(self), **self._stands_as(leaf)}
+        if self.bonder_heights:
+            return _bonded(self.height, leaf, self.bonder_heights, options)
+        return Block.of_size(leaf.thickness, self.height, **options)
+
+    def _dimensions(self) -> dict[str, Path | list[Path]]:
+        return {**super()._dimensions(), **self._leaf_dimensions()}
+
+
+@dataclass(frozen=True, repr=False)
+class Gable(RigidBody, Leaved):
+    """The body of a gable whose leaves may part, which a file describes as a row."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self._check_leaves()
+
+    @property
+    def _sections(self) -> tuple[tuple[float, float, float, float], ...]:
+        return ((0.0, self._outline_height, -self.left, self.right),)
+
+    def _alone(self, leaf: Leaf) -> Structure:
+        options: dict[str, Any] = {**_of_leaf(self), **self._stands_as(leaf)}
+        height = self._outline_height
+        if self.bonder_heights:
+            return _bonded(height, leaf, self.bonder_heights, {**options, "narrows": True})
+        body: dict[str, Any] = _triangle({"height": height, "thickness": leaf.thickness})
+        return RigidBody(**body, **options)
+
+    def _dimensions(self) -> dict[str, Path | list[Path]]:
+        return {**super()._dimensions(), **self._leaf_dimensions()}
+
+
+def _of_leaf(wall: Block | RigidBody) -> dict[str, Any]:
+    """The options of a wall that each of its leaves has."""
+    names = ("restitution_range", "compressive_strength", "unit_weight")
+    return {each: getattr(wall, each) for each in names}
+
+
+def _bonded(height: float, leaf: Leaf, heights: tuple[float, ...], options: dict[str, Any]) -> Facade:
+    """A leaf that bonders hold at `heights` [m] and whose top is free."""
+    weight = options.pop("unit_weight") or USUAL_WEIGHT
+    return Facade((height,), (leaf.thickness,), weight, held_at=heights, **options)
 
 
 @dataclass(frozen=True)
@@ -132,7 +208,7 @@ def _part(
 
     crack: an example of the height of its crack, m.
     """
-    across = {Block: "breadth", RigidBody: "base", Spire: "width"}[made_of]
+    across = next(size for kind, size in _ACROSS.items() if issubclass(made_of, kind))
     sizes = (
         field_of("height", float, length("Height", height[0], height[1:], "h")),
         field_of(
@@ -158,12 +234,14 @@ def _part(
         meaning,
         (*sizes, *more, *options),
         made_of,
-        "of_size" if made_of is Block else "",
+        "of_size" if issubclass(made_of, Block) else "",
         arguments=arguments,
         front=front,
     )
 
 
+_ACROSS: dict[type[Structure], str] = {Block: "breadth", RigidBody: "base", Spire: "width"}
+"""The dimension over which a body of a class rocks."""
 _FLUE = field_of(
     "wall_thickness",
     float | None,
@@ -177,7 +255,7 @@ PARTS: dict[str, BuildingPart] = {
         _part(
             "free_wall",
             "Wall that stands free, held by nothing at its top, such as a boundary wall",
-            Block,
+            FreeWall,
             _wide,
             height=(2.0, 0.3, 20),
             thickness=(0.3, 0.05, 3),
@@ -186,7 +264,7 @@ PARTS: dict[str, BuildingPart] = {
         _part(
             "parapet",
             "Parapet, a wall free at its top along the edge of a roof or a balcony",
-            Block,
+            FreeWall,
             _wide,
             height=(1.0, 0.2, 4),
             thickness=(0.25, 0.05, 1),
@@ -206,7 +284,7 @@ PARTS: dict[str, BuildingPart] = {
         _part(
             "gable",
             "Gable, a triangular wall that falls out of its plane, held by no roof",
-            RigidBody,
+            Gable,
             _triangle,
             height=(3.0, 0.5, 15),
             thickness=(0.4, 0.05, 2),

@@ -25,11 +25,12 @@ class Dimension:
 class Mark:
     """A load, thrust, tie or support that acts on a structure, as a drawing shows it, in m.
 
-    kind: "load" or "thrust", an arrow along `line`, "tie", a line to its anchorage, or "support", the edge of a floor
-    that holds it. text: its value with unit. line: (2, 2), its second point is where it acts.
+    kind: "load" or "thrust", an arrow along `line`, "tie", a line to its anchorage, "support", the edge of a floor that
+    holds it, "leaf", the face of a leaf, or "bonder", a stone that holds leaves together. text: its value with unit.
+    line: (2, 2), its second point is where it acts.
     """
 
-    kind: Literal["load", "thrust", "tie", "support"]
+    kind: Literal["load", "thrust", "tie", "support", "leaf", "bonder"]
     text: str
     line: np.ndarray = field(repr=False)
 

@@ -18,6 +18,7 @@ from rocking.structures.drawing import Path, rectangle, span
 from rocking.structures.fields import Value, restitution_value
 from rocking.structures.held_wall import HeldWall, Hold, Load, Opening, Storey
 from rocking.structures.kinds import StructureKind
+from rocking.structures.leaves import Leaf
 from rocking.structures.linkage import STILL, Hung, Linkage, Parts, Restitution, Turning, inset
 from rocking.structures.stack import (
     MOST_COURSES,
@@ -78,6 +79,13 @@ class Facade(Tied):
         number, that of the impact on it.
     restitution_range : float or None, optional
         η is known to plus or minus this much; None: as the settings of the ensemble say.
+    leaves : tuple of float, optional
+        Thickness of each leaf from outside in, m, two or three, which may part; () for one leaf.
+    bonders : float, tuple of float or None, optional
+        Heights above the ground at which through-stones hold each leaf, m, or one spacing, counted down from
+        the top; None: nothing does.
+    thrown_back : float or None, optional
+        η of the impact of a leaf on the one beside it, in [0, 1]; None: each leaf rocks both ways.
     compressive_strength : float or None, optional
         Compressive strength of the masonry, Pa, at which the edges of joints crush, so that hinges move in;
         None: they do not crush. Needs `unit_weight`.
@@ -114,16 +122,22 @@ class Facade(Tied):
         Modulus of elasticity of a rod, Pa.
     rod_pretension : float, default 0.0
         Force of a rod at rest, N; needs `one_sided`.
+    loaded_leaf : {'inner', 'outer'} or None, optional
+        The leaf on which loads bear; None: the inner one.
     one_sided : bool or None, optional
         Older name of `behind`: True for "cross_walls", False for "nothing".
     opening : Opening or None, optional
         Which of its mechanisms this is alone; None of a structure as it is listed.
+    held_at : tuple of float, optional
+        Heights at which the rest of a wall holds this leaf of it, m; () of a structure as it is listed.
     crack_height : float or None, optional
         Height above the ground of a crack at another joint than the foot of a storey, m.
     behind : {'nothing', 'floors', 'cross_walls'} or None, optional
         What stands behind it: "nothing" (the default); "floors" at the top of every storey that bears one (of
         every storey where no load is given), which hold it inwards there; or "cross_walls", which hold it
         inwards everywhere.
+    narrows : bool, default False
+        Whether its breadth goes down to nothing at its top; only of a leaf of a gable.
 
     Raises
     ------
@@ -209,6 +223,8 @@ class Facade(Tied):
         ),
     ] = None
 
+    narrows: bool = field(default=False, kw_only=True)
+
     def __post_init__(self) -> None:
         super().__post_init__()
         self._check_storeys()
@@ -216,6 +232,7 @@ class Facade(Tied):
         self._check_ties()
         if self.opening is not None:
             return
+        self._check_leaves()
         self.mechanism()  # one that is pushed over at rest is refused at birth
         grows = any(above > below for below, above in pairwise(self.thicknesses))
         if not self.crack_is_known and (self.thrust or grows):
@@ -279,6 +296,46 @@ class Facade(Tied):
         object.__setattr__(self, "one_sided", True if leans else None)
 
     @property
+    def _sections(self) -> tuple[tuple[float, float, float, float], ...]:
+        levels = pairwise(self.levels.tolist())
+        return tuple(
+            (low, high, -thickness, 0.0)
+            for (low, high), thickness in zip(levels, self.thicknesses, strict=True)
+        )
+
+    @property
+    def _leans(self) -> bool:
+        return self.behind == "cross_walls" or bool(self.behind is None and self.one_sided)
+
+    def _alone(self, leaf: Leaf) -> "Facade":
+        """A leaf of one thickness over all storeys; floors behind the wall hold the inner one alone."""
+        is_behind = self.behind in ("floors", "cross_walls") and leaf.is_inner and leaf.moves == "both ways"
+        as_wall: dict[str, Any] = {"behind": self.behind, "one_sided": None, "restitution": self.restitution}
+        held_at = self.bonder_heights
+        if leaf.moves == "inwards":
+            held_at = (*held_at, *(hold.height for hold in self.held_wall.holds if hold.inwards == np.inf))
+        loads: dict[str, Any] = {"floor_loads": (), "eccentricity": 0.0, "thrust": 0.0, "thrust_height": None}
+        loads |= {"loads_held": False, "top_slab": "hinged"}
+        if self._bears(leaf):
+            bearing = [
+                thickness for thickness, load in zip(self.thicknesses, self.floor_loads, strict=False) if load
+            ]
+            loads["eccentricity"] = self._eccentricity_on(leaf, bearing, self.eccentricity)
+            kept = ["floor_loads", "loads_held", "top_slab"]
+            kept += ["thrust", "thrust_height"] if leaf.moves != "inwards" else []
+            loads |= {each: getattr(self, each) for each in kept}
+        # Its cracks are those of the wall, but that bonders leave it others.
+        cracked = {"crack": None, "crack_storey": None, "crack_height": None} if held_at else {}
+        return replace(
+            self,
+            thicknesses=(leaf.thickness,) * len(self.thicknesses),
+            held_at=tuple(sorted(set(held_at))),
+            **(self.together | loads | self._ties_of(leaf) | cracked),
+            **{"behind": None, "inward_restitution": None}
+            | (as_wall if is_behind else self._stands_as(leaf)),
+        )
+
+    @property
     def height(self) -> float:
         """The height of all storeys, m."""
         return float(sum(self.storey_heights))
@@ -321,7 +378,7 @@ class Facade(Tied):
     def held_wall(self) -> HeldWall:
         levels = self.levels.tolist()
         storeys = [
-            Storey(low, high, -thickness, 0.0, self.unit_weight * thickness)
+            Storey(low, high, -thickness, 0.0, self.unit_weight * thickness, narrows=1.0 - self.narrows)
             for (low, high), thickness in zip(pairwise(levels), self.thicknesses, strict=True)
         ]
         loads = []
@@ -344,13 +401,14 @@ class Facade(Tied):
             for height, ties in Counter(self._tie_levels).items()
         ]
         holds += [Hold(each, "floor", 0.0, np.inf) for each in floors if each not in self._tie_levels]
+        holds = self._with_bonders(holds)
         thrust_height = self.height if self.thrust_height is None else self.thrust_height
         return HeldWall(
             tuple(storeys),
             tuple(loads),
             tuple(sorted(holds)),
             ((thrust_height, self.thrust),) if self.thrust else (),
-            backed=self.behind == "cross_walls" or bool(self.behind is None and self.one_sided),
+            backed=self._leans,
             strength=self.compressive_strength,
             ties_apart=self.ties_apart,
         )
@@ -386,7 +444,7 @@ class Facade(Tied):
         opened = self._opened_linkage(mirrored)
         if opened is not None:
             return opened
-        if self.compressive_strength is not None:
+        if self.compressive_strength is not None or self.narrows:
             crack = Opening(self.crack_position, outwards=not mirrored)
             return self.held_wall.linkage(crack, crack, self._hung(mirrored))
         base = self._lowest_storey
@@ -482,12 +540,13 @@ class Facade(Tied):
                 held.append(Held(course_at(body, height), (0.0, height), tie=self._tie))
         held += self._behind(body)
         for hold in self.held_wall.holds:
-            if hold.inwards and hold.height > foot:
+            if hold.inwards and hold.height > foot and hold.kind != "bonder":
                 place = course_at(body, hold.height)
                 storey_mass = sum(each.mass for each in body) / len(self.storey_heights)
                 restitution = self.mechanism().positive.restitution
                 stop = Stop.of_mass(body[place].mass, restitution, thrown=max(storey_mass, body[place].mass))
                 held.append(Held(place, (body[place].top[0], hold.height), stop=stop))
+        held += self._bonded(body, 0.0, -self.thicknesses[0])
         return Stack((*body, *slabs), tuple(held))
 
     def _flat_slab(self, thickness: float, load: float) -> Course:
@@ -510,7 +569,9 @@ class Facade(Tied):
             levels = joints_between([max(low, foot), *stops, high], number_of_part)
             number = len(levels) - 1
             faces = [(-thickness, 0.0)] * (number + 1)
-            made += courses_between(levels, faces, self.unit_weight / GRAVITY, [1.0] * number)
+            gable = Storey(0.0, self.height, -thickness, 0.0, 1.0, narrows=1.0 - self.narrows)
+            breadths = [gable.cut(*ends).total / (ends[1] - ends[0]) for ends in pairwise(levels)]
+            made += courses_between(levels, faces, self.unit_weight / GRAVITY, breadths)
         return tuple(made)
 
     def _placed(self, height: float) -> dict[str, Any]:
@@ -538,6 +599,7 @@ class Facade(Tied):
             "storey_heights": [span([0.0, low], [0.0, high], apart) for low, high in pairwise(levels)],
             "thicknesses": [span([-thickness, z], [0.0, z]) for thickness, z in middles],
         }
+        paths |= self._leaf_dimensions()
         if self.crack_height:
             paths["crack_height"] = [span([0.0, 0.0], [0.0, self.crack_height], [0.06 * self.height, 0.0])]
         return paths

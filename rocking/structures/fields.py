@@ -137,8 +137,9 @@ class Field(Described):
 
     @property
     def is_list(self) -> bool:
-        """Whether it holds several numbers."""
-        return any(each.get("type") == "array" for each in self.schema.get("anyOf", [self.schema]))
+        """Whether it holds several numbers, and never one."""
+        kinds = {each.get("type") for each in self.schema.get("anyOf", [self.schema])}
+        return "array" in kinds and "number" not in kinds
 
     @property
     def options(self) -> tuple[str, ...]:

@@ -206,8 +206,9 @@ class Opening:
     flat keeps the upper body from turning while it moves out. upright: what stands above the hold stays upright and
     rises; otherwise it turns with the upper body. outwards: the side of the forcing and of the
     fall. forwards: whether the lower part moves to that side; otherwise it kicks back, and the upper one falls.
-    between: it falls between two ties of a row, where these hold nothing (theory: section 13.2). As one body it is a
-    triangle: it turns about the line on its face from its foot, midway between the ties, to each of them at `hold`.
+    between: it falls between two ties of a row, where these hold nothing (theory: section 13.2). As one body with a
+    `hold` it is a triangle: it turns about the line on its face from its foot, midway between the ties, to each of them
+    at `hold`. Below a top that friction alone holds, and which slips, it is all of the wall.
     """
 
     foot: float
@@ -221,7 +222,7 @@ class Opening:
     @property
     def is_triangle(self) -> bool:
         """Whether it is the triangle between two ties."""
-        return self.between and self.hinge is None
+        return self.between and self.hinge is None and self.hold is not None
 
     @property
     def kinks(self) -> tuple[tuple[float, float], ...]:
@@ -247,13 +248,50 @@ class Opening:
 
 
 class Storey(NamedTuple):
-    """A rectangle of masonry from `low` to `high` and from `left` to `right`, m; its weight per height, N/m²."""
+    """A rectangle of masonry from `low` to `high` and from `left` to `right`, m; its weight per height, N/m².
+
+    narrows: the share of its breadth along the wall that is left at its top, as of a gable; `weight` is that at its
+    foot, and forces per metre are those per metre of that.
+    """
 
     low: float
     high: float
     left: float
     right: float
     weight: float
+    narrows: float = 1.0
+
+    def breadth(self, height: float) -> float:
+        """Return the share of its breadth at a height [m]."""
+        if self.narrows == 1:
+            return 1.0
+        return 1 - (1 - self.narrows) * (height - self.low) / (self.high - self.low)
+
+    def cut(self, low: float, high: float) -> "Storey":
+        """Return the part between two heights [m] on it."""
+        foot = self.breadth(low)
+        narrows = self.breadth(high) / foot if self.narrows != 1 else 1.0
+        return self._replace(low=low, high=high, weight=self.weight * foot, narrows=narrows)
+
+    @property
+    def total(self) -> float:
+        """Its weight, N per metre."""
+        return self.weight * (self.high - self.low) * (1 + self.narrows) / 2
+
+    @property
+    def middle(self) -> float:
+        """The height of its centre of mass, m."""
+        if self.narrows == 1:
+            return (self.low + self.high) / 2
+        return self.low + (self.high - self.low) * (1 + 2 * self.narrows) / (3 * (1 + self.narrows))
+
+    @property
+    def inertia(self) -> float:
+        """Its moment of inertia about its centre of mass, in weight, N m."""
+        across = (self.right - self.left) ** 2 / 12
+        # ∫ b z² − M z_m² of a breadth that runs from 1 to n: h²/18 (1 + 4n + n²)/(1 + n)², h²/12 of a rectangle.
+        slope = (1 + 4 * self.narrows + self.narrows**2) / (1 + self.narrows) ** 2 / 18
+        return self.total * ((self.high - self.low) ** 2 * slope + across)
 
 
 class Load(NamedTuple):
@@ -319,12 +357,15 @@ class HeldWall:
         meeting = [each for each in self.storeys if each.low <= height <= each.high]
         inner = max(each.left for each in meeting)
         outer = min(each.right for each in meeting)
-        aside = inset(self.pressing(height), self.strength, outer - inner)
+        breadth = next((each.breadth(height) for each in meeting if each.high > height), 1.0)
+        aside = inset(self.pressing(height) / breadth, self.strength, outer - inner)
         return inner + aside, outer - aside
 
     def pressing(self, height: float) -> float:
         """Return what presses on the joint at `height` [m], N per metre."""
-        masonry = sum(each.weight * max(each.high - max(each.low, height), 0.0) for each in self.storeys)
+        masonry = sum(
+            each.cut(max(each.low, height), each.high).total for each in self.storeys if each.high > height
+        )
         return masonry + sum(
             load.weight for load in self.loads if load.z > height or (load.slab and load.z == height)
         )
@@ -349,10 +390,11 @@ class HeldWall:
             for each in self.storeys:
                 foot = max(each.low, height)
                 if foot < each.high:
-                    own = each.weight * (each.high - foot)
+                    above = each.cut(foot, each.high)
+                    own = above.total
                     weight += own
                     moment += own * (each.left + each.right) / 2
-                    push += own * ((foot + each.high) / 2 - height)
+                    push += own * (above.middle - height)
             for load in self.loads:
                 if load.z > height:
                     weight += load.weight
@@ -491,6 +533,11 @@ class HeldWall:
             for hold, way in moved
         )
 
+    def is_bonded(self, opening: Opening) -> bool:
+        """Whether a bonder, which gives to neither side, keeps it shut."""
+        heights = (hold.height for hold in self.holds if hold.kind == "bonder")
+        return any(abs(_moved(opening.kinks, height)) > _SAME * self.height for height in heights)
+
     @property
     def top_may_slip(self) -> bool:
         """Whether friction alone holds its top to one side at least."""
@@ -535,7 +582,8 @@ class HeldWall:
                 slips = ", its top slipping" if self.slip(opening) else ""
                 return " ".join(filter(None, ("overturns", side, "about its foot"))) + slips
             if opening.foot >= highest:
-                return " ".join(filter(None, (side, "above the tie")))
+                kind = next(hold.kind for hold in self.holds if hold.height == highest)
+                return " ".join(filter(None, (side, f"above the {kind}")))
             feet = {storey.low for storey in self.storeys}
             place = "upper storey alone" if opening.foot in feet else "above a joint"
             return " ".join(filter(None, (side, place)))
@@ -645,7 +693,7 @@ class HeldWall:
         cut = []
         for storey in self.storeys:
             levels = [storey.low, *(each for each in cuts if storey.low < each < storey.high), storey.high]
-            cut += [storey._replace(low=low, high=high) for low, high in pairwise(levels)]
+            cut += [storey.cut(low, high) for low, high in pairwise(levels)]
         return cut
 
     def part_at(self, opening: Opening, height: float) -> int:
@@ -674,12 +722,9 @@ class HeldWall:
         sign = 1.0 if opening.outwards else -1.0
         if opening.is_triangle:
             return self._triangle(opening, moving, hung)
-        weights = np.array([each.weight * (each.high - each.low) for each in moving])
-        centres = [complex(sign * (each.left + each.right), each.low + each.high) / 2 for each in moving]
-        inertias = [
-            weight * ((each.high - each.low) ** 2 + (each.right - each.left) ** 2) / 12
-            for weight, each in zip(weights, moving, strict=True)
-        ]
+        weights = np.array([each.total for each in moving])
+        centres = [complex(sign * (each.left + each.right) / 2, each.middle) for each in moving]
+        inertias = [each.inertia for each in moving]
         parts = Parts(weights, centres, inertias)
         points = [self._edge(height, turn) for height, turn in opening.kinks]
         if opening.hold is not None and not opening.upright:

@@ -33,6 +33,11 @@ class StructureKind(Kind):
         "{about} vale {across_m:.6g} m e {height} {height_m:.6g} m: un corpo così largo scorre prima di "
         "oscillare; controllare quale sia quale.",
     )
+    ONE_LEAF = auto(), Sentence(
+        "Taken as one leaf of {thickness} m: where it has leaves that may part, give leaves_m.",
+        "Si assume un solo paramento di {thickness} m: se i paramenti possono separarsi, assegnarne gli spessori "
+        "(leaves_m).",
+    )
     TIES_ALL_ALONG = auto(), Sentence(
         "Its ties are taken to hold it all along: give their tie_spacing and the unit_length of the masonry, or "
         "held_between: floor where a stiff floor or a ring beam holds it between them.",

@@ -23,9 +23,9 @@ class OtherName(NamedTuple):
 
 
 _ROLLS = "a round one that rolls on its rim is not modelled"
-_LEAF = (
-    "give its outer leaf alone, with its own thickness and no load, beside the leaf that bears: leaves that part are "
-    "not modelled"
+_LEAVES = (
+    "give the thickness of its leaves from outside in, leaves_m, and of a wall that bears or stands free those of a "
+    "loaded_wall, a facade or a free_wall"
 )
 _RUBBLE = "masonry that comes apart falls before it rocks as a body"
 _TOWER = "a tower bends and cracks before it rocks; what stands on it takes it as its support by stands_on"
@@ -69,7 +69,7 @@ OTHER_NAMES: dict[str, OtherName] = {
             "veneer",
             "cladding",
         ),
-        OtherName("wall", _LEAF),
+        OtherName("wall", _LEAVES),
     ),
     **dict.fromkeys(("pushover curve", "pushover", "capacity curve"), OtherName("capacity_curve")),
     # What nothing here describes.

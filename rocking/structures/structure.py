@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -51,11 +51,13 @@ if TYPE_CHECKING:
 
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
+AS_GIVEN = "as given"
+"""The description of the one mechanism of what does not crack."""
 CRACKS = 11
 """Number of mechanisms that are followed where more than one may form."""
 TYPED_LOWER = 0.05
 """Difference by which a typed restitution may lie below that of the geometry before both are followed."""
-_USUAL_WEIGHT = 20e3
+USUAL_WEIGHT = 20e3
 """Weight of masonry where none is given, N/m³."""
 WEAK_MASONRY = 2e6
 """Compressive strength of weak masonry, Pa, of which reports say what it would change."""
@@ -76,7 +78,8 @@ class Structure(ABC):
     them. falls_by_sliding: whether it comes apart where its joints slide, though nothing lifts. _usual_restitution:
     where none is given. statics_chooses: whether codes check the mechanism of least λ alone, as between supports limit
     analysis finds it; otherwise every crack that may open is a mechanism of its own.
-    _contacts_unknown: why no contact forces are known; "" where the moving parts tell them.
+    _contacts_unknown: why no contact forces are known; "" where the moving parts tell them. together: the values of its
+    fields with which its leaves do not part.
     """
 
     __signature__ = PlainSignature()
@@ -90,6 +93,7 @@ class Structure(ABC):
     statics_chooses: ClassVar[bool] = False
     one_sided = False
     _contacts_unknown: ClassVar[str] = ""
+    together: ClassVar[dict[str, Any]] = {}
 
     restitution_range: Annotated[
         float | None,
@@ -439,11 +443,16 @@ class Structure(ABC):
 
     def _ranked_candidates(self, count: int) -> "tuple[Candidate, ...]":
         """The candidates in their order."""
-        return (Candidate("as given", np.nan, self),)
+        return (Candidate(AS_GIVEN, np.nan, self),)
 
     def mechanisms(self) -> "tuple[Candidate, ...]":
         """Return every mechanism in which it may fall; a wall that is held at several heights has many by name."""
         return self.candidates()
+
+    @property
+    def leaves_alone(self) -> "tuple[LeafAlone, ...]":
+        """Its leaves that may part, each as a structure of its own; () of what has one."""
+        return ()
 
     @property
     def crack_is_known(self) -> bool:
@@ -581,6 +590,7 @@ class Candidate:
     name: what it does, "bulges between foot and tie". limit: its λ by limit analysis, in which a tie pulls with the
     force at which it yields; None where it has no such tie. sign: of the rotation to the side to which it falls; 0:
     both sides. counts: whether it takes part in the verdict; otherwise it is told beside the crack that is known.
+    part: the leaf that falls alone, "outer leaf"; "" where all of the structure does.
     """
 
     description: str
@@ -590,6 +600,7 @@ class Candidate:
     limit: float | None = None
     sign: int = 0
     counts: bool = True
+    part: str = ""
 
     def __post_init__(self) -> None:
         """Take the name of what its structure does, where it has none of its own."""
@@ -641,6 +652,13 @@ class Candidate:
         return self.structure.mechanism().sides[-1 if self.sign < 0 else 0]
 
 
+class LeafAlone(NamedTuple):
+    """A leaf by its name, "outer leaf", as a structure of its own."""
+
+    name: str
+    structure: Structure
+
+
 @dataclass(frozen=True, repr=False)
 class Crushable(Structure):
     """A structure of masonry whose joints crush at their edges, so that its hinges move in (theory: section 12.8).
@@ -663,7 +681,7 @@ class Crushable(Structure):
     def crushing(self, strength: float) -> "Structure | None":
         if self.compressive_strength is not None:
             return None
-        weight = getattr(self, "unit_weight", None) or _USUAL_WEIGHT
+        weight = getattr(self, "unit_weight", None) or USUAL_WEIGHT
         values: dict[str, float] = {"compressive_strength": strength, "unit_weight": weight}
         try:
             return replace(self, **values)
@@ -808,8 +826,8 @@ class CrackedAtHeight(Crackable):
 
     @cached_property
     def _cracked_there_only(self) -> Self:
-        """This structure with its crack known, from which those cracked elsewhere are made."""
-        return replace(self, crack="known", **self._placed(self.crack_position))
+        """This structure with its crack known, from which those cracked elsewhere are made; its leaves together."""
+        return replace(self, crack="known", **self._placed(self.crack_position), **self.together)
 
     def _candidate(self, height: float) -> Candidate | None:
         try:

@@ -3,9 +3,10 @@
 import math
 import warnings
 from abc import abstractmethod
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Annotated, ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,8 +16,9 @@ from rocking.quantities import GRAVITY
 from rocking.remarks import Remark
 from rocking.structures.drawing import Mark, plane
 from rocking.structures.fields import OneSided, Value
-from rocking.structures.held_wall import Chain, HeldWall, Opening
+from rocking.structures.held_wall import Chain, HeldWall, Hold, Opening
 from rocking.structures.kinds import StructureKind
+from rocking.structures.leaves import Leaf, Leaved, of_leaf
 from rocking.structures.linkage import (
     STILL,
     Hung,
@@ -27,6 +29,7 @@ from rocking.structures.linkage import (
     UnknownContacts,
 )
 from rocking.structures.mechanism import Tie
+from rocking.structures.stack import Course, Held, Stop, course_at
 from rocking.structures.structure import Candidate, CrackedAtHeight
 
 UnitWeight = Annotated[float, Value("Weight of the masonry", 20.0, "kN/m³", (8, 30), bounds={"ge": 1e-6})]
@@ -55,6 +58,27 @@ FAR_APART = 3.0
 the least λ is that of a wall held all along up to there, and goes down to that of the triangle beyond."""
 
 
+_RODS_SPREAD: dict[str, Any] = {
+    "rod_diameter": None,
+    "rod_length": None,
+    "rod_yield_stress": None,
+    "rod_pretension": 0.0,
+}
+"""The fields of rods that are spread over the metre already."""
+_NO_TIES: dict[str, Any] = {
+    "tie_heights": (),
+    "tie_stiffness": 0.0,
+    "tie_pretension": 0.0,
+    "tie_strength": None,
+    "tie_plastic_elongation": 0.0,
+    "tie_spacing": None,
+    "unit_length": None,
+    "held_between": None,
+    **_RODS_SPREAD,
+}
+"""The fields of a wall without ties."""
+
+
 def check_eccentricity(value: float, thickness: float) -> None:
     """Refuse a bearing beyond the edge of a wall of that thickness [m]."""
     if abs(value) > thickness / 2:
@@ -75,7 +99,7 @@ def check_inside(field: str, value: float, height: float) -> None:
 
 
 @dataclass(frozen=True, repr=False)
-class Tied(CrackedAtHeight):
+class Tied(CrackedAtHeight, Leaved):
     """A structure with a row of equal ties.
 
     tie_heights: of ties above the ground, m; tie_stiffness: of each, N/m per m; tie_pretension, N/m; tie_strength,
@@ -87,9 +111,13 @@ class Tied(CrackedAtHeight):
     rod_length, m, rod_yield_stress and rod_modulus, Pa, rod_pretension, N: of each rod, in place of the stiffness
     E A/(L s), the strength f_y A/s and the pretension T/s.
     compressive_strength: of the masonry, Pa; None: the edges of its joints do not crush.
-    opening: of one of its `mechanisms()`, in which alone it moves; files do not give it.
+    loaded_leaf: of its leaves the one on which loads and thrusts bear. Ties hold each leaf as they hold the wall; a
+    leaf that goes inwards alone is held by none.
+    opening: of one of its `mechanisms()`, in which alone it moves; held_at: the heights at which the rest of a wall
+    holds this leaf of it to both sides, m; files give neither.
     """
 
+    together: ClassVar[dict[str, Any]] = {**Leaved.together, "loaded_leaf": None}
     loads_rise_only: ClassVar[bool] = False
     """Whether loads with a mass move up and down only, as something holds them sideways."""
 
@@ -181,8 +209,17 @@ class Tied(CrackedAtHeight):
     rod_pretension: Annotated[
         float, Value("Force of a rod at rest; needs one_sided", None, "kN", (0, 200))
     ] = field(default=0.0, kw_only=True)
+    loaded_leaf: Annotated[
+        Literal["inner", "outer"] | None,
+        Value(
+            "Leaf on which loads and thrusts bear; left out: the inner one",
+            "inner",
+            phrase="loads on the {value} leaf",
+        ),
+    ] = field(default=None, kw_only=True)
     one_sided: OneSided = field(default=False, kw_only=True)
     opening: Opening | None = field(default=None, kw_only=True)
+    held_at: tuple[float, ...] = field(default=(), kw_only=True)
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -226,21 +263,7 @@ class Tied(CrackedAtHeight):
 
     def without_ties(self) -> Self:
         """Return the same structure with no tie. Raises StructureError where it does not stand so."""
-        return replace(
-            self,
-            tie_heights=(),
-            tie_stiffness=0.0,
-            tie_pretension=0.0,
-            tie_strength=None,
-            tie_plastic_elongation=0.0,
-            tie_spacing=None,
-            unit_length=None,
-            held_between=None,
-            rod_diameter=None,
-            rod_length=None,
-            rod_yield_stress=None,
-            rod_pretension=0.0,
-        )
+        return replace(self, **_NO_TIES)
 
     @property
     def ties_apart(self) -> bool:
@@ -293,12 +316,13 @@ class Tied(CrackedAtHeight):
 
     @cached_property
     def _mechanisms(self) -> tuple[Candidate, ...]:
-        cracked = [each for each in self.candidates() if each.counts]
+        cracked = [each for each in self.candidates() if each.counts and not each.part]
         others = self._bulges if self.crack_is_known else self._family
         if self.symmetric:
             others = tuple(each for each in others if each.sign >= 0)
         beside = [each for each in others if not any(_is_that(own, each) for own in cracked)]
-        return tuple(sorted((*cracked, *beside), key=lambda each: each.uplift_multiplier))
+        of_leaves = [of_leaf(name, each) for name, leaf in self.leaves_alone for each in leaf.mechanisms()]
+        return tuple(sorted((*cracked, *beside, *of_leaves), key=lambda each: each.uplift_multiplier))
 
     @cached_property
     def _bulges(self) -> tuple[Candidate, ...]:
@@ -310,7 +334,7 @@ class Tied(CrackedAtHeight):
             return ()
         own = self._described_opening
         span = (own.foot, own.hold) if own else None
-        if span and not self.tie_heights and not self.held_wall.top_may_slip:
+        if span and not (self.tie_heights or self.held_at) and not self.held_wall.top_may_slip:
             return ()  # it is that bulge itself
         bulges = []
         for each in self._family:
@@ -385,8 +409,10 @@ class Tied(CrackedAtHeight):
     def _limited(self, candidate: Candidate) -> Candidate:
         """A crack with its λ by limit analysis, in which each tie pulls with the force at which it yields."""
         wall = candidate.structure
-        if not self.tie_heights or not isinstance(wall, Tied):
+        if not (self.tie_heights or self.held_at) or not isinstance(wall, Tied):
             return candidate
+        if self.held_wall.is_bonded(wall._opens):
+            return replace(candidate, limit=math.inf)
         outwards = wall.held_wall.multiplier(wall._opens)
         inwards = [side.uplift_multiplier for side in wall.mechanism().sides[1:]]
         return replace(candidate, limit=min([outwards, *inwards]))
@@ -477,7 +503,7 @@ class Tied(CrackedAtHeight):
                     friction,
                     friction / reaction.pressing if reaction.pressing else 0.0,
                     of_ties,
-                    sum(each.weight * (each.high - each.low) for each in wall.storeys),
+                    sum(each.total for each in wall.storeys),
                     wall.grip(hold.height) if hold.kind == "tie" else math.inf,
                 )
             )
@@ -639,7 +665,58 @@ class Tied(CrackedAtHeight):
                     end = "yields" if self.tie_plastic_elongation else "breaks"
                     text += f", {end} at {self.tie_strength / 1e3:.6g} kN/m"
             marks.append(Mark(each.kind, text, np.array([head + tail, head])))
-        return tuple(marks)
+        behind = anchorage + 2 * size
+        marks += [
+            Mark("support", "", np.array([[behind - size / 2, height], [behind, height]]))
+            for height in self.held_at
+        ]
+        return (*super().marks(rotation), *marks)
+
+    def _with_bonders(self, holds: Iterable[Hold]) -> list[Hold]:
+        """What holds a leaf besides the rest of its wall, which gives to neither side where it does."""
+        near = _SAME * self.height
+        others = [each for each in holds if all(abs(each.height - height) > near for height in self.held_at)]
+        return [*others, *(Hold(each, "bonder", math.inf, math.inf) for each in self.held_at)]
+
+    def _bonded(self, courses: Sequence[Course], outer: float, inner: float) -> list[Held]:
+        """What bonders do to a leaf in courses, with faces at these x [m]: a stop inwards, a tie as stiff outwards."""
+        held = []
+        for height in self.held_at:
+            place = course_at(courses, height)
+            stop = Stop.of_mass(courses[place].mass, self.mechanism().positive.restitution)
+            tie = Tie(stop.stiffness, 0.0, np.inf, 0.0)
+            held += [Held(place, (outer, height), tie=tie), Held(place, (inner, height), stop=stop)]
+        return held
+
+    def _bears(self, leaf: Leaf) -> bool:
+        """Whether the loads bear on a leaf."""
+        return leaf.name == f"{self.loaded_leaf or 'inner'} leaf"
+
+    def _ties_of(self, leaf: Leaf) -> dict[str, Any]:
+        """The fields by which the ties of the wall hold a leaf: outwards, tightened where it cannot go inwards."""
+        ties = {each: getattr(self, each) for each in _NO_TIES} | _RODS_SPREAD
+        leans = leaf.moves == "outwards" or (leaf.is_inner and self._leans)
+        if not leans:
+            ties["tie_pretension"] = 0.0
+        if leaf.moves == "inwards" or not (ties["tie_stiffness"] or ties["tie_pretension"]):
+            return _NO_TIES
+        return ties
+
+    def _eccentricity_on(self, leaf: Leaf, thicknesses: Iterable[float], eccentricity: float) -> float:
+        """Return how far inwards of the middle of a leaf the loads bear, m.
+
+        Where they bear on the wall, if that is one place of the leaf; else at its middle. thicknesses: of the wall
+        where loads bear, m.
+        """
+        asides = {
+            (thickness - leaf.thickness) / 2 * (1 if leaf.is_inner else -1) for thickness in thicknesses
+        }
+        if not eccentricity or len(asides) != 1:
+            return 0.0
+        on_leaf = eccentricity - asides.pop()
+        if abs(on_leaf) > leaf.thickness / 2:
+            return 0.0
+        return on_leaf * (-1 if leaf.moves == "inwards" else 1)
 
     @cached_property
     def _tie(self) -> Tie:
@@ -683,6 +760,9 @@ class Tied(CrackedAtHeight):
         if self.unit_length is not None and self.tie_spacing is None:
             said = ", but a unit_length needs the distance between the ties of a row; give it."
             raise SizeError.of("tie_spacing", "missing", said)
+        if self.loaded_leaf is not None and not self.leaves:
+            said = ", but says which of its leaves bears its loads; give the thickness of each, leaves_m."
+            raise SizeError.of("loaded_leaf", repr(self.loaded_leaf), said)
         if (stiffness or pretension) and not self.tie_heights:
             raise SizeError.of("tie_heights", "empty", ", but must say where the ties are; give it.")
         if self.tie_heights and not (stiffness or pretension):

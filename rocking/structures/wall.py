@@ -23,6 +23,7 @@ from rocking.structures.fields import (
     restitution_value,
 )
 from rocking.structures.held_wall import HeldWall, Hold, Load, Opening, Storey
+from rocking.structures.leaves import Leaf, Leaved
 from rocking.structures.linkage import (
     HIGHEST_SHARE,
     Contacts,
@@ -49,7 +50,7 @@ from rocking.structures.stack import (
     joints_between,
     slab,
 )
-from rocking.structures.structure import CrackedAtHeight, unplaced
+from rocking.structures.structure import USUAL_WEIGHT, CrackedAtHeight, unplaced
 from rocking.structures.tied import (
     LEAST_STIFFNESS,
     Eccentricity,
@@ -188,6 +189,17 @@ Crack = Literal["known"] | None
 """See `Crackable`."""
 
 
+class WallOptions(TypedDict, total=False):
+    """The options of a wall besides its sizes; see `Wall`."""
+
+    restitution_range: float | None
+    compressive_strength: float | None
+    unit_weight: float | None
+    leaves: tuple[float, ...]
+    bonders: float | tuple[float, ...] | None
+    thrown_back: float | None
+
+
 class LoadedWallOptions(TypedDict, total=False):
     """The options of a loaded wall besides its sizes; see `LoadedWall`."""
 
@@ -213,10 +225,14 @@ class LoadedWallOptions(TypedDict, total=False):
     restitution_range: float | None
     compressive_strength: float | None
     top_friction: float | None
+    leaves: tuple[float, ...]
+    bonders: float | tuple[float, ...] | None
+    thrown_back: float | None
+    loaded_leaf: Literal["inner", "outer"] | None
 
 
 @dataclass(frozen=True, repr=False)
-class CrackedWall(CrackedAtHeight):
+class CrackedWall(CrackedAtHeight, Leaved):
     """A wall cracked into two blocks; base and top follow the ground, the top support slides vertically."""
 
     crack_name: ClassVar[str] = "hinge"
@@ -310,7 +326,7 @@ class CrackedWall(CrackedAtHeight):
         ]
         return (*super().marks(rotation), *held)
 
-    def _dimensions(self) -> dict[str, Path]:
+    def _dimensions(self) -> dict[str, Path | list[Path]]:
         half = self.thickness / 2
         crack = self.lower_height
         top = self.height
@@ -323,7 +339,12 @@ class CrackedWall(CrackedAtHeight):
             "lower_height": span([half, 0.0], [half, crack], right),
             "upper_height": span([half, crack], [half, top], right),
             "thickness": span([-half, top], [half, top], [0.0, apart]),
+            **self._leaf_dimensions(),
         }
+
+    @property
+    def _sections(self) -> tuple[tuple[float, float, float, float], ...]:
+        return ((0.0, self.height, -self.thickness / 2, self.thickness / 2),)
 
 
 @dataclass(frozen=True, repr=False)
@@ -350,6 +371,13 @@ class Wall(CrackedWall):
         restitution number.
     restitution_range : float or None, optional
         η is known to plus or minus this much; None: as the settings of the ensemble say.
+    leaves : tuple of float, optional
+        Thickness of each leaf from outside in, m, two or three, which may part; () for one leaf.
+    bonders : float, tuple of float or None, optional
+        Heights above the ground at which through-stones hold each leaf, m, or one spacing, counted down from
+        the top; None: nothing does.
+    thrown_back : float or None, optional
+        η of the impact of a leaf on the one beside it, in [0, 1]; None: each leaf rocks both ways.
     compressive_strength : float or None, optional
         Compressive strength of the masonry, Pa, at which the edges of joints crush, so that hinges move in;
         None: they do not crush. Needs `unit_weight`.
@@ -383,6 +411,20 @@ class Wall(CrackedWall):
     def __post_init__(self) -> None:
         super().__post_init__()
         self._stand_crushed()
+        self._check_leaves()
+
+    def _alone(self, leaf: Leaf) -> CrackedWall:
+        """A leaf between the same supports, between which bonders may hold it."""
+        options: dict[str, Any] = {
+            "restitution_range": self.restitution_range,
+            "compressive_strength": self.compressive_strength,
+            **self._stands_as(leaf),
+        }
+        heights = self.lower_height, self.upper_height
+        if not self.bonder_heights:
+            return Wall(*heights, leaf.thickness, crack=self.crack, unit_weight=self.unit_weight, **options)
+        weight = self.unit_weight or USUAL_WEIGHT
+        return LoadedWall(*heights, leaf.thickness, weight, held_at=self.bonder_heights, **options)
 
     def _linkage(self, mirrored: bool) -> Linkage:
         if self.compressive_strength is None:
@@ -426,23 +468,11 @@ class Wall(CrackedWall):
         one_sided: bool = False,
         *,
         crack: Crack = None,
-        restitution_range: float | None = None,
-        compressive_strength: float | None = None,
-        unit_weight: float | None = None,
+        **options: Unpack[WallOptions],
     ) -> Self:
         """Return the wall of that height and thickness [m], hinged where it is typed, or else where statics puts it."""
         lower, upper = cls._heights(height, hinge_height, crack)
-        wall = cls(
-            lower,
-            upper,
-            thickness,
-            restitution,
-            one_sided,
-            crack=crack,
-            restitution_range=restitution_range,
-            compressive_strength=compressive_strength,
-            unit_weight=unit_weight,
-        )
+        wall = cls(lower, upper, thickness, restitution, one_sided, crack=crack, **options)
         return wall if hinge_height is not None else wall.cracked_by_statics()
 
     @classmethod
@@ -455,22 +485,11 @@ class Wall(CrackedWall):
         one_sided: bool = False,
         *,
         crack: Crack = None,
-        restitution_range: float | None = None,
-        compressive_strength: float | None = None,
-        unit_weight: float | None = None,
+        **options: Unpack[WallOptions],
     ) -> Self:
         """Return the wall of that total height whose hinge lies at `hinge_height` [m] above the base."""
-        return cls.of_size(
-            height,
-            thickness,
-            finite(StructureError, "hinge_height", hinge_height, "m"),
-            restitution,
-            one_sided,
-            crack=crack,
-            restitution_range=restitution_range,
-            compressive_strength=compressive_strength,
-            unit_weight=unit_weight,
-        )
+        hinge = finite(StructureError, "hinge_height", hinge_height, "m")
+        return cls.of_size(height, thickness, hinge, restitution, one_sided, crack=crack, **options)
 
 
 @dataclass(frozen=True, repr=False)
@@ -500,6 +519,13 @@ class LoadedWall(CrackedWall, Tied):
         η in [0, 1] or "momentum" (the default).
     restitution_range : float or None, optional
         η is known to plus or minus this much; None: as the settings of the ensemble say.
+    leaves : tuple of float, optional
+        Thickness of each leaf from outside in, m, two or three, which may part; () for one leaf.
+    bonders : float, tuple of float or None, optional
+        Heights above the ground at which through-stones hold each leaf, m, or one spacing, counted down from
+        the top; None: nothing does.
+    thrown_back : float or None, optional
+        η of the impact of a leaf on the one beside it, in [0, 1]; None: each leaf rocks both ways.
     compressive_strength : float or None, optional
         Compressive strength of the masonry, Pa, at which the edges of joints crush, so that hinges move in;
         None: they do not crush. Needs `unit_weight`.
@@ -536,10 +562,14 @@ class LoadedWall(CrackedWall, Tied):
         Modulus of elasticity of a rod, Pa.
     rod_pretension : float, default 0.0
         Force of a rod at rest, N; needs `one_sided`.
+    loaded_leaf : {'inner', 'outer'} or None, optional
+        The leaf on which loads bear; None: the inner one.
     one_sided : bool, default False
         Whether it bends outwards only; needs a restitution number.
     opening : Opening or None, optional
         Which of its mechanisms this is alone; None of a structure as it is listed.
+    held_at : tuple of float, optional
+        Heights at which the rest of a wall holds this leaf of it, m; () of a structure as it is listed.
     top_friction : float or None, optional
         Friction coefficient between load and wall, by which the load holds the top; None: as the settings
         say. Without any it never slips, and a top without a load is held.
@@ -589,6 +619,27 @@ class LoadedWall(CrackedWall, Tied):
         self._check_ties()
         if self.opening is None:
             self.mechanism()  # one that its load pushes over is refused at birth
+            self._check_leaves()
+
+    def _alone(self, leaf: Leaf) -> "LoadedWall":
+        """A leaf between the same supports; of one that bears nothing these hold the top."""
+        loads: dict[str, Any] = {
+            "top_load": 0.0,
+            "eccentricity": 0.0,
+            "top_friction": None,
+            "load_held": False,
+        }
+        loads["top_slab"] = "hinged"
+        if self._bears(leaf):
+            loads |= {each: getattr(self, each) for each in loads}
+            loads["eccentricity"] = self._eccentricity_on(leaf, [self.thickness], self.eccentricity)
+        return replace(
+            self,
+            thickness=leaf.thickness,
+            crack=None if self.bonder_heights else self.crack,
+            held_at=self.bonder_heights,
+            **(self.together | loads | self._ties_of(leaf) | self._stands_as(leaf)),
+        )
 
     @classmethod
     def of_size(
@@ -623,7 +674,9 @@ class LoadedWall(CrackedWall, Tied):
 
     @property
     def _holds_within(self) -> tuple[float, ...]:
-        return tuple(sorted({height for height in self.tie_heights if height < self.height}))
+        return tuple(
+            sorted({height for height in (*self.tie_heights, *self.held_at) if height < self.height})
+        )
 
     @property
     def symmetric(self) -> bool:
@@ -648,7 +701,7 @@ class LoadedWall(CrackedWall, Tied):
         return HeldWall(
             (Storey(0.0, top, -half, half, self.unit_weight * self.thickness),),
             (load,) if self.top_load else (),
-            (*holds, Hold(top, "top", friction + at_top, friction)),
+            tuple(sorted(self._with_bonders([*holds, Hold(top, "top", friction + at_top, friction)]))),
             backed=self.one_sided,
             strength=self.compressive_strength,
             ties_apart=self.ties_apart,
@@ -689,7 +742,7 @@ class LoadedWall(CrackedWall, Tied):
         return Opening(0.0, self.lower_height, self.height)
 
     def opened(self, opening: Opening) -> Self:
-        return replace(self, crack="known", opening=opening)
+        return replace(self, crack="known", opening=opening, **self.together)
 
     def _parts(self) -> list[tuple[int, np.ndarray]]:
         return super()._parts() if self.opening is None else self.held_wall.outlines(self.opening)
@@ -713,7 +766,7 @@ class LoadedWall(CrackedWall, Tied):
         held = tuple(
             Held(course_at(wall, height), (half, height), tie=self._tie) for height in self.tie_heights
         )
-        held += self._behind(wall)
+        held += (*self._bonded(wall, half, -half), *self._behind(wall))
         if not self.top_load:
             return Stack(wall, held, top_held_at=(0.0, self.height))
         if self.load_held and self.top_slab == "flat":

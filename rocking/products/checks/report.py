@@ -40,7 +40,7 @@ from rocking.reports.sentences import Sentences
 from rocking.reports.style import picture
 from rocking.reports.variants import strips
 from rocking.structures import Structure
-from rocking.structures.structure import Candidate, Crackable
+from rocking.structures.structure import AS_GIVEN, Candidate, Crackable
 from rocking.structures.tied import Tied
 
 OWN_SENTENCES = Path(__file__).with_name("sentences.csv")
@@ -537,9 +537,11 @@ def _mechanism_table(page: CheckedStructure, words: Sentences) -> Table:
 def _falls(candidate: Candidate, words: Sentences) -> str:
     """What falls, and where it opens."""
     if words.language != "en":
-        return _opens(candidate.structure, candidate.sign, words)
-    opens = candidate.description.removesuffix(f" ({candidate.name})")
-    return candidate.name if opens == "as given" else f"{candidate.name}: {opens}"
+        return _opens(candidate.structure, candidate.sign, words, candidate.part)
+    alone = f"{candidate.part} alone" if candidate.part else ""
+    opens = candidate.description.removeprefix(alone).removeprefix(", ")
+    opens = opens.removesuffix(f" ({candidate.name.removeprefix(alone).strip()})")
+    return candidate.name if opens in ("", AS_GIVEN) else f"{candidate.name}: {opens}"
 
 
 def _holds(mechanism: ListedMechanism, words: Sentences) -> str:
@@ -578,11 +580,11 @@ def opening_words(mechanism: LocalMechanism, words: Sentences) -> str:
     """Return what opens, and to which side it falls."""
     if words.language == "en":
         return mechanism.description
-    return _opens(mechanism.body, mechanism.sign, words)
+    return _opens(mechanism.body, mechanism.sign, words, mechanism.part)
 
 
-def _opens(body: Structure, sign: int, words: Sentences) -> str:
-    """What opens of a body with one crack, and to which side it falls."""
+def _opens(body: Structure, sign: int, words: Sentences, part: str) -> str:
+    """What opens of a body with one crack, and to which side it falls; part: the leaf that falls alone, or ""."""
     opening = body.opening if isinstance(body, Tied) else None
     position = getattr(body, "crack_position", math.nan)
     if opening is not None:
@@ -598,7 +600,7 @@ def _opens(body: Structure, sign: int, words: Sentences) -> str:
     else:
         opens = words("opens as given")
     side = "" if body.symmetric else words(f"side {body.side_names[0 if sign >= 0 else 1]}")
-    return ", ".join(filter(None, (opens, side)))
+    return ", ".join(filter(None, (words(f"alone {part}") if part else "", opens, side)))
 
 
 def _sentences(page: CheckedStructure, checked: StructureCheck, words: Sentences) -> list[str]:

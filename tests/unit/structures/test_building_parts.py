@@ -96,7 +96,7 @@ def test_what_it_is_called_besides_is_no_type_and_is_answered_by_one_or_none():
         ("Vault", "type: arch; one metre of it"),
         ("domes", "not modelled: a dome is held by its rings"),
         ("retaining_wall", "not modelled: earth or water"),
-        ("cavity_wall", "give its outer leaf alone"),
+        ("cavity_wall", "type: wall; give the thickness of its leaves from outside in, leaves_m"),
     ],
 )
 def test_a_name_is_answered_by_its_meaning(typed, words):

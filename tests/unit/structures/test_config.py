@@ -12,6 +12,7 @@ from rocking.assessment.scene import load_scenes, scenes_schema, scenes_schema_f
 from rocking.errors import ConfigurationError, StructureError
 from rocking.floors.place import PERIODS
 from rocking.structures import Arch, Block, Facade, Frame, Spire, Wall, structure_from_config
+from rocking.structures.building_parts import FreeWall
 from rocking.structures.kinds import StructureKind
 
 WORKFLOW = Path(__file__).parents[3] / "workflow"
@@ -46,7 +47,14 @@ def test_shipped_structures_stand_and_pass_the_schema():
     assert len(scenes) == 10 + 2
     assert sorted(carried) == [1, PERIODS]
     structures = {name: scene.structure for name, scene in scenes.items()}
-    assert {type(structure) for structure in structures.values()} == {Arch, Block, Frame, Spire, Wall}
+    assert {type(structure) for structure in structures.values()} == {
+        Arch,
+        Block,
+        FreeWall,
+        Frame,
+        Spire,
+        Wall,
+    }
     assert all(structure.mechanism().uplift_multiplier > 0 for structure in structures.values())
     assert structures["arch 10 m"] == Arch(10, 1.5, np.radians(157.5), restitution=0.9)
 

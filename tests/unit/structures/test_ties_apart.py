@@ -167,6 +167,23 @@ def test_wall_between_supports_falls_between_its_ties_as_without_them():
     assert replace(tied, held_between="floor").static_multiplier > 2 * bare.static_multiplier
 
 
+@pytest.mark.parametrize("friction", [0.0, 0.05, 0.3])
+@pytest.mark.parametrize("heights", [(1.6,), (3.2,), (1.6, 3.2)])
+def test_wall_whose_top_slips_falls_between_its_ties_as_without_them(friction, heights):
+    """Friction alone holds the top midway between two ties, also of a row at the top itself."""
+    values = {"top_load": 5e3, "top_friction": friction, "one_sided": True, "restitution": 0.5}
+    bare = LoadedWall.of_size(3.2, 0.25, 18e3, **values)
+    ties = {"tie_heights": heights, "tie_stiffness": 2e7, "tie_spacing": 4.0, "unit_length": 0.5}
+    tied = LoadedWall.of_size(3.2, 0.25, 18e3, **values, **ties)
+    weight, load = 18e3 * 0.25 * 3.2, 5e3
+    by_hand = (weight * 0.125 + load * 0.125 + friction * load * 3.2) / (weight * 1.6)
+    assert bare.static_multiplier == pytest.approx(by_hand, rel=1e-6)
+    assert tied.static_multiplier == pytest.approx(by_hand, rel=1e-6)
+    first = tied.candidates()[0]
+    assert first.critical_rotation == pytest.approx(bare.candidates()[0].critical_rotation, rel=1e-6)
+    assert replace(tied, held_between="floor").static_multiplier >= tied.static_multiplier
+
+
 @pytest.mark.parametrize("fronts", [8, pytest.param(200, marks=pytest.mark.slow)])
 def test_closer_and_stronger_ties_are_never_worse(fronts):
     """The least λ of drawn fronts: a closer spacing, a stronger tie, more thickness."""

@@ -1,0 +1,393 @@
+"""Leaves that part: λ of each by limit analysis of its courses, a loaded one, names, verdicts and refusals."""
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from courses import Courses
+
+import rocking
+from rocking.assessment.contacts import contact_share, stackable
+from rocking.assessment.cracks import cracks, mechanisms_of
+from rocking.assessment.motions import GroundMotions
+from rocking.assessment.settings import AssessmentSettings
+from rocking.codes.static_check import kinematic_check
+from rocking.errors import DoesNotStandError, RockingError, StructureError
+from rocking.structures import Block, Facade, LoadedWall, Wall
+from rocking.structures.building_parts import FreeWall
+from rocking.structures.held_wall import Storey
+from rocking.structures.kinds import StructureKind
+
+G = 9.80665
+SIZES = {
+    "wall": {"height_m": 3.2, "thickness_m": 0.5},
+    "loaded_wall": {"height_m": 3.2, "thickness_m": 0.5, "unit_weight_kN_m3": 18.0, "top_load_kN_m": 20.0},
+    "facade": {
+        "storey_heights_m": [3.5, 3.0],
+        "thicknesses_m": [0.6, 0.5],
+        "unit_weight_kN_m3": 18.0,
+        "floor_loads_kN_m": [12.0, 6.0],
+    },
+    "free_wall": {"height_m": 2.0, "thickness_m": 0.5},
+    "parapet": {"height_m": 1.0, "thickness_m": 0.5},
+    "gable": {"height_m": 3.0, "thickness_m": 0.5},
+}
+TOP_HELD = ("wall", "loaded_wall")
+
+
+def described(kind, **more):
+    return rocking.structure_from_config({"type": kind, **SIZES[kind], **more})
+
+
+def drawn(draw):
+    """A wall of two or three leaves: its type, its values, and the share of its breadth at its top."""
+    kind = str(draw.choice(list(SIZES)))
+    thickness = float(draw.uniform(0.3, 0.7))
+    height = float(draw.uniform(1.0, 4.0))
+    number = int(draw.integers(2, 4))
+    shares = draw.dirichlet(np.full(number, 5.0)) * draw.uniform(0.7, 1.0)
+    values = {"leaves_m": (thickness * shares).tolist()}
+    if kind == "facade":
+        storeys = int(draw.integers(1, 4))
+        values["storey_heights_m"] = draw.uniform(2.5, 4.0, storeys).tolist()
+        values["thicknesses_m"] = np.sort(thickness + draw.uniform(0, 0.3, storeys))[::-1].tolist()
+        values["floor_loads_kN_m"] = draw.uniform(1, 20, storeys).tolist()
+        height = sum(values["storey_heights_m"])
+    else:
+        values |= {"height_m": height, "thickness_m": thickness}
+    if kind == "loaded_wall":
+        values["top_load_kN_m"] = float(draw.uniform(1, 40))
+    if kind in ("facade", "loaded_wall"):
+        values["loaded_leaf"] = str(draw.choice(["inner", "outer"]))
+    if draw.random() < 0.6:
+        heights = np.sort(draw.uniform(0.15, 0.95, int(draw.integers(1, 4)))) * height
+        values["bonders_m"] = heights.tolist() if draw.random() < 0.5 else float(0.4 * height)
+    return kind, values, height
+
+
+def by_courses(wall, kind, height, place, joints):
+    """λ of one leaf in courses, the least of both ways, from what was typed alone."""
+    thickness = wall.leaves[place]
+    bears = getattr(wall, "loaded_leaf", None) or "inner"
+    is_loaded = place == {"inner": len(wall.leaves) - 1, "outer": 0}[bears]
+    middles = (joints[1:] + joints[:-1]) / 2
+    breadth = 1 - middles / height if kind == "gable" else np.ones(middles.size)
+    half = np.full(middles.size, thickness / 2)
+    courses = Courses(joints, -half, half, 18.0 * thickness * np.diff(joints) * breadth)
+    if isinstance(wall.bonders, float):
+        courses.stops = [height - wall.bonders * k for k in range(1, 99) if height - wall.bonders * k > 1e-9]
+    else:
+        courses.stops = list(wall.bonders or ())
+    if kind in TOP_HELD:
+        courses.stops.append(height)
+    if is_loaded and kind == "loaded_wall":
+        courses.loads = [(0.0, height, wall.top_load / 1e3, 0.0)]
+    if is_loaded and kind == "facade":
+        levels = np.cumsum(wall.storey_heights)
+        courses.loads = [
+            (0.0, level, load / 1e3, 1.0) for level, load in zip(levels, wall.floor_loads, strict=True)
+        ]
+    return min(courses.multiplier(1), courses.multiplier(-1))
+
+
+@pytest.mark.filterwarnings("ignore::rocking.errors.StructureWarning")  # some of those drawn are squat
+@pytest.mark.parametrize("number", [3, pytest.param(100, marks=pytest.mark.slow)])
+def test_each_leaf_has_the_multiplier_of_its_courses(number):
+    """Courses end where mechanisms open and at a few joints more, none so near to a hold as no hinge may be."""
+    draw = np.random.default_rng(66)
+    names = {2: ("outer leaf", "inner leaf"), 3: ("outer leaf", "middle leaf", "inner leaf")}
+    held = 0
+    while number:
+        kind, values, height = drawn(draw)
+        wall = described(kind, **values)
+        number -= 1
+        held += bool(wall.bonder_heights)
+        for place, name in enumerate(names[len(wall.leaves)]):
+            own = [each for each in wall.mechanisms() if each.part == name]
+            found = min(each.uplift_multiplier for each in own)
+            stops = [*wall.bonder_heights, *([height] if kind in TOP_HELD else [])]
+            spans = np.unique([0.0, *stops, height])
+            openings = [each.structure.opening for each in own if getattr(each.structure, "opening", None)]
+            places = [each.position for each in own if not np.isnan(each.position)]
+            places += [z for each in openings for z in (each.foot, each.hinge) if z is not None]
+            storeys = np.cumsum(wall.storey_heights) if kind == "facade" else []
+            fine = [] if kind != "gable" else np.linspace(0, height, 120).tolist()
+            joints = [*spans, *storeys, *places]
+            joints += [
+                z
+                for z in (*fine, *np.linspace(0, height, 9))
+                if all(not low + 0.94 * (high - low) < z < high for low, high in pairwise(spans))
+            ]
+            joints = np.unique(np.round(joints, 9))
+            joints = joints[np.concatenate([[True], np.diff(joints) > 1e-6])]
+            expected = by_courses(wall, kind, height, place, joints)
+            # the courses of a gable are rectangles
+            assert found == pytest.approx(expected, rel=2e-3 if kind == "gable" else 1e-6), (
+                kind,
+                values,
+                name,
+            )
+    assert held
+
+
+def test_loaded_leaf_is_computed_and_no_other_scales_but_its_multiplier():
+    """Section 13.1: λ of an unloaded leaf goes with its thickness, that of the one that bears does not."""
+    wall = described("loaded_wall", leaves_m=[0.25, 0.25])
+    whole = wall.mechanism().positive
+    alone = dict(wall.leaves_alone)
+    bare = replace(wall, **wall.together, top_load=0.0).candidates()[0]
+    outer = alone["outer leaf"].candidates()[0]
+    assert outer.uplift_multiplier == pytest.approx(bare.uplift_multiplier / 2, rel=1e-9)
+    assert outer.critical_rotation == pytest.approx(bare.critical_rotation / 2, rel=0.03)
+    inner = LoadedWall.of_size(3.2, 0.25, 18e3, top_load=20e3)
+    found = alone["inner leaf"].candidates()[0]
+    assert found.uplift_multiplier == pytest.approx(inner.static_multiplier, rel=1e-4)
+    together = min(each.uplift_multiplier for each in wall.candidates() if not each.part)
+    assert 0.7 * together < found.uplift_multiplier < 0.9 * together
+    side = alone["inner leaf"].mechanism().positive
+    assert side.frequency_parameter > 1.2 * whole.frequency_parameter
+    assert side.critical_rotation < 0.6 * whole.critical_rotation
+
+
+def test_storey_of_a_gable_is_a_triangle_of_masonry():
+    """Weight, centre and inertia of any part of it, against a cloud of points."""
+    storey = Storey(0.0, 3.0, -0.4, 0.0, 18e3 * 0.4, narrows=0.0).cut(0.7, 2.3)
+    x, z = np.meshgrid((np.arange(40) + 0.5) / 40 * 0.4 - 0.4, (np.arange(4000) + 0.5) / 4000 * 1.6 + 0.7)
+    weights = 18e3 * (1 - z / 3.0) * 0.4 / 40 * 1.6 / 4000
+    total = weights.sum()
+    middle = (weights * z).sum() / total
+    assert storey.total == pytest.approx(total, rel=1e-6)
+    assert storey.middle == pytest.approx(middle, rel=1e-6)
+    assert storey.inertia == pytest.approx((weights * ((z - middle) ** 2 + (x + 0.2) ** 2)).sum(), rel=1e-3)
+
+
+@pytest.mark.parametrize("kind", SIZES)
+def test_its_leaves_are_named_everywhere(kind):
+    wall = described(kind, leaves_m=[0.15, 0.3])
+    names = ["outer leaf", "inner leaf"]
+    assert [name for name, _ in wall.leaves_alone] == names
+    for listed in (wall.candidates(), wall.mechanisms(), mechanisms_of(wall)):
+        assert list(dict.fromkeys(each.part for each in listed if each.part)) == names
+        assert all(each.name.startswith(f"{each.part} alone") for each in listed if each.part)
+    assert len({each.description for each in wall.candidates()}) == len(wall.candidates())
+    assert wall.candidates() is wall.candidates()
+    outer = wall.leaves_alone[0].structure
+    assert wall.static_multiplier == pytest.approx(outer.static_multiplier, rel=1e-12)
+    assert {each.part for each in cracks(wall)} == {"", *names}
+    spectrum = rocking.DesignSpectrum.ntc(0.15 * G, 2.5, 0.35, "B")
+    assert kinematic_check(wall, spectrum).governing.part == "outer leaf"
+
+
+def test_its_word_is_that_of_the_worst_part():
+    wall = described("loaded_wall", leaves_m=[0.15, 0.3])
+    outer = wall.leaves_alone[0].structure
+    times = np.arange(0, 5, 0.005)
+    push = 3 * wall.static_multiplier * G
+    motion = rocking.Accelerogram(push * np.sin(2 * np.pi * times / 2.5) * (times < 2.5), 0.005)
+    settings = AssessmentSettings(fidelity="auto")
+    told = rocking.assess(motion, wall, settings=settings)
+    by_itself = rocking.assess(motion, outer, settings=settings)
+    as_one = rocking.assess(motion, replace(wall, **wall.together), settings=settings)
+    assert told.verdict.badness == max(each.verdict.badness for each in (told, by_itself, as_one))
+    assert by_itself.verdict is rocking.Verdict.OVERTURNS and told.crack.startswith("outer leaf alone")
+
+
+def test_leaves_that_are_thrown_back_fall_away_from_each_other():
+    three = described("facade", leaves_m=[0.15, 0.1, 0.15], thrown_back=0.5)
+    outer, inner = (structure for _, structure in three.leaves_alone)
+    assert [name for name, _ in three.leaves_alone] == ["outer leaf", "inner leaf"]  # the middle one stays
+    assert outer.one_sided and inner.one_sided
+    assert outer.mechanism().positive.restitution == inner.mechanism().positive.restitution == 0.5
+    leans = described("facade", leaves_m=[0.15, 0.3], thrown_back=0.5, behind="cross_walls", restitution=0.6)
+    assert [name for name, _ in leans.leaves_alone] == ["outer leaf"]
+    floors = described("facade", leaves_m=[0.15, 0.3], thrown_back=0.5, behind="floors", restitution=0.6)
+    assert dict(floors.leaves_alone)["inner leaf"].held_at == (3.5, 6.5)
+    freely = described("facade", leaves_m=[0.15, 0.3], behind="cross_walls", restitution=0.6)
+    outer, inner = (structure for _, structure in freely.leaves_alone)
+    assert not outer.one_sided and inner.one_sided and inner.mechanism().positive.restitution == 0.6
+    # A typed restitution is that of the wall: each leaf has the one of its own geometry.
+    squat = FreeWall.of_size(0.5, 2.0, 0.5, leaves=(0.2, 0.2))
+    leaf = squat.leaves_alone[0].structure
+    assert leaf.mechanism().restitution == Block.of_size(0.2, 2.0).mechanism().restitution
+
+
+def test_bonders_at_a_spacing_leave_a_whole_spacing_free_at_the_top():
+    wall = described("free_wall", leaves_m=[0.15, 0.3], bonders_m=0.7)
+    assert wall.bonder_heights == pytest.approx((0.6, 1.3))
+    at_heights = described("free_wall", leaves_m=[0.15, 0.3], bonders_m=[1.3, 0.6])
+    assert at_heights.static_multiplier == pytest.approx(wall.static_multiplier, rel=1e-9)
+    least = min(each.uplift_multiplier for each in wall.mechanisms() if each.part == "outer leaf")
+    assert least == pytest.approx(0.15 / 0.7, rel=1e-9)  # t/h of the part that stands on the uppermost one
+    gable = described("gable", leaves_m=[0.15, 0.3], bonders_m=0.7)
+    least = min(each.uplift_multiplier for each in gable.mechanisms() if each.part == "outer leaf")
+    assert least == pytest.approx(1.5 * 0.15 / 0.7, rel=1e-9)  # of a triangle, h/3 up
+
+
+def test_ties_hold_each_leaf_and_loads_the_one_that_bears_them():
+    ties = {"tie_heights_m": [6.5], "tie_stiffness_kN_m2": 2e4, "tie_strength_kN_m": 30.0}
+    wall = described(
+        "facade",
+        leaves_m=[0.2, 0.3],
+        loaded_leaf="outer",
+        eccentricity_m=-0.05,
+        thicknesses_m=[0.5, 0.5],
+        **ties,
+    )
+    outer, inner = (structure for _, structure in wall.leaves_alone)
+    assert outer.floor_loads == wall.floor_loads and inner.floor_loads == ()
+    assert outer.tie_heights == inner.tie_heights == (6.5,)
+    # .05 m outwards of the middle of .5 m is .1 m inwards of the middle of the outer .2 m
+    assert outer.eccentricity == pytest.approx(0.1)
+    # which .05 m outwards of the middle is no place of the inner one: there they bear at its middle
+    elsewhere = described("loaded_wall", leaves_m=[0.2, 0.2], eccentricity_m=-0.05)
+    assert dict(elsewhere.leaves_alone)["inner leaf"].eccentricity == 0.0
+    assert wall.without_ties().leaves_alone[0].structure.tie_heights == ()
+    tightened = described(
+        "facade", leaves_m=[0.2, 0.3], **ties, tie_pretension_kN_m=5.0, behind="cross_walls", restitution=0.6
+    )
+    outer, inner = (structure for _, structure in tightened.leaves_alone)
+    assert (
+        outer.tie_pretension == 0.0 and inner.tie_pretension == 5e3
+    )  # it rocks both ways, which slackens a tie
+
+
+def test_taken_as_one_leaf_where_nothing_is_said():
+    for kind in SIZES:
+        (said,) = (each for each in described(kind).cautions if each.kind is StructureKind.ONE_LEAF)
+        assert said["thickness"] == {"facade": "0.6, 0.5"}.get(kind, "0.5")
+        assert not [
+            each
+            for each in described(kind, leaves_m=[0.2, 0.2]).cautions
+            if each.kind is StructureKind.ONE_LEAF
+        ]
+    for other in (Block.of_size(0.5, 2.0), rocking.Arch(5.0, 0.9, 2.7)):
+        assert StructureKind.ONE_LEAF not in {each.kind for each in other.cautions}
+
+
+def test_leaves_are_drawn_with_their_bonders_and_dimensions():
+    wall = described("free_wall", leaves_m=[0.15, 0.3], bonders_m=[0.8])
+    marks = {kind: [each.line for each in wall.marks() if each.kind == kind] for kind in ("leaf", "bonder")}
+    # .05 m is left between them: the outer face stands at .25 m
+    assert [line[0, 0] for line in marks["leaf"]] == pytest.approx([0.1, 0.05])
+    assert marks["bonder"][0].tolist() == [[-0.25, 0.8], [0.25, 0.8]]
+    lengths = {each.letter: float(np.ptp(each.feet[:, 0])) for each in wall.dimensions()}
+    assert lengths["l₁"] == pytest.approx(0.15) and lengths["l₂"] == pytest.approx(0.3)
+    assert "leaves 0.15, 0.3 m" in wall.description and "bonders every or at 0.8 m" in wall.description
+    assert rocking.structure_from_config(wall.described.entry) == wall
+
+
+def test_contact_dynamics_follows_each_leaf():
+    """Under a push that no body of this leaf survives, and that all of the wall does."""
+    wall = Wall.of_size(3.0, 0.5, leaves=(0.15, 0.3))
+    assert stackable(wall)
+
+    times = np.arange(0, 3, 0.005)
+    motion = rocking.Accelerogram(0.3 * G * np.sin(2 * np.pi * times / 1.5) * (times < 1.5), 0.005)
+    share = contact_share(wall, GroundMotions({("", ""): motion}), runs=2)
+    assert share.falls == share.runs > 0
+    assert contact_share(replace(wall, **wall.together), GroundMotions({("", ""): motion}), runs=2).falls == 0
+    bonded = replace(wall, bonders=0.8).leaves_alone[0].structure.stack()
+    assert (
+        sum(each.tie is not None for each in bonded.held)
+        == sum(each.stop is not None for each in bonded.held)
+        == 3
+    )
+
+
+@pytest.mark.parametrize(
+    ("kind", "values", "words"),
+    [
+        ("wall", {"leaves_m": [0.3, 0.3]}, r"leaves_m is \[0.3, 0.3\] m, but must add up to no more than"),
+        ("facade", {"leaves_m": [0.3, 0.3]}, r"no more than the thickness of the wall, 0.5 m"),
+        ("wall", {"leaves_m": [0.3]}, r"leaves_m is \[0.3\] m, but must be two or three thicknesses"),
+        ("wall", {"leaves_m": [0.1] * 4}, "must be two or three thicknesses"),
+        ("wall", {"leaves_m": [0.2, -0.1]}, "leaves_m is"),
+        (
+            "free_wall",
+            {"leaves_m": [0.2, 0.2], "bonders_m": [2.5]},
+            "bonders_m is 2.5 m, but must lie on the wall",
+        ),
+        (
+            "free_wall",
+            {"leaves_m": [0.2, 0.2], "bonders_m": 2.5},
+            "bonders_m is 2.5 m, but must be a spacing below",
+        ),
+        ("gable", {"bonders_m": 0.8}, "bonders_m is 0.8, but says what holds the leaves"),
+        ("parapet", {"thrown_back": 0.8}, "thrown_back is 0.8, but says what holds the leaves"),
+        ("parapet", {"leaves_m": [0.2, 0.2], "thrown_back": 1.8}, "thrown_back is 1.8"),
+        ("loaded_wall", {"loaded_leaf": "outer"}, "loaded_leaf is 'outer', but says which of its leaves"),
+        ("buttress", {"leaves_m": [0.2, 0.2]}, "leaves_m is not a key of a buttress"),
+    ],
+)
+def test_what_is_said_of_leaves_hangs_together(kind, values, words):
+    sizes = SIZES.get(kind, {"height_m": 3.0, "thickness_m": 0.5})
+    with pytest.raises(RockingError, match=words):
+        rocking.structure_from_config({"type": kind, **sizes, **values})
+
+
+def test_a_leaf_that_its_thrust_pushes_over_is_named():
+    with pytest.raises(
+        DoesNotStandError, match="the inner leaf alone does not stand under its loads at rest"
+    ):
+        described("facade", leaves_m=[0.2, 0.2], thrust_kN_m=2.0)
+    assert isinstance(described("facade", thrust_kN_m=2.0), Facade)
+    assert issubclass(DoesNotStandError, StructureError)
+
+
+def drawn_front(draw):
+    """A front that may fall between its ties, and one of two leaves whose ties do not yield."""
+    height, thickness, load = draw.uniform([2.6, 0.35, 2e3], [4.0, 0.6, 15e3]).tolist()
+    outer = thickness * float(draw.uniform(0.3, 0.5))
+    front = Facade(
+        (height,),
+        (thickness,),
+        18e3,
+        floor_loads=(load,),
+        restitution=0.5,
+        behind="cross_walls",
+        tie_heights=(height - float(draw.choice([0.0, 0.3])),),
+        tie_stiffness=2e7,
+        tie_strength=float(draw.uniform(2e3, 3e4)),
+        tie_plastic_elongation=0.02,
+        tie_spacing=float(draw.uniform(0.8, 6)),
+        unit_length=0.4,
+    )
+    lasts = {"tie_spacing": 1.0, "tie_strength": None, "tie_plastic_elongation": 0.0}
+    return front, replace(front, leaves=(outer, thickness - outer), **lasts)
+
+
+def under(wall, draw):
+    """A motion that is up to five times what lifts a wall."""
+    times = np.arange(0, 6, 0.01)
+    period = float(draw.uniform(0.4, 1.5))
+    peak = float(np.exp(draw.uniform(0, np.log(5)))) * wall.static_multiplier * G
+    return rocking.Accelerogram(peak * np.sin(2 * np.pi * times / period) * (times < 2 * period), 0.01)
+
+
+def assert_no_worse(motion, wall, better):
+    words = [rocking.assess(motion, each, settings=AUTO).verdict for each in (wall, better)]
+    assert words[1].badness <= words[0].badness, (words, wall, better)
+
+
+AUTO = AssessmentSettings(fidelity="auto")
+
+
+@pytest.mark.filterwarnings("ignore::rocking.errors.StructureWarning")
+@pytest.mark.parametrize("draws", [2, pytest.param(200, marks=pytest.mark.slow)])
+def test_what_is_stronger_or_thicker_never_gets_a_worse_word(draws):
+    """A closer spacing, a stronger tie, and a thicker leaf where no tie yields, of which a heavier wall asks more."""
+    for number in range(draws):
+        draw = np.random.default_rng([67, number])
+        try:
+            front, of_leaves = drawn_front(draw)
+        except RockingError:
+            continue
+        motions = [under(each, draw) for each in (front, of_leaves)]
+        closer, stronger, thicker = draw.uniform([0.2, 1.2, 1.05], [0.9, 3.0, 1.3]).tolist()
+        assert_no_worse(motions[0], front, replace(front, tie_spacing=front.tie_spacing * closer))
+        assert_no_worse(motions[0], front, replace(front, tie_strength=front.tie_strength * stronger))
+        outer, inner = of_leaves.leaves
+        more = (thicker - 1) * outer
+        thickened = {"thicknesses": (of_leaves.thicknesses[0] + more,), "leaves": (outer + more, inner)}
+        assert_no_worse(motions[1], of_leaves, replace(of_leaves, **thickened))
