@@ -127,6 +127,13 @@ def test_a_crack_that_is_known_decides_and_what_falls_beside_it_is_told():
     assert of_typed.decision.doubts == ()
 
 
+def test_a_body_that_needs_more_friction_than_it_has_slides_as_the_ground_reaches_that_friction():
+    """Coulomb: μ g below tan α g, and never on more friction than tan α."""
+    (body,) = cracks(Block.of_size(1.0, 1.25))
+    assert [body.slides_at(friction) for friction in (0.3, 0.6)] == pytest.approx([0.3, 0.6])
+    assert math.isnan(body.slides_at(0.81))
+
+
 def test_beside_a_known_crack_that_overturns_the_worst_other_is_told_and_followed_no_farther():
     """With the one that statics chooses all members fall, too; a stronger motion does not change what is said of it."""
     typed = Wall.hinged_at(6.0, 3.0, 0.4, crack="known")
