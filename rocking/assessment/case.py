@@ -216,6 +216,8 @@ class CaseResult:
                 (each.remark for each in body.restraints() if each.kind == "top" and each.lets_go), None
             ),
             stacks=stacks,
+            as_stones=body.as_stones,
+            needs_stones=body.needs_stones,
             stackable=self.contact is None and stackable(body),
             remarks=would_tell(self.ensembles, typed) if self.ensembles else (),
             failures=failures,
@@ -384,6 +386,8 @@ class PeriodResult:
             doubts.append(Remark(AssessmentKind.CONTACTS_OPEN))
         if self.scene.structure.tapers:
             doubts.append(Remark(AssessmentKind.COURSES_THROWN))
+        if self.scene.structure.needs_stones:
+            doubts.append(Remark(AssessmentKind.STONES_TELL))
         return tuple(sorted(set(doubts), key=lambda each: each.kind))
 
     @property

@@ -76,7 +76,8 @@ class Conclusion:
         shares = [each.overturning_share for each in self.elsewhere if each.overturning_share >= 0]
         if shares and "–" in (share := percents(*shares)):
             return Remark.of(AssessmentKind.OTHER_PERIODS, share=share)
-        if self.case is not None and self.case.slides:
+        # Runs of contact dynamics are on the friction that it has.
+        if self.case is not None and self.case.slides and not runs:
             return self._sliding(self.case.required_friction)
         falls = self.ratios[-1] == math.inf
         if word is Verdict.PROBABLY_OVERTURNS and not falls:

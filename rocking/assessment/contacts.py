@@ -33,7 +33,8 @@ from rocking.records import Accelerogram
 from rocking.remarks import Remark
 from rocking.structures import Structure
 from rocking.structures.linkage import Turning
-from rocking.structures.stack import COURSES, Stack
+from rocking.structures.stack import COURSES, FRICTION, Stack
+from rocking.structures.stones import Stones
 from rocking.structures.tied import Tied
 
 AMPLITUDES = (0.9, 1.1)
@@ -212,7 +213,7 @@ MANY_COURSES = 12
 
 @dataclass(frozen=True)
 class ContactShare:
-    """The number of stacks of rigid courses that fall, of those that contact dynamics followed.
+    """The number of stacks of courses, or of chains of stones, that fall, of those that contact dynamics followed.
 
     falls, runs: over amplitudes, time steps, directions and signs, the strongest motions first, as far as they were
     followed. reason: why none was; "" where they were.
@@ -225,16 +226,12 @@ class ContactShare:
     @property
     def words(self) -> str:
         """Their count in words."""
-        return (
-            f"{self.falls} of {self.runs} stacks of courses fall in contact dynamics"
-            if self.runs
-            else self.reason
-        )
+        return f"{self.falls} of {self.runs} runs of contact dynamics fall" if self.runs else self.reason
 
 
 @lru_cache(maxsize=256)
 def stackable(structure: Laid) -> bool:
-    """Whether contact dynamics can follow a structure: it is laid in several courses, between which joints open.
+    """Whether contact dynamics can follow a structure: between several courses or stones joints open.
 
     Of a wall whose leaves may part, all of them together and each of them.
     """
@@ -243,9 +240,9 @@ def stackable(structure: Laid) -> bool:
 
 
 def _courses_of(structure: Laid) -> int:
-    """In how many courses it is laid; 0 of what is none."""
+    """In how many courses or stones it is laid; 0 of what is none."""
     try:
-        return len(structure.stack().courses)
+        return _laid(structure)[0].count
     except RockingError:
         return 0
 
@@ -283,7 +280,7 @@ def _share_of(
     amplitudes, at which steps and stacks take turns: so that there are `runs` in all. The strongest come first, and no
     more are followed once the rest cannot change the word. The bodies are those of the mechanism where the crack is
     known and nothing holds it, else the courses that `Structure.stack` gives; a tapering member that does not state its
-    courses is followed with COURSES and MANY_COURSES in turn.
+    courses is followed with COURSES and MANY_COURSES in turn. An arch or a portal is followed as its stones.
     """
     signs = _signs(structure, settings)
     directions = [motions.horizontal[each] for each in _directions(motions)[:: len(signs)]]
@@ -298,8 +295,8 @@ def _share_of(
     ]
     falls = followed = 0
     try:
-        stacks = _stacks(structure, settings.friction_coefficient)
-        if len(stacks[0].courses) == 1:
+        stacks = _laid(structure, settings.friction_coefficient)
+        if stacks[0].count == 1:
             return ContactShare(reason="one rigid body moves as its mechanism does, whose members say more")
 
         def falls_in(case: tuple[float, Accelerogram, float, int]) -> bool:
@@ -337,23 +334,26 @@ def expected_seconds(
     once = [
         seconds_of_run(stack, motion, min(step, stack.longest_step * step / STEP))
         for part in _parts(structure)
-        for stack in _stacks(part, settings.friction_coefficient)
+        for stack in _laid(part, settings.friction_coefficient)
         for motion in components
         for step in STEPS
     ]
     return runs * float(np.mean(once)) * len(_parts(structure))
 
 
-def _stacks(structure: Laid, friction: float) -> list[Stack]:
-    """The stacks to follow: where a member tapers and does not say how many courses it has, of a few and of many.
+def _laid(structure: Laid, friction: float = FRICTION) -> Sequence[Stack | Stones]:
+    """What is to be followed: the stones of an arch, and else stacks.
 
-    The more courses, the smaller is the topmost one, which is thrown first. friction: coefficient of all
-    joints; where a top states a lower one, they keep that.
+    Where a member tapers and does not say how many courses it has, these are of a few and of many: the more courses,
+    the smaller is the topmost one, which is thrown first. friction: coefficient of all joints; where a top states a
+    lower one, they keep that.
     """
+    if isinstance(structure, Structure) and structure.as_stones:
+        return [replace(structure.stones(), friction=friction)]
     by_size = structure.tapers and not structure.courses_are_given
     stacks = [structure.stack(each) for each in ((COURSES, MANY_COURSES) if by_size else (None,))]
     return [replace(each, friction=min(each.friction, friction)) for each in stacks]
 
 
-def _falls(stack: Stack, motion: Accelerogram, step: float, vertical: Accelerogram | None) -> bool:
+def _falls(stack: Stack | Stones, motion: Accelerogram, step: float, vertical: Accelerogram | None) -> bool:
     return follow_stack(stack, motion, step, vertical=vertical).falls

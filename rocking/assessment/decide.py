@@ -217,7 +217,9 @@ class Facts:
     beyond: HELD_BEYOND where some chain of it goes beyond BEYOND of its critical rotation in any member, TIES_GIVE
     where only one that its ties hold does, under the motion that these let through. top: what its top needs
     and does not get, so that it slips; None where it holds, or there is none. stacks: stacks of courses that fall in
-    contact dynamics, of how many; None where none was followed. stackable: whether contact dynamics can follow it and
+    contact dynamics, of how many; None where none was followed. as_stones: as what chain of stones it is followed then,
+    "as voussoirs"; "" where as a stack of courses. needs_stones: whether only its stones may say that it stands.
+    stackable: whether contact dynamics can follow it and
     has not done so yet. remarks: what would reduce the disagreement of the members. failures: why components gave no
     result. risk: largest probability of the outcome opposite to "stands" or "overturns". Raises ValueError.
     """
@@ -234,6 +236,8 @@ class Facts:
     beyond: Kind | None = None
     top: Remark | None = None
     stacks: tuple[int, int] | None = None
+    as_stones: str = ""
+    needs_stones: bool = False
     stackable: bool = True
     remarks: tuple[Remark, ...] = ()
     failures: tuple[str, ...] = ()
@@ -381,7 +385,7 @@ def decide(facts: Facts) -> Decision:
     1    no crack that counts can overturn, no doubt                       cannot overturn
     2    nothing can lift                                                  stands
     3    every crack that counts slides before it lifts, and the motion    cannot be told
-         reaches so far
+         reaches so far, and no stones were followed
     4    no result at all                                                  cannot be told
     5    one run: settled by an estimate / stands up to FAR / else         as settled / probably stands / uncertain
     6    cracks that count                                                 step of the worst one, but no worse than
@@ -395,7 +399,8 @@ def decide(facts: Facts) -> Decision:
     8b   a held wall some chain of which goes beyond BEYOND, as the        no safer than probably stands
          motion comes or as its ties let it through; or a contact that
          needs more friction than it has while it rocks; and fewer than
-         UNANIMOUS runs of contact dynamics, which are on that friction
+         UNANIMOUS runs of contact dynamics, which are on that friction;
+         or an arch on piers that was not followed as stones
     9    contact dynamics ran                                              the worse of its step and that of the members
     10   contacts open, an impact may open them or courses may be thrown   cannot be told
          and contact dynamics did not run, or a component is missing; and
@@ -434,14 +439,16 @@ def decide(facts: Facts) -> Decision:
     if facts.rests:
         why = "the ground never reaches the uplift acceleration"
         return Decision(Verdict.STANDS, 0.0, (0.0, 0.0), why, (*beside, *left_out))
+    sliding = ""
     if not math.isnan(facts.slides_at) and all(each.slides for each in counting):
-        why = (
+        sliding = (
             f"slides before it lifts, at {facts.slides_at:.2g} g"
             if facts.slides_at
             else "slides apart at rest"
         )
-        tells = (Remark(AssessmentKind.FRICTION),)
-        return Decision(Verdict.CANNOT_BE_TOLD, math.nan, (math.nan, math.nan), why, beside, tells)
+        if not (facts.as_stones and facts.stacks):
+            tells = (Remark(AssessmentKind.FRICTION), *(contact_dynamics if facts.as_stones else ()))
+            return Decision(Verdict.CANNOT_BE_TOLD, math.nan, (math.nan, math.nan), sliding, beside, tells)
 
     # 4
     if governing is None and math.isnan(facts.run_ratio) and facts.settled is None:
@@ -490,9 +497,12 @@ def decide(facts: Facts) -> Decision:
         if any(each.failed for each in followed):
             beside = (*beside, Remark(AssessmentKind.MEMBERS_FAILED))
 
+    if sliding:
+        why = f"{sliding}; {why}"
     if facts.stacks is not None:
         fallen, runs = facts.stacks
-        why = f"{why}; {fallen} of {runs} stacks of courses fall in contact dynamics"
+        followed_as = f"runs {facts.as_stones}" if facts.as_stones else "stacks of courses"
+        why = f"{why}; {fallen} of {runs} {followed_as} fall in contact dynamics"
         share = max(share, fallen / runs)
         interval = interval[0], share
 
@@ -504,6 +514,8 @@ def decide(facts: Facts) -> Decision:
     slides = not math.isnan(facts.friction_needed)
     if slides:
         limits.append(Remark(AssessmentKind.FRICTION_SHORT))
+    if facts.needs_stones and facts.stacks is None:
+        limits.append(Remark(AssessmentKind.STONES_TELL))
     if limits and (facts.stacks is None or facts.stacks[1] < UNANIMOUS):
         word = worse(word, Verdict.PROBABLY_STANDS)
         beside = (*beside, *limits)

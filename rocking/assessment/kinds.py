@@ -40,9 +40,14 @@ class AssessmentKind(Kind):
         brief="a crack slides first",
     )
     NO_STACK = auto(), Sentence(
-        "contact dynamics cannot follow it, because it is not a stack of courses",
-        "la dinamica dei contatti non può seguirla: non è una pila di corsi",
-        brief="not a stack of courses",
+        "contact dynamics cannot follow it, because it is neither a stack of courses nor a chain of stones",
+        "la dinamica dei contatti non può seguirla: non è una pila di corsi né una catena di conci",
+        brief="no stack or stones",
+    )
+    STONES_TELL = auto(), Sentence(
+        "an arch on piers may fall as voussoirs where its mechanism stands",
+        "un arco su piedritti può cadere come conci dove il suo meccanismo resta in piedi",
+        brief="not followed as voussoirs",
     )
     HELD_BEYOND = auto(), Sentence(
         "a held wall rotates so far that its mechanism may predict too little",

@@ -170,17 +170,24 @@ def with_contacts(
     Doubts are looked for with every word below "probably overturns"; of what stands whether its ties hold it still
     enough; and of what (probably) stands whether its contacts have the friction that they need. Contact dynamics runs,
     except with fidelity: auto, where nothing else decides, and where contacts have less; with fidelity: contact by
-    MOST_RUNS runs, and also where a held wall turns so far that it only probably stands. bounces: whether a contact
-    opens in a run as recorded; None where that is not known.
+    MOST_RUNS runs, and also where a held wall turns so far that it only probably stands. What is a chain of stones is
+    followed where `_asks_for_stones` says so, and these then say what its contacts do. bounces: whether a contact opens
+    in a run as recorded; None where that is not known.
     """
+    runs = MOST_RUNS if settings.fidelity == "contact" else RUNS
     counting = counting_cracks(structure)
     sliding = sliding_first(cracks(structure), motions, settings)
-    if all(each in sliding for each in counting):
-        return replace(case, slides_at=counting[0].slides_at(settings.friction_coefficient))
-    if decide(case.facts(structure)).word.badness < Verdict.PROBABLY_OVERTURNS.badness:
+    slides = all(each in sliding for each in counting)
+    if slides:
+        case = replace(case, slides_at=counting[0].slides_at(settings.friction_coefficient))
+    elif decide(case.facts(structure)).word.badness < Verdict.PROBABLY_OVERTURNS.badness:
         ratios = {name: case.largest_of_part(name) for name, _ in parts_of(structure)}
         reason = doubt(structure, motions, ratios.pop(""), settings, bounces, ratios)
         case = replace(case, doubt=reason)
+    if _asks_for_stones(case, structure, settings):
+        case = replace(case, contact=contact_share(structure, motions, settings, runs))
+    if slides or (case.contact is not None and case.contact.runs):
+        return case
     if decide(case.facts(structure)).word is Verdict.STANDS:
         case = replace(case, ties_give=ties_give(structure, motions, settings))
     exempt = settings.friction_coefficient >= structure.stands_on_friction
@@ -196,11 +203,28 @@ def with_contacts(
         "full": (Verdict.CANNOT_BE_TOLD,),
         "contact": (Verdict.CANNOT_BE_TOLD, Verdict.PROBABLY_STANDS),
     }
-    slides = settings.fidelity != "auto" and not math.isnan(case.friction_needed)
-    if advised and (slides or decision.word in asking[settings.fidelity]):
-        runs = MOST_RUNS if settings.fidelity == "contact" else RUNS
-        return replace(case, contact=contact_share(structure, motions, settings, runs))
-    return case
+    lacks_friction = settings.fidelity != "auto" and not math.isnan(case.friction_needed)
+    if not advised or not (lacks_friction or decision.word in asking[settings.fidelity]):
+        return case
+    contact = contact_share(structure, motions, settings, runs)
+    if structure.as_stones and contact.runs:
+        case = replace(case, friction_needed=math.nan)  # these stand or slide on what they have
+    return replace(case, contact=contact)
+
+
+def _asks_for_stones(case: CaseResult, structure: Structure, settings: AssessmentSettings) -> bool:
+    """Whether a case is followed as stones, than which its mechanism may be better off or worse.
+
+    Never with fidelity: auto, nor what rests or overturns by its mechanism; with fidelity: contact always else, and
+    otherwise where the mechanism does not stand, or only stones may say that it does.
+    """
+    if settings.fidelity == "auto" or not structure.as_stones:
+        return False
+    facts = case.facts(structure)
+    word = decide(facts).word
+    if facts.rests or word in (Verdict.OVERTURNS, Verdict.CANNOT_OVERTURN):
+        return False
+    return settings.fidelity == "contact" or structure.needs_stones or word is not Verdict.STANDS
 
 
 def _integrated(mechanism: Mechanism, inputs: CaseInputs, clock: Clock) -> dict[Method, Response]:

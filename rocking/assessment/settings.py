@@ -101,7 +101,7 @@ class AssessmentSettings:
         "full",
         "full runs every method, to compare them, and contact dynamics where the verdict cannot be told otherwise "
         "(24 runs: at best probably stands); auto runs what settles the verdict of a case, where no PDFs are made; "
-        "contact is full with 64 runs, which may say stands, and also follows held walls that rotate far",
+        "contact is full with 64 runs, which may say stands, and also follows held walls that rotate far, and arches",
     )
     fidelity_risk: float = described(
         0.01, "largest probability of a wrong verdict with which fidelity: auto stops; 0: none", ge=0, le=0.2

@@ -157,6 +157,7 @@ def follow(bodies, acting, ground, limits, state, joints, history):
     place, velocity = state.place, state.velocity
     weight = limits.gravity * step
     between = _ends_on_ground(bodies)
+    calm = (CALM + CREEP * bodies.softness) * weight
     guesses = MOST_GUESSES + (MORE_GUESSES * count if between else 0)
     _fill_scale(bodies, limits, state.scale)
     quiet, swept, largest_of_all = 0, 0, 0.0
@@ -197,9 +198,11 @@ def follow(bodies, acting, ground, limits, state, joints, history):
             _keep(bodies, state, history[number // limits.every])
         if largest > limits.fallen or dropped:
             return FALLS, number + 1 - limits.start, swept
-        quiet = quiet + 1 if number > limits.still and largest < limits.settled else 0
-        if quiet > 0 and between and _sliding(joints) > 0:
-            quiet = 0  # a stone that slips out need not turn
+        settles = largest < limits.settled
+        if between and number > limits.still:
+            # A stone that slips out need not turn, and one that has come to rest may have turned.
+            settles = (settles and _sliding(joints) == 0) or _is_calm(velocity, calm)
+        quiet = quiet + 1 if number > limits.still and settles else 0
         if quiet * step > REST:
             return STAYS, number + 1 - limits.start, swept
     return MOVES, limits.steps - limits.start, swept

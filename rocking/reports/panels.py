@@ -306,7 +306,8 @@ def _plot_assessment(assessment: StructureAssessment, axes: Axes) -> None:
     band = (assessment.rotation_ratio_low, assessment.rotation_ratio_high)
     draw_rotation(axes, (times, _over_critical(rotation, mechanism)), band=band)
     of_all = [f"{assessment.members} members"] if assessment.members else []
-    of_all += [f"{assessment.stacks.runs} stacks"] if assessment.stacks else []
+    followed_as = f"runs {assessment.body.as_stones}" if assessment.body.as_stones else "stacks"
+    of_all += [f"{assessment.stacks.runs} {followed_as}"] if assessment.stacks else []
     share = " of ".join(filter(None, [assessment.decision.share_in_words, " and ".join(of_all)]))
     axes.set(xlabel=TIME, ylabel="rotation / critical rotation [-]", ylim=(-1.15, 1.15))
     axes.set_title(f"{assessment.decision.word}: overturns in {share}")

@@ -625,9 +625,12 @@ def _contacts(report: RecordReport) -> list[str]:
     friction = report.friction
     failing: dict[str, set[str]] = {}
     needed: dict[str, float] = {}
+    followed = {row.structure for row in report.tables.verdicts if row.stack_runs}
     for row in report.tables.comparison:
         name = report.called(row.structure)
         structure = report.structures.get(row.structure)
+        if structure is not None and structure.as_stones and row.structure in followed:
+            continue  # its stones say what its contacts do, in the reason of its verdict
         stands = structure is not None and friction >= structure.stands_on_friction
         if row.bounces:
             failing.setdefault(name, set()).add("bounces")

@@ -463,6 +463,7 @@ class ArchOnPiers(Arch):
     """
 
     type_name: ClassVar[str] = "arch_on_piers"
+    needs_stones: ClassVar[bool] = True
     _described_as: ClassVar[dict[str, str]] = {
         "": "Circular arch on equal monolithic piers, flush with the intrados"
     }

@@ -75,7 +75,8 @@ class Structure(ABC):
     its class method, "" for the class itself. crack_name: what its candidates move ("hinge", "crack"); "" without.
     tapers: whether its courses grow smaller upwards, so that each rocks by itself and throws what stands on it
     (docs/pages/validation.md). hinges_migrate: whether its hinges would move in flight, while the mechanism leaves
-    them. falls_by_sliding: whether it comes apart where its joints slide, though nothing lifts. _usual_restitution:
+    them. falls_by_sliding: whether it comes apart where its joints slide, though nothing lifts. needs_stones: whether
+    it may fall as stones where its mechanism stands, so that only these may say that it does. _usual_restitution:
     where none is given. statics_chooses: whether codes check the mechanism of least λ alone, as between supports limit
     analysis finds it; otherwise every crack that may open is a mechanism of its own.
     _contacts_unknown: why no contact forces are known; "" where the moving parts tell them. together: the values of its
@@ -89,6 +90,7 @@ class Structure(ABC):
     tapers: ClassVar[bool] = False
     hinges_migrate: ClassVar[bool] = False
     falls_by_sliding: ClassVar[bool] = False
+    needs_stones: ClassVar[bool] = False
     _usual_restitution: ClassVar[float | str] = "momentum"
     statics_chooses: ClassVar[bool] = False
     one_sided = False

@@ -389,10 +389,12 @@ class VerdictRow(DecidedRow[OfStructure]):
         lambda of: of.period_result.decided_by,
     )
     stack_falls: int | None = of_stacks(
-        "Stacks of courses that fall in contact dynamics; empty: not run", lambda stacks: stacks.falls
+        "Stacks of courses, or chains of stones, that fall in contact dynamics; empty: not run",
+        lambda stacks: stacks.falls,
     )
     stack_runs: int | None = of_stacks(
-        "Stacks that were followed, over amplitudes, time steps and directions", lambda stacks: stacks.runs
+        "Stacks or chains that were followed, over amplitudes, time steps and directions",
+        lambda stacks: stacks.runs,
     )
 
     @property

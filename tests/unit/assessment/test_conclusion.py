@@ -70,6 +70,9 @@ def test_a_contact_that_slides_is_told_by_what_it_needs_as_it_lifts_and_at_most(
     made = of(Verdict.STANDS)
     slides = replace(compared("EW", 0.5), slides=True, lifting_friction=0.22, required_friction=1.84)
     assert replace(made, case=slides).remark.brief == "slides below μ 0.22–1.8"
+    # What was followed on the friction that it has needs no word on it.
+    followed = replace(made, case=slides, verdict=replace(made.verdict, stack_falls=0, stack_runs=18))
+    assert followed.remark.kind is AssessmentKind.NOTHING_TO_DO
     lost = replace(slides, required_friction=math.inf)
     assert replace(made, case=lost).remark.kind is AssessmentKind.CONTACTS_OPEN
 

@@ -101,6 +101,44 @@ def test_3_what_slides_first_cannot_be_told():
     assert word(cracks=(crack(0),)) == "stands"
 
 
+def test_3_the_stones_of_what_slides_first_tell_and_its_mechanism_makes_nothing_safer():
+    """Their runs are on the friction that it has; a stack of courses ends no row 3."""
+    slides = Facts(cracks=(crack(0, slides=True),), slides_at=0.2, as_stones="as voussoirs")
+    assert decide(slides).word is Verdict.CANNOT_BE_TOLD
+    assert kinds(decide(slides).tells) == [AssessmentKind.FRICTION, AssessmentKind.CONTACT_DYNAMICS]
+    assert kinds(decide(replace(slides, stackable=False)).tells) == [AssessmentKind.FRICTION]
+    for stacks, falls, expected in (
+        ((0, 24), 0, "probably stands"),
+        ((0, 64), 0, "stands"),
+        ((24, 24), 0, "probably overturns"),
+        ((0, 64), 40, "uncertain"),
+        ((0, 64), 64, "overturns"),
+    ):
+        cracks = (crack(falls, slides=True),)
+        told = decide(replace(slides, cracks=cracks, stacks=stacks))
+        assert str(told.word) == expected
+        assert told.why.startswith("slides before it lifts, at 0.2 g; ")
+        assert told.why.endswith(f"; {stacks[0]} of {stacks[1]} runs as voussoirs fall in contact dynamics")
+        assert told.share == max(stacks[0] / stacks[1], falls / 64)
+    as_stack = replace(slides, as_stones="", stacks=(0, 64))
+    assert decide(as_stack).word is Verdict.CANNOT_BE_TOLD
+    assert decide(replace(slides, slides_at=0.0)).why == "slides apart at rest"
+
+
+def test_8b_only_its_stones_let_an_arch_on_piers_stand():
+    piers = Facts(cracks=(crack(0),), as_stones="as voussoirs", needs_stones=True)
+    alone = decide(piers)
+    assert str(alone.word) == "probably stands"
+    assert AssessmentKind.STONES_TELL in kinds(alone.doubts)
+    assert AssessmentKind.CONTACT_DYNAMICS in kinds(alone.tells)
+    assert word(settled=Verdict.STANDS, needs_stones=True) == "probably stands"
+    assert word(cracks=(crack(0, farthest=0.0),), rests=True, needs_stones=True) == "stands"
+    for runs, expected in ((24, "probably stands"), (64, "stands")):
+        told = decide(replace(piers, stacks=(0, runs)))
+        assert str(told.word) == expected
+        assert AssessmentKind.STONES_TELL not in kinds(told.doubts)
+
+
 def test_3_a_crack_that_slides_first_is_left_out_where_another_is_left():
     cracks = (crack(0, name="base"), crack(64, name="upper", slides=True))
     assert word(cracks=cracks, slides_at=0.6) == "stands"
