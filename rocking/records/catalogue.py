@@ -13,6 +13,7 @@ from rocking.quantities import acceleration_factor, shown
 from rocking.records.formats.format import plain
 from rocking.records.formats.text import is_number
 from rocking.records.kinds import RecordKind
+from rocking.records.place import Place, place_of
 from rocking.records.scaling import ScalingTarget
 from rocking.remarks import Remark
 from rocking.tables import edited_text, read_edited
@@ -100,6 +101,12 @@ class CatalogueRecord:
     epicentral_distance: float | None = described(
         None, "distance from the epicentre, where the file is silent or errs", "km", ge=0, le=20_100
     )
+    station_latitude: float | None = described(
+        None, "latitude of the station, north, where the file is silent or errs", "deg"
+    )
+    station_longitude: float | None = described(None, "its longitude, east", "deg")
+    epicentre_latitude: float | None = described(None, "latitude of the epicentre, north, for the map", "deg")
+    epicentre_longitude: float | None = described(None, "its longitude, east", "deg")
     note: str = described("", "anything else, for the reader")
     folder: Path = Path()
 
@@ -133,6 +140,16 @@ class CatalogueRecord:
     def is_remote(self) -> bool:
         """Whether the files can be fetched from their source repository."""
         return bool(self.source_repository)
+
+    @property
+    def station_place(self) -> Place | Remark | None:
+        """Where the station stands, or what is wrong with its coordinates; None without them."""
+        return place_of(self.station_latitude, self.station_longitude)
+
+    @property
+    def epicentre(self) -> Place | Remark | None:
+        """Where the earthquake began, or what is wrong with its coordinates; None without them."""
+        return place_of(self.epicentre_latitude, self.epicentre_longitude, "epicentre")
 
     @property
     def example_name(self) -> str | None:

@@ -444,6 +444,28 @@ class RecordKind(Kind):
         "{about} ({file}): il suo contenuto è quello di {other} ({other_file}), per cui un solo moto conta "
         "due volte; escluderne uno.",
     )
+    PLACE_IMPOSSIBLE = auto(), Sentence(
+        "{latitude} is {north_deg:g} and {longitude} is {east_deg:g}, but must be -90 to 90 and -180 to 180: "
+        "the place is left out; correct the catalogue.",
+        "{latitude} è {north_deg:g} e {longitude} è {east_deg:g}, ma devono essere da -90 a 90 e da -180 a 180: "
+        "il luogo è tralasciato; correggere il catalogo.",
+    )
+    PLACE_SWAPPED = auto(), Sentence(
+        "{latitude} is {north_deg:g}, beyond ±90, and {longitude} is {east_deg:g}: they look swapped; the place "
+        "is left out until the catalogue is corrected.",
+        "{latitude} è {north_deg:g}, oltre ±90, e {longitude} è {east_deg:g}: sembrano scambiate; il luogo è "
+        "tralasciato finché il catalogo non è corretto.",
+    )
+    PLACE_HALF = auto(), Sentence(
+        "The catalogue gives {given} without {missing}: the place is left out until both are given.",
+        "Il catalogo dà {given} senza {missing}: il luogo è tralasciato finché non sono date entrambe.",
+    )
+    PLACE_UNLIKE_FILE = auto(), Sentence(
+        "The catalogue places the station at {catalogue}, the file at {file}, {distance_km:.3g} km apart: the "
+        "catalogue's place is used; correct it if it errs.",
+        "Il catalogo pone la stazione a {catalogue}, il file a {file}, a {distance_km:.3g} km: si usa quella del "
+        "catalogo; correggerla se errata.",
+    )
     FILE_UNLISTED = auto(), Sentence(
         "{about} is not in the catalogue; rocking catalogue {folder} adds what is new.",
         "{about} non è nel catalogo; rocking catalogue {folder} aggiunge ciò che è nuovo.",

@@ -22,6 +22,7 @@ from rocking.records.formats import Options
 from rocking.records.formats.layouts import Layouts
 from rocking.records.joining import joined
 from rocking.records.kinds import RecordKind
+from rocking.records.place import Place, place_of
 from rocking.records.plausibility import scaled
 from rocking.records.read import bytes_of, read_raw
 from rocking.records.scaling import ScalingTarget, scaled_to
@@ -175,5 +176,28 @@ def _as_declared(channel: Accelerogram, record: CatalogueRecord) -> Accelerogram
         facts |= {"magnitude": record.magnitude, "magnitude_type": ""}
     if record.epicentral_distance is not None:
         facts["epicentral_distance"] = 1000 * record.epicentral_distance
+    place, doubts = _place(channel, record)
+    if place is not None:
+        facts |= {"latitude": place.latitude, "longitude": place.longitude}
     enlarged = channel if record.scale_factor == 1 else scaled(channel, record.scale_factor)
-    return replace(enlarged, **facts)
+    return replace(enlarged, **facts).warned(*doubts)
+
+
+_NEAR = 1.0
+"""Distance of two places, km, up to which they are one: coordinates are often given to a hundredth of a degree."""
+
+
+def _place(channel: Accelerogram, record: CatalogueRecord) -> tuple[Place | None, list[Remark]]:
+    """The place of the station by its row, where it gives one that can be; what is wrong with it and the epicentre."""
+    given = record.station_place
+    doubts = [each for each in (given, record.epicentre) if isinstance(each, Remark)]
+    if not isinstance(given, Place):
+        return None, doubts
+    stated = place_of(channel.latitude, channel.longitude)
+    if isinstance(stated, Place) and (distance := stated.distance_to(given)) > _NEAR:
+        doubts.append(
+            Remark.of(
+                RecordKind.PLACE_UNLIKE_FILE, catalogue=str(given), file=str(stated), distance_km=distance
+            )
+        )
+    return given, doubts

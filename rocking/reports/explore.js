@@ -355,6 +355,67 @@
     if (record.at_rest) add(body, "p", {}, record.at_rest);
   }
 
+  // Map -------------------------------------------------------------------------------------------------
+  const DEGREE = 111.195; // length of a degree of a great circle, km
+  const FEW = 40; // stations up to which their circles are large
+  const turn = (degrees) => ((((degrees + 180) % 360) + 360) % 360) - 180;
+
+  // The stations of the earthquake of a record, coloured by one structure, on a plane in km
+  function map(record, structure) {
+    const [head, svg] = at("map").children;
+    const here = records.filter((each) => each.place && each.event === record.event);
+    at("map").hidden = !here.length;
+    head.textContent = `Map: ${structure.name} at ${here.length} station${here.length === 1 ? "" : "s"}${record.event ? ` of ${record.event}` : ""}`;
+    svg.replaceChildren();
+    if (!at("map").open || !here.length) return;
+    const began = here.filter((each) => each.epicentre).map((each) => each.epicentre);
+    const all = [...here.map((each) => each.place), ...began];
+    const middle = (values) => (Math.min(...values) + Math.max(...values)) / 2;
+    const [first] = all[0];
+    const origin = [first + middle(all.map(([east]) => turn(east - first))), middle(all.map(([, north]) => north))];
+    const plane = ([east, north]) => [turn(east - origin[0]) * DEGREE * Math.cos((origin[1] * Math.PI) / 180), (north - origin[1]) * DEGREE];
+    const places = all.map(plane);
+    const frame = { left: 60, right: 890, top: 10, bottom: 470 };
+    const [wide, high] = [frame.right - frame.left, frame.bottom - frame.top];
+    const reach = (k) => Math.max(1, ...places.map((each) => Math.abs(each[k])));
+    const size = Math.min((0.42 * wide) / reach(0), (0.42 * high) / reach(1)); // of a km
+    const x = (east) => (frame.left + frame.right) / 2 + size * east;
+    const y = (north) => (frame.top + frame.bottom) / 2 - size * north;
+    add(svg, "rect", { x: frame.left, y: frame.top, width: wide, height: high, fill: "none", stroke: "var(--axis)" });
+    const step = ticks(0, high / size, 5)[1];
+    const marks = (length) => ticks(-length / size / 2, length / size / 2, Math.ceil(length / size / step) + 1).filter((value) => Math.abs(value) < length / size / 2);
+    marks(wide).forEach((value) => {
+      add(svg, "line", { x1: x(value), x2: x(value), y1: frame.top, y2: frame.bottom, stroke: "var(--grid)" });
+      add(svg, "text", { x: x(value), y: frame.bottom + 16, "text-anchor": "middle" }, String(value));
+    });
+    marks(high).forEach((value) => {
+      add(svg, "line", { x1: frame.left, x2: frame.right, y1: y(value), y2: y(value), stroke: "var(--grid)" });
+      add(svg, "text", { x: frame.left - 6, y: y(value) + 4, "text-anchor": "end" }, String(value).replace("-", "−"));
+    });
+    const side = (value, names) => `${Math.abs(value).toFixed(2)}° ${names[value < 0 ? 1 : 0]}`;
+    const label = `km east and north of ${side(origin[1], "NS")}, ${side(turn(origin[0]), "EW")}`;
+    add(svg, "text", { x: (frame.left + frame.right) / 2, y: frame.bottom + 36, "text-anchor": "middle" }, label);
+    // The worst on top, and the names of those that have room, the worst first
+    const ordered = [...here].sort((a, b) => compared(caseOf(b, structure).severity, caseOf(a, structure).severity));
+    const labels = [];
+    ordered.forEach((each) => {
+      const [east, north] = plane(each.place);
+      const { verdict, cell, text } = caseOf(each, structure);
+      const look = `${verdict.replaceAll(" ", "-")}${each === record ? " chosen" : ""}`;
+      const circle = add(svg, "circle", { cx: x(east), cy: y(north), r: here.length > FEW ? 5 : 8, class: look, "data-record": records.indexOf(each) });
+      add(circle, "title", {}, `${each.id} ${each.station}: ${text}`);
+      labels.unshift([x(east) + 11, y(north) + 4, `${each.id} ${cell}`]);
+    });
+    const taken = [];
+    labels.forEach(([left, foot, text]) => {
+      const box = [left, left + 7.5 * text.length, foot];
+      if (taken.some(([from, to, base]) => box[0] < to && box[1] > from && Math.abs(foot - base) < 14)) return;
+      taken.push(box);
+      add(svg, "text", { x: left, y: foot }, text);
+    });
+    began.map(plane).forEach(([east, north]) => add(svg, "text", { x: x(east), y: y(north) + 8, "text-anchor": "middle", class: "epicentre" }, "☆"));
+  }
+
   // Mechanism -------------------------------------------------------------------------------------------
   // The frame at a rotation: between two of its side, no farther than the last
   function frameAt(frames, rotation) {
@@ -410,7 +471,7 @@
   // One case --------------------------------------------------------------------------------------------
   let show = () => {};
   let playing = 0;
-  let shownRecord = null;
+  let shown = null;
 
   function choose(r, s) {
     stop();
@@ -424,7 +485,8 @@
     at("case").hidden = false;
     at("title").textContent = `${structure.name} (${structure.size}) under ${record.id}${each.component ? ", component " + each.component : ""}`;
     const failed = each.component === undefined;
-    shownRecord = record;
+    shown = [record, structure];
+    map(record, structure);
     at("strips").hidden = failed;
     strips(record);
     at("moves").hidden = failed;
@@ -508,7 +570,12 @@
   at("play").addEventListener("click", play);
   at("scrub").addEventListener("input", () => { stop(); show(); });
   addEventListener("hashchange", follow);
-  at("strips").addEventListener("toggle", () => { if (shownRecord) strips(shownRecord); });
+  at("strips").addEventListener("toggle", () => { if (shown) strips(shown[0]); });
+  at("map").addEventListener("toggle", () => { if (shown) map(...shown); });
+  at("map").addEventListener("click", ({ target }) => {
+    const circle = target.closest("circle");
+    if (circle) choose(circle.dataset.record, structures.indexOf(shown[1]));
+  });
   if (!follow()) {
     const cells = [...matrix.querySelectorAll("tbody button")];
     const first = cells.find(({ dataset }) => caseOf(records[dataset.record], structures[dataset.structure]).history) || cells[0];

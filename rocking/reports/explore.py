@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from rocking.assessment.case import PeriodResult, RecordResult
 from rocking.assessment.conclusion import conclusion_in_words, conclusions, worst_cases
 from rocking.assessment.decide import Verdict, worse, worst_first
-from rocking.assessment.rows import ComparisonRow, RecordRows, RemarkRow
+from rocking.assessment.rows import ComparisonRow, RecordRow, RecordRows, RemarkRow
 from rocking.assessment.scene import placed
 from rocking.errors import FaultError, one_structure
 from rocking.quantities import GRAVITY, counted
@@ -101,7 +101,23 @@ def record_content(result: RecordResult, rows: RecordRows, structures: Mapping[s
         "cases": {name: cases.get(name, nothing) for name in structures},
         "span": [_number(each) for each in comparison.span] if comparison else [],
         "at_rest": comparison.at_rest if comparison else "",
+        **_where(rows.record),
     }
+
+
+def _where(components: Sequence[RecordRow]) -> Content:
+    """The earthquake and the station of a record, and where both are, longitude and latitude in degrees."""
+    if not components:
+        return {}
+    first = components[0]
+    station = first.station_longitude_deg, first.station_latitude_deg
+    epicentre = first.epicentre_longitude_deg, first.epicentre_latitude_deg
+    where: Content = {"event": first.event, "station": first.station}
+    if None not in station:
+        where["place"] = list(station)
+    if not math.isnan(epicentre[0]):
+        where["epicentre"] = list(epicentre)
+    return where
 
 
 def _remarks_of(name: str, structures: Collection[str], remarks: Iterable[RemarkRow]) -> list[str]:
@@ -152,7 +168,8 @@ def explore_page(
     }
     content = json.dumps(both, allow_nan=False, separators=(",", ":"))
     colours = "".join(
-        f".{_css(verdict)} {{ background: {fill}; color: {ink};{' border-style: dashed;' if hatch else ''} }}\n"
+        f".{_css(verdict)} {{ background: {fill}; fill: {fill}; color: {ink};"
+        f"{' border-style: dashed; stroke-dasharray: 3 2;' if hatch else ''} }}\n"
         for verdict, (_, fill, ink, hatch) in LOOKS.items()
     )
     legend = (

@@ -36,6 +36,7 @@ from rocking.assessment.store import RecordStore, computation_version
 from rocking.errors import ConfigurationError, RockingError, about, fault_in_words
 from rocking.quantities import counted
 from rocking.records import Accelerogram, CatalogueRecord, aligned, open_station
+from rocking.records.place import Place
 from rocking.records.processing import process
 from rocking.records.read import LARGEST_FILE
 from rocking.records.scaling import ScalingTarget, scaled_to
@@ -408,4 +409,6 @@ def rows_of(result: RecordResult, record: CatalogueRecord, study: Study) -> Reco
     """Return what the tables of a study hold of a record."""
     friction = study.settings.friction_coefficient
     vertical = study.settings.vertical
-    return rows_of_record(result, study.settings_sha256, record.licence, friction, vertical)
+    place = record.epicentre
+    epicentre = place if isinstance(place, Place) else None
+    return rows_of_record(result, study.settings_sha256, record.licence, friction, vertical, epicentre)

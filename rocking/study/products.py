@@ -49,6 +49,18 @@ TRADE = Product(
     in_every_run=lambda settings: settings.trade.in_summary,
     is_measured=True,
 )
-PRODUCTS = (CHECKS, FRAGILITY, TRADE)
+MAP = Product(
+    name="map",
+    does="put the stations of a study on a map, with what becomes of every structure there",
+    work="rocking.products.map.work:Map",
+    rows="rocking.products.map.rows",
+    tables=("stations",),
+    files=("stations.json", "stations.geojson"),
+    made_from=Line((), opens_records=False),
+    in_every_run=lambda settings: settings.reports,
+    after_records=True,
+    minutes=30,
+)
+PRODUCTS = (CHECKS, FRAGILITY, TRADE, MAP)
 """In the order in which the summary shows them."""
 BY_NAME = {each.name: each for each in PRODUCTS}

@@ -22,8 +22,8 @@ SETTINGS = {
     "fragility": {"hazard": "hazard.csv", "in_every_run": True},
     "trade": {"in_summary": True},
 }
-NUMBERS = "a b B S C F T"
-"""What depends on every number: both records, the batch of both, summary, checks, fragility and trade."""
+NUMBERS = "a b B S C F T M"
+"""What depends on every number: both records, the batch of both, summary, checks, fragility, trade and map."""
 BATCH = "batch/00000_of_00001"
 JOBS = {
     "Summary of all records": "S",
@@ -149,14 +149,14 @@ BLOCK, WALL = STRUCTURES
 EDITS: list[Edit] = [
     ("nothing", lambda: None, ""),
     # What is told of the study stands in the report of a record, in the summary and on the pages to sign.
-    ("study", _setting(study="A town"), "a b S C"),
-    ("client", _setting(client="A town"), "a b S C"),
-    ("project_number", _setting(project_number="12"), "a b S C"),
-    ("author", _setting(author="Somebody"), "a b S C"),
-    ("date", _setting(date="1 May"), "a b S C"),
-    ("display_units", _setting(display_units="g and cm"), "a b S C"),
-    ("details", _setting(details=True), "a b S C"),
-    ("figures", _setting(figures="svg"), "a b S C F T"),
+    ("study", _setting(study="A town"), "a b S C M"),
+    ("client", _setting(client="A town"), "a b S C M"),
+    ("project_number", _setting(project_number="12"), "a b S C M"),
+    ("author", _setting(author="Somebody"), "a b S C M"),
+    ("date", _setting(date="1 May"), "a b S C M"),
+    ("display_units", _setting(display_units="g and cm"), "a b S C M"),
+    ("details", _setting(details=True), "a b S C M"),
+    ("figures", _setting(figures="svg"), "a b S C F T M"),
     ("language", _setting(language="it"), "S C"),
     # Where files lie changes nothing; what lies there does.
     ("mirror", _setting(mirror="elsewhere"), ""),
@@ -168,7 +168,7 @@ EDITS: list[Edit] = [
     ("unnamed_events", _setting(unnamed_events="each"), NUMBERS),
     # What else is written, and when.
     ("reports", _setting(reports=False), "B S C"),
-    ("histories", _setting(histories=True), "a b B S C"),
+    ("histories", _setting(histories=True), "a b B S C M"),
     ("fragility.in_every_run", _section("fragility", in_every_run=False), "S"),
     ("trade.in_summary", _section("trade", in_summary=False), "S"),
     # Numbers.
@@ -208,8 +208,8 @@ EDITS: list[Edit] = [
     ("ensemble.risk", _section("ensemble", risk=0.1), NUMBERS),
     ("ensemble.reserve", _section("ensemble", reserve=2.0), NUMBERS),
     # The design level is drawn in reports; what only the checks use is theirs.
-    ("design level", _section("design_spectrum", points=None, ag_g=0.2, f0=2.5, tc_star_s=0.4), "a b S C"),
-    ("design_spectrum.damping", _section("design_spectrum", damping=0.1), "a b S C"),
+    ("design level", _section("design_spectrum", points=None, ag_g=0.2, f0=2.5, tc_star_s=0.4), "a b S C M"),
+    ("design_spectrum.damping", _section("design_spectrum", damping=0.1), "a b S C M"),
     ("checks.limit_state", _section("checks", limit_state="SLC"), "S C"),
     ("checks.confidence_factor", _section("checks", confidence_factor=1.2), "S C"),
     ("checks.behaviour_factor", _section("checks", behaviour_factor=1.5), "S C"),
@@ -222,7 +222,7 @@ EDITS: list[Edit] = [
     ("checks.least_others", _section("checks", least_others=0.9), "S C"),
     ("checks.seed", _section("checks", seed=1), "S C"),
     ("checks.pool", _section("checks", pool=None), "S C"),
-    ("content of design.csv", _content("design.csv", "0.06", "0.05"), "a b S C"),
+    ("content of design.csv", _content("design.csv", "0.06", "0.05"), "a b S C M"),
     ("content of a record of the pool", _bytes("pool/p.AT2", _waves(9)), "S C"),
     ("catalogue of the pool", lambda: write_catalogue("pool", "p", scale_factor="2"), "S C"),
     ("record of the pool away", lambda: Path("pool/p.AT2").unlink(), "S C"),
@@ -233,26 +233,26 @@ EDITS: list[Edit] = [
     ("fragility.hazard", _section("fragility", hazard=None), "S F"),
     ("content of hazard.csv", _content("hazard.csv", "0.0001", "0.0002"), "S F"),
     # Records and their files.
-    ("content of a record", _bytes("records/a.AT2", _waves(9)), "a B S C F T"),
-    ("a byte of a record", lambda: _bytes("records/a.AT2", _waves(97) + b"\n")(), "a B S C F T"),
+    ("content of a record", _bytes("records/a.AT2", _waves(9)), "a B S C F T M"),
+    ("a byte of a record", lambda: _bytes("records/a.AT2", _waves(97) + b"\n")(), "a B S C F T M"),
     ("date of a record", lambda: os.utime("records/a.AT2", (1e9, 1e9)), ""),
     ("date of a record in the future", lambda: os.utime("records/a.AT2", (9e9, 9e9)), ""),
     ("date of a list in the future", lambda: os.utime("structures.yaml", (9e9, 9e9)), ""),
-    ("record away", lambda: Path("records/a.AT2").unlink(), "a B S C F T"),
+    ("record away", lambda: Path("records/a.AT2").unlink(), "a B S C F T M"),
     ("cell of the catalogue", lambda: write_catalogue("records", "a", "b", scale_factor="2"), NUMBERS),
     ("blank cells of the catalogue", lambda: write_catalogue("records", "a", "b", event=""), ""),
-    ("records in another order", lambda: write_catalogue("records", "b", "a"), "B S C F T"),
-    ("record renamed", _content("records/catalogue.csv", "b,b.AT2", "c,b.AT2"), "c B S C F T"),
+    ("records in another order", lambda: write_catalogue("records", "b", "a"), "B S C F T M"),
+    ("record renamed", _content("records/catalogue.csv", "b,b.AT2", "c,b.AT2"), "c B S C F T M"),
     (
         "StationXML of the records",
         lambda: Path("records/station.xml").write_text("<b/>"),
         NUMBERS,
         _station_xml,
     ),
-    ("file of a record renamed oddly", _odd_name, "b B S C F T"),
-    ("file of an odd name edited", _bytes("records/b {x}<y>.AT2", _waves(9)), "b B S C F T", _odd_name),
-    ("record less", lambda: write_catalogue("records", "a"), "B S C F T"),
-    ("record more", _add_record, "p B S C F T"),
+    ("file of a record renamed oddly", _odd_name, "b B S C F T M"),
+    ("file of an odd name edited", _bytes("records/b {x}<y>.AT2", _waves(9)), "b B S C F T M", _odd_name),
+    ("record less", lambda: write_catalogue("records", "a"), "B S C F T M"),
+    ("record more", _add_record, "p B S C F T M"),
     # Structures.
     ("structure changed", _structures(BLOCK | {"height_m": 3.1}, WALL), NUMBERS),
     ("structure renamed", _structures(BLOCK | {"name": "pier"}, WALL), NUMBERS),
@@ -262,9 +262,9 @@ EDITS: list[Edit] = [
     ("comment in the list", lambda: _content("structures.yaml", "- ", "# old\n- ")(), ""),
     ("terms of the checks", _structures(BLOCK | {"elastic_period_s": 0.3}, WALL), "S C"),
     # What was written is made again where it is not there; what serves the next run alone nobody misses.
-    ("report away", _removed("a/report.pdf"), "a S C"),
-    ("table of a record away", _removed("b/timings.csv"), "b S C"),
-    ("outcome away", _removed(".kept/outcomes/a.json"), "a S C"),
+    ("report away", _removed("a/report.pdf"), "a S C M"),
+    ("table of a record away", _removed("b/timings.csv"), "b S C M"),
+    ("outcome away", _removed(".kept/outcomes/a.json"), "a S C M"),
     ("table of the summary away", _removed("summary/provenance.json"), "S"),
     ("sums away", _removed("SHA256SUMS"), "S"),
     ("page to sign away", _removed("summary/structures.pdf"), "S C"),

@@ -47,7 +47,13 @@ def test_every_column_is_filled_somewhere(tmp_path: Path) -> None:
         CatalogueRecord(
             "raw", "obspy:STNA.20020722.044649.evt.gz", scale_factor=50.0, licence="free", note="raw"
         ),
-        CatalogueRecord("pair", "20161113_110259_WTMC_20.V2A", folder=ROOT / "records"),
+        CatalogueRecord(
+            "pair",
+            "20161113_110259_WTMC_20.V2A",
+            folder=ROOT / "records",
+            epicentre_latitude=-42.737,
+            epicentre_longitude=173.054,
+        ),
         pulse,
         CatalogueRecord("broken", "broken.txt", folder=tmp_path),
     ]

@@ -5,6 +5,7 @@ import json
 import math
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -61,7 +62,9 @@ def _explored(folder: Path, structures: str) -> tuple[Path, Study, list]:
     paths = {"catalogue": str(folder / "records" / "catalogue.csv"), "results": str(results)}
     choices = {"ensemble": {"members": 16}, "candidates": 0, "processing_variants": False}
     study = Study(load_scenes(folder / "structures.yaml"), read_settings(choices | paths))
-    records = load_catalogue(paths["catalogue"])
+    at = {"station_latitude": 37.5, "station_longitude": -122.2}
+    epicentre = {"epicentre_latitude": 37.1, "epicentre_longitude": -121.9}
+    records = [replace(each, **at, **epicentre) for each in load_catalogue(paths["catalogue"])]
     worked(records, study, results)
     (results / "summary").mkdir(parents=True, exist_ok=True)
     page = results / "summary" / "study.html"
@@ -277,6 +280,26 @@ def test_page_two_of_a_record_opens_by_its_address(page, browser, study, content
         assert heights == pytest.approx([60 * sides * reach / 2.5] if reach else [], abs=1e-3)
     page("#strips summary")[0].click()
     assert not any(each.is_displayed() for each in page("#strips table"))
+
+
+def test_the_map_has_the_stations_of_the_earthquake_in_the_colour_of_the_chosen_structure(page, browser):
+    """The record that could not be read has no place; a click on a station chooses it."""
+    cell = moving(page)
+    assert page("#map")[0].is_displayed() and not page("#map circle"), "it is drawn when it is opened"
+    page("#map summary")[0].click()
+    (circle,) = page("#map circle")
+    assert cell.get_attribute("data-verdict").replace(" ", "-") in circle.get_attribute("class").split()
+    fill = "return getComputedStyle(arguments[0])."
+    assert browser.execute_script(f"{fill}fill", circle) == browser.execute_script(
+        f"{fill}backgroundColor", cell
+    )
+    assert page("#map summary")[0].text.startswith("Map: wall at 1 station")
+    page("button[data-record='1'][data-structure='3']")[0].click()
+    assert not page("#map")[0].is_displayed()
+    page("button[data-record='0'][data-structure='0']")[0].click()
+    (circle,) = page("#map circle")
+    circle.click()
+    assert page("#title")[0].text.startswith("pier (")
 
 
 def test_every_structure_is_drawn(page, browser):

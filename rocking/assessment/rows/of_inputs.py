@@ -10,6 +10,7 @@ from rocking.errors import StructureError
 from rocking.pulses import Pulse, PulseEvidence, VelocityPulse
 from rocking.pulses.pulse import PulseAnalysis, worth_of
 from rocking.records.measures import RecordMeasures, record_measures
+from rocking.records.place import Place
 from rocking.remarks import Kind
 from rocking.structures import Side, Structure
 from rocking.structures.capacity import StaticCurve
@@ -76,10 +77,11 @@ class ComponentRow(RowOf[I]):
 
 @dataclass(frozen=True)
 class ReadComponent(Identified):
-    """One component as it was read, with the licence that the catalogue declares."""
+    """One component as it was read, with the licence and the epicentre that the catalogue declares."""
 
     component: "Component"
     licence: str
+    epicentre: Place | None = None
 
     @property
     def file(self) -> str:
@@ -110,6 +112,7 @@ of_vertical = of_component.optional(lambda read: read.component.vertical)
 of_measures = of_component.part(lambda read: read.measures)
 of_directions = of_component.optional(lambda read: read.component.motion.rotd)
 of_velocity_pulse = of_component.optional(lambda read: read.component.motion.velocity_pulse)
+of_epicentre = of_component.optional(lambda read: read.epicentre)
 of_both_pulses = of_component.optional(lambda read: read.both_pulses)
 
 
@@ -137,6 +140,13 @@ class RecordRow(ComponentRow[ReadComponent]):
     )
     station_longitude_deg: float | None = of_accelerogram(
         "Longitude of the station, east", lambda read: read.longitude
+    )
+    epicentre_latitude_deg: float = of_epicentre(
+        "Latitude of the epicentre, north, as the catalogue declares it", lambda epicentre: epicentre.latitude
+    )
+    epicentre_longitude_deg: float = of_epicentre(
+        "Longitude of the epicentre, east, as the catalogue declares it",
+        lambda epicentre: epicentre.longitude,
     )
     start_time: str = of_accelerogram(
         "Time of the first sample, as the file states it", lambda read: read.start_time

@@ -33,6 +33,7 @@ from rocking.assessment.rows.of_inputs import (
 )
 from rocking.errors import RockingError, one_structure
 from rocking.floors.place import FloorMeasures
+from rocking.records.place import Place
 from rocking.remarks import Kind, Remark
 from rocking.sine_pulse import Regime
 from rocking.structures.linkage import Reaction
@@ -849,11 +850,12 @@ def rows_of_record(
     licence: str = "",
     friction_coefficient: float = 0.6,
     vertical: bool = False,
+    epicentre: Place | None = None,
 ) -> RecordRows:
     """Return what the tables hold of a record.
 
     settings_sha256: names settings, structures and package. friction_coefficient: beyond which a contact slides.
-    vertical: whether its vertical component is asked for.
+    vertical: whether its vertical component is asked for. licence, epicentre: as the catalogue declares them.
     """
     record = result.record
     identities = [
@@ -895,7 +897,7 @@ def rows_of_record(
             mechanisms += [MechanismRow.of(each) for each in held_mechanisms(period_result, identity)]
     components = list(zip(identities, result.components, strict=True))
     return RecordRows(
-        record=[RecordRow.of(ReadComponent(*each, licence)) for each in components],
+        record=[RecordRow.of(ReadComponent(*each, licence, epicentre)) for each in components],
         pulses=[PulseRow.of(found) for each in components for found in pulses_found(*each)],
         comparison=comparison,
         variations=variations,

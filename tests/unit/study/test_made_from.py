@@ -33,7 +33,7 @@ from tests.workflow.edits import (
 )
 
 ROOT = Path(__file__).parents[3]
-PRODUCTS = ("record/a", "record/b", BATCH, "summary", "checks", "fragility", "trade")
+PRODUCTS = ("record/a", "record/b", BATCH, "summary", "checks", "fragility", "trade", "map")
 
 
 @pytest.fixture(scope="module")

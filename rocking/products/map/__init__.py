@@ -1,0 +1,1 @@
+"""Where it happened: the stations of a study, what each recorded, and what became of every structure there."""

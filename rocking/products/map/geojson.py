@@ -1,0 +1,70 @@
+"""Stations and epicentres as GeoJSON (RFC 7946), which QGIS and the libraries of geography open."""
+
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import fields
+from typing import Any
+
+from rocking.assessment.rows import VerdictRow
+from rocking.products.map.rows import StationRow
+
+Properties = dict[str, Any]
+
+
+def geojson(stations: Sequence[StationRow], verdicts: Sequence[VerdictRow]) -> bytes:
+    """Return a point for each station, with its row and word and share of each structure, and one for each epicentre.
+
+    verdicts: of each record and structure one. Longitude and latitude stand in this order, in degrees (WGS 84); what is
+    not known is null. A share is the largest of those that make the word.
+    """
+    told: dict[str, Properties] = {}
+    for verdict in verdicts:
+        of_record = told.setdefault(verdict.record, {})
+        of_record[f"{verdict.structure}: word"] = str(verdict.decision.word)
+        of_record[f"{verdict.structure}: share"] = _number(verdict.overturning_share)
+    features = [
+        _point(
+            each.station_longitude_deg,
+            each.station_latitude_deg,
+            {"kind": "station", **_cells(each), **told.get(each.record, {})},
+        )
+        for each in stations
+    ]
+    features += [
+        _point(longitude, latitude, {"kind": "epicentre", "event": event})
+        for event, longitude, latitude in epicentres(stations)
+    ]
+    collection = {"type": "FeatureCollection", "features": features}
+    return (json.dumps(collection, ensure_ascii=False, allow_nan=False, indent=1) + "\n").encode()
+
+
+def epicentres(stations: Sequence[StationRow]) -> list[tuple[str, float, float]]:
+    """Return event, longitude and latitude [degrees] of each epicentre that a row gives, once."""
+    places = (
+        (each.event, each.epicentre_longitude_deg, each.epicentre_latitude_deg)
+        for each in stations
+        if not math.isnan(each.epicentre_longitude_deg)
+    )
+    return list(dict.fromkeys(places))
+
+
+def _cells(row: StationRow) -> Properties:
+    places = (
+        "station_latitude_deg",
+        "station_longitude_deg",
+        "epicentre_latitude_deg",
+        "epicentre_longitude_deg",
+    )
+    names = (each.name for each in fields(row) if each.name not in places)
+    return {name: _number(getattr(row, name)) for name in names}
+
+
+def _number(value: Any) -> Any:
+    """A value as JSON holds it: null for nan."""
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def _point(longitude: float | None, latitude: float | None, properties: Properties) -> Properties:
+    geometry = {"type": "Point", "coordinates": [longitude, latitude]}
+    return {"type": "Feature", "geometry": geometry, "properties": properties}
