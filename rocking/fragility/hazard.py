@@ -84,9 +84,11 @@ class Hazard:
             levels, rates, measure, unit = _plain(path, text)
             _check(str(path), levels, rates)
             if rates[0] >= 1:
-                raise ConfigurationError(
+                raise ConfigurationError.naming(
+                    "annual_rate",
+                    float(rates[0]),
                     f"{path} says {rates[0]:g} a year at {levels[0]:g}, but annual_rate must be below 1 where no time "
-                    "is said; divide what is of more years by them, or give the file of OpenQuake."
+                    "is said; divide what is of more years by them, or give the file of OpenQuake.",
                 )
             return cls(levels, rates, measure, unit=unit)
         mean = _OfOpenQuake.read(path, text, site)
@@ -101,9 +103,11 @@ class Hazard:
         for each in others:
             is_alike = each.imt == mean.imt and np.array_equal(each.levels, mean.levels)
             if not (each.quantile and is_alike):
-                raise ConfigurationError(
+                raise ConfigurationError.naming(
+                    "quantile",
+                    each.kind,
                     f"{each.path} is {each.kind!r} of {each.imt}, but must be a quantile of {mean.imt} at the levels "
-                    f"of {path}."
+                    f"of {path}.",
                 )
         measure, scale = _measure(mean)
         # A probability of 1 has no rate, and one of 0 no logarithm.
@@ -126,9 +130,11 @@ class Hazard:
     def check_measure(self, name: str) -> None:
         """Raise ConfigurationError where the curve says that it is of another measure than `name`."""
         if not self.is_of(name):
-            raise ConfigurationError(
+            raise ConfigurationError.naming(
+                "intensity_measure",
+                name,
                 f"the hazard curve is {f'of {self.measure}' if self.measure else f'in {self.unit}'}, but the intensity "
-                f"measure is {name}; take one for the other."
+                f"measure is {name}; take one for the other.",
             )
 
 
@@ -153,18 +159,22 @@ def _plain(path: Path, text: str) -> tuple[np.ndarray, np.ndarray, str, str]:
     elif velocity:
         factor, ours = VELOCITY_UNITS[velocity], "m/s"
     else:
-        raise ConfigurationError(
+        raise ConfigurationError.naming(
+            "columns",
+            heads,
             f"{path} has the columns {', '.join(heads)[:80]!r}, but must have annual_rate and levels with their unit "
             "in the head, such as level_m_s2 or PGA (g), or intensity in the unit of its measure here (m/s of pgv, g "
-            "of pga and SA); rename them."
+            "of pga and SA); rename them.",
         )
     points = []
     for number, cells in enumerate(lines, start=2):
         try:
             values = dict(zip(heads, map(float, cells), strict=True))
         except ValueError:
-            raise ConfigurationError(
-                f"{path}, line {number}, holds {','.join(cells)[:80]!r}, but must hold two numbers."
+            raise ConfigurationError.naming(
+                "line",
+                number,
+                f"{path}, line {number}, holds {','.join(cells)[:80]!r}, but must hold two numbers.",
             ) from None
         points.append((factor * values[head], values["annual_rate"]))
     levels, rates = np.array(points).reshape(-1, 2).T
@@ -174,8 +184,8 @@ def _plain(path: Path, text: str) -> tuple[np.ndarray, np.ndarray, str, str]:
     except ConfigurationError:
         return levels, rates, "", ours  # a word such as "level"
     if not is_of_unit:
-        raise ConfigurationError(
-            f"{path} has the column {head!r}, but {stem} is in {_unit_of(stem)}; mend the unit."
+        raise ConfigurationError.naming(
+            "unit", head, f"{path} has the column {head!r}, but {stem} is in {_unit_of(stem)}; mend the unit."
         )
     return levels, rates, measure, ours
 
@@ -183,19 +193,27 @@ def _plain(path: Path, text: str) -> tuple[np.ndarray, np.ndarray, str, str]:
 def _check(name: str, levels: np.ndarray, rates: np.ndarray) -> None:
     """Raise ConfigurationError unless levels ascend and rates do not rise, all above 0, and there are two at least."""
     if len(levels) < 2:
-        raise ConfigurationError(f"{name} holds {len(levels)} points, but must hold at least 2.")
+        raise ConfigurationError.naming(
+            "points", len(levels), f"{name} holds {len(levels)} points, but must hold at least 2."
+        )
     before: tuple[float, float] | None = None
     for level, rate in zip(levels.tolist(), rates.tolist(), strict=True):
         at = f"{rate:g} a year at {level:g}"
         if not (0 < level < math.inf and 0 < rate < math.inf):
-            raise ConfigurationError(f"{name} holds {at}, but both must be above 0 and finite.")
+            raise ConfigurationError.naming(
+                "annual_rate", (level, rate), f"{name} holds {at}, but both must be above 0 and finite."
+            )
         if before and level <= before[0]:
-            raise ConfigurationError(
-                f"{name} holds {level:g} after {before[0]:g}, but intensity must ascend; sort it."
+            raise ConfigurationError.naming(
+                "intensity",
+                level,
+                f"{name} holds {level:g} after {before[0]:g}, but intensity must ascend; sort it.",
             )
         if before and rate > before[1]:
-            raise ConfigurationError(
-                f"{name} says {at}, more than {before[1]:g} at {before[0]:g}, but annual_rate must not rise."
+            raise ConfigurationError.naming(
+                "annual_rate",
+                rate,
+                f"{name} says {at}, more than {before[1]:g} at {before[0]:g}, but annual_rate must not rise.",
             )
         before = level, rate
 
@@ -223,8 +241,10 @@ class _OfOpenQuake:
         facts = {name: value.strip("'\"") for name, value in _FACT.findall(comment)}
         for fact in ("investigation_time", "imt"):
             if fact not in facts:
-                raise ConfigurationError(
-                    f"{path} does not say {fact} in its first line, but must, as OpenQuake's do."
+                raise ConfigurationError.naming(
+                    "header",
+                    fact,
+                    f"{path} does not say {fact} in its first line, but must, as OpenQuake's do.",
                 )
         rows = list(csv.DictReader(lines))
         columns = [name for name in (rows[0] if rows else {}) if name and name.startswith("poe-")]
@@ -234,8 +254,11 @@ class _OfOpenQuake:
             places = [(float(each["lon"]), float(each["lat"])) for each in rows]
             probabilities = np.array([[float(each[name]) for name in columns] for each in rows])
         except (KeyError, TypeError, ValueError):
-            raise ConfigurationError(
-                f"{path} is no hazard curve of OpenQuake: it must hold lon, lat and probabilities poe-LEVEL as numbers."
+            raise ConfigurationError.naming(
+                "format",
+                "OpenQuake",
+                f"{path} is no hazard curve of OpenQuake: it must hold lon, lat and probabilities poe-LEVEL as "
+                "numbers.",
             ) from None
         chosen = [
             place
@@ -244,14 +267,18 @@ class _OfOpenQuake:
         ]
         if len(chosen) != 1:
             asked = f" at {site[0]:g}, {site[1]:g}" if site else ""
-            raise ConfigurationError(
-                f"{path} holds {len(chosen)} sites{asked}, but one is needed; give site=(longitude, latitude)."
+            raise ConfigurationError.naming(
+                "site",
+                len(chosen),
+                f"{path} holds {len(chosen)} sites{asked}, but one is needed; give site=(longitude, latitude).",
             )
         own = probabilities[chosen[0]]
         if not (years > 0 and own.size and np.all((own >= 0) & (own <= 1))):
-            raise ConfigurationError(
+            raise ConfigurationError.naming(
+                "probabilities",
+                years,
                 f"{path} holds probabilities in {years:g} years that are none; they must lie from 0 to 1, and the time "
-                "above 0."
+                "above 0.",
             )
         with np.errstate(divide="ignore"):
             rates = -np.log1p(-own) / years

@@ -92,10 +92,12 @@ class IntensityMeasure:
             self._check_band(record)
             value = self.remembered(record)
         except RockingError as error:
-            raise ConfigurationError(f"{name} has no {self.name}: {error}") from None
+            raise ConfigurationError.naming(self.name, None, f"{name} has no {self.name}: {error}") from None
         if not (np.isfinite(value) and value > 0):
-            raise ConfigurationError(
-                f"{name} has a {self.name} of {value!r}, but must have one greater than 0; leave the record out."
+            raise ConfigurationError.naming(
+                self.name,
+                value,
+                f"{name} has a {self.name} of {value!r}, but must have one greater than 0; leave the record out.",
             )
         return value / self.per(mechanism)
 
@@ -108,10 +110,12 @@ class IntensityMeasure:
         longest = 1 / (CORNER_MARGIN * corner) if corner else math.inf
         for period in self.periods:
             if not shortest <= period <= longest * (1 + 1e-9):
-                raise RecordError(
+                raise RecordError.naming(
+                    "period",
+                    period,
                     f"it needs a period of {period:.3g} s, but the record can be used from {shortest:.3g} to "
                     f"{longest:.3g} s (two time steps; 1/{CORNER_MARGIN:g} of the period of its high-pass); choose "
-                    "another period, or leave the record out."
+                    "another period, or leave the record out.",
                 )
 
     def remembered(self, record: Accelerogram) -> float:
@@ -143,7 +147,11 @@ def _incremental_velocity(record: Accelerogram, period: float) -> float:
     times = np.arange(record.acceleration.size) * step
     starts = times[times <= times[-1] - WINDOW * period]
     if starts.size < 3:
-        raise RecordError(f"it lasts {times[-1]:.3g} s, but must last longer than {WINDOW * period:.3g} s.")
+        raise RecordError.naming(
+            "duration",
+            float(times[-1]),
+            f"it lasts {times[-1]:.3g} s, but must last longer than {WINDOW * period:.3g} s.",
+        )
     corner = min(CORNER / period, 0.49 / step)  # a corner beyond that of the samples filters nothing
     low_pass = signal.butter(2, corner, fs=1 / step)
     velocity = integral(signal.lfilter(*low_pass, record.acceleration), step)

@@ -298,11 +298,17 @@ def _rows(blocks: tuple[EquivalentBlock, ...]) -> tuple[linear_kernel.Blocks, np
 def failure(status: float, impacts: float) -> MotionError:
     """Why a run has no answer."""
     if status == runs.TOO_MANY_IMPACTS:
-        return MotionError(
+        return MotionError.naming(
+            "impacts",
+            int(impacts),
             f"the structure met {impacts:.0f} impacts before the motion ended, but at most "
-            f"{runs.IMPACT_LIMIT} are followed; a restitution below 1 brings it to rest."
+            f"{runs.IMPACT_LIMIT} are followed; a restitution below 1 brings it to rest.",
         )
-    return MotionError("the motion left the range of floating-point numbers; check the record's amplitude.")
+    return MotionError.naming(
+        "acceleration",
+        "overflow",
+        "the motion left the range of floating-point numbers; check the record's amplitude.",
+    )
 
 
 def _initial_arc(table: MechanismTable, start: Start) -> tuple[float, float]:

@@ -31,20 +31,26 @@ def results_folder(name: str, *inputs: str) -> Path:
     given = Path(name)
     path = given.relative_to(Path.cwd()) if given.is_relative_to(Path.cwd()) else given
     if not path.is_absolute() and not (_PLAIN.fullmatch(path.as_posix()) and len(name) <= _LONGEST):
-        raise ConfigurationError(
+        raise ConfigurationError.naming(
+            "results",
+            name,
             f"setting results is {name[:_LONGEST]!r}, but must be a folder inside the study, in letters, digits, "
-            f"spaces and . , + - _ @ = ( ) ~ on one line of at most {_LONGEST} characters; give it another name."
+            f"spaces and . , + - _ @ = ( ) ~ on one line of at most {_LONGEST} characters; give it another name.",
         )
     resolved = path.resolve()
     if not stands_inside(path):
-        raise ConfigurationError(
+        raise ConfigurationError.naming(
+            "results",
+            name,
             f"setting results is {name!r}, which leads to {resolved}, but must be a folder inside the study, "
-            f"{Path.cwd()}; name one there."
+            f"{Path.cwd()}; name one there.",
         )
     for file in inputs:
         if resolved in Path(file).resolve().parents:
-            raise ConfigurationError(
-                f"setting results is {name!r}, but {file} lies within it; name a folder of its own for the results."
+            raise ConfigurationError.naming(
+                "results",
+                name,
+                f"setting results is {name!r}, but {file} lies within it; name a folder of its own for the results.",
             )
     return path
 
@@ -111,6 +117,8 @@ def locked(path: Path, how: int) -> int:
     handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o644)
     if not stat.S_ISREG(os.fstat(handle).st_mode):
         os.close(handle)
-        raise ConfigurationError(f"{path}: it is no file, but must be one, which a run locks; remove it.")
+        raise ConfigurationError.naming(
+            "file", path.name, f"{path}: it is no file, but must be one, which a run locks; remove it."
+        )
     fcntl.flock(handle, how)
     return handle

@@ -66,7 +66,9 @@ class Results:
         import pandas as pd  # which takes half a second to import
 
         if name not in _names():
-            raise RockingError(f"table is {name!r}, but must be one of {', '.join(_names())}.")
+            raise RockingError.naming(
+                "table", name, f"table is {name!r}, but must be one of {', '.join(_names())}."
+            )
         product = _OF_PRODUCTS.get(name)
         row_class = rows_of_table(product, name) if product else _OWN[name]
         file = row_class.table.file_name
@@ -75,7 +77,9 @@ class Results:
             return frame(row_class, whole, names)
         paths = sorted(self.folder.glob(f"*/{file}"))  # of records that were assessed one by one
         if not paths:
-            raise RockingError(f"{self.folder} holds no {file}; name the folder of a study's results.")
+            raise RockingError.naming(
+                "file", file, f"{self.folder} holds no {file}; name the folder of a study's results."
+            )
         table = pd.concat([frame(row_class, path, ["record", *names]) for path in paths])
         return table.sort_values("record", kind="stable", ignore_index=True)[names]
 
@@ -90,8 +94,10 @@ class Results:
             each: list(_lines_of(each, summary / each.table.file_name, record)) for each in RECORD_TABLES
         }
         if len(tables[TimingRow]) == 1:  # which every record has, also one that could not be read
-            raise RockingError(
-                f"{self.folder} holds no tables of {record!r}; name a record of a study that has been run."
+            raise RockingError.naming(
+                "record",
+                record,
+                f"{self.folder} holds no tables of {record!r}; name a record of a study that has been run.",
             )
         with written_together():
             for each, lines in tables.items():
@@ -138,11 +144,15 @@ def open_results(folder: Path | str) -> Results:
     """
     path = Path(folder)
     if not path.is_dir():
-        raise RockingError(f"{path} is no folder; name the folder of a study's results.")
+        raise RockingError.naming(
+            "folder", path, f"{path} is no folder; name the folder of a study's results."
+        )
     if not _holds_results(path):
         inner = path / "results"
         hint = f"name {inner}" if _holds_results(inner) else "name the folder of a study's results"
-        raise RockingError(f"{path} holds no results, neither a summary nor tables of a record; {hint}.")
+        raise RockingError.naming(
+            "folder", path, f"{path} holds no results, neither a summary nor tables of a record; {hint}."
+        )
     return Results(path)
 
 

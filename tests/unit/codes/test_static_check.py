@@ -18,6 +18,7 @@ from rocking.codes.check import CodeTerms
 from rocking.codes.static_check import elastic_period, kinematic_check
 from rocking.errors import ConfigurationError, RecordError, StructureError
 from rocking.products.checks.rows import code_check_rows
+from tests.refusals import refused
 
 G = 9.80665
 BY_HAND = 1e-9
@@ -429,13 +430,13 @@ def test_every_crack_that_may_open_is_checked():
 
 def test_what_cannot_be_checked_is_refused_in_a_sentence():
     block = Block.of_size(0.3, 1.6)
-    with pytest.raises(ConfigurationError, match=r"confidence_factor is 0.9, but must be 1 or more"):
+    with refused(ConfigurationError, "confidence_factor", 0.9):
         kinematic_check(block, SPECTRUM, CodeTerms(confidence_factor=0.9))
-    with pytest.raises(ConfigurationError, match="limit_state is 'SLX', but must be one of SLD, SLV, SLC"):
+    with refused(ConfigurationError, "limit_state", "SLX"):
         kinematic_check(block, SPECTRUM, CodeTerms(limit_state="SLX"))
     with pytest.raises(StructureError, match="a Mechanism, which has no capacity curve"):
         kinematic_check(block.mechanism(), SPECTRUM)
-    with pytest.raises(RecordError, match="damping_ratio of the support is 0"):
+    with refused(RecordError, "damping_ratio of the support", 0.0):
         kinematic_check(block, SPECTRUM, CodeTerms(support=Support((Mode(0.3, 0.0, 1.0),))))
     with pytest.raises(ConfigurationError, match=r"spectrum is a float, but must be a DesignSpectrum, as"):
         rocking.check(block, 2.0)

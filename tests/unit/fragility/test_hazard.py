@@ -91,9 +91,9 @@ def test_one_site_of_several_is_asked_for(tmp_path):
     path = _file(tmp_path, "two.csv", [1.0, 2.0], rows)
     hazard = Hazard.read(path, site=(13.0, 42.0))
     assert hazard.annual_rates == pytest.approx(-np.log([0.6, 0.95]) / 50, rel=1e-6)
-    with pytest.raises(ConfigurationError, match=r"holds 2 sites, but one is needed; give site="):
+    with refused(ConfigurationError, "site", 2):
         Hazard.read(path)
-    with pytest.raises(ConfigurationError, match=r"holds 0 sites at 1, 2, but one is needed"):
+    with refused(ConfigurationError, "site", 0):
         Hazard.read(path, site=(1.0, 2.0))
 
 
@@ -119,19 +119,19 @@ def test_a_file_of_openquake_that_is_none_is_one_sentence(tmp_path, changed, sen
 
 
 @pytest.mark.parametrize(
-    ("text", "sentence"),
+    ("text", "named"),
     [
-        ("intensity,annual_rate\n0.1,0.01\n0.2,0.02\n", "0.02 a year at 0.2, more than 0.01 at 0.1"),
-        ("intensity,annual_rate\n0.1,2\n0.2,0.02\n", "must be below 1 where no time is said"),
-        ("#,,\"kind='mean', imt='PGA'\"\nlon,lat,depth,poe-1\n", "does not say investigation_time"),
-        ("#,,\"investigation_time=50.0, imt='PGA'\"\nlon,lat\n1,2\n", "must lie from 0 to 1"),
-        ("#,,\"investigation_time=50.0, imt='PGA'\"\nlat,poe-1\n1,2\n", "is no hazard curve of OpenQuake"),
+        ("intensity,annual_rate\n0.1,0.01\n0.2,0.02\n", ("annual_rate", 0.02)),
+        ("intensity,annual_rate\n0.1,2\n0.2,0.02\n", ("annual_rate", 2.0)),
+        ("#,,\"kind='mean', imt='PGA'\"\nlon,lat,depth,poe-1\n", ("header", "investigation_time")),
+        ("#,,\"investigation_time=50.0, imt='PGA'\"\nlon,lat\n1,2\n", ("probabilities", 50.0)),
+        ("#,,\"investigation_time=50.0, imt='PGA'\"\nlat,poe-1\n1,2\n", ("format", "OpenQuake")),
     ],
 )
-def test_a_plain_file_that_is_none_is_one_sentence(tmp_path, text, sentence):
+def test_a_plain_file_that_is_none_is_one_sentence(tmp_path, text, named):
     path = tmp_path / "hazard.csv"
     path.write_text(text)
-    with pytest.raises(ConfigurationError, match=sentence):
+    with refused(ConfigurationError, *named):
         Hazard.read(path)
 
 
@@ -167,46 +167,46 @@ def test_levels_of_a_plain_file_are_converted_by_the_unit_in_their_head(tmp_path
 
 
 @pytest.mark.parametrize(
-    ("text", "sentence"),
+    ("text", "named"),
     [
         (
             "level,annual_rate\n0.1,0.01\n0.2,0.002\n",
-            "levels with their unit in the head, such as level_m_s2",
+            ("columns",),
         ),
-        ("PGA,annual_rate\n0.1,0.01\n0.2,0.002\n", "levels with their unit in the head"),
-        ("SA(0.5),annual_rate\n0.1,0.01\n0.2,0.002\n", "levels with their unit in the head"),
-        ("level_furlong,annual_rate\n0.1,0.01\n", "levels with their unit in the head"),
-        ("intensity;annual_rate\n10;0.01\n", "must have annual_rate and levels"),
-        ("level_g,rate\n0.1,0.01\n", "must have annual_rate and levels"),
-        ("level_g,annual_rate,level_m_s2\n0.1,0.01,1\n", "must have annual_rate and levels"),
+        ("PGA,annual_rate\n0.1,0.01\n0.2,0.002\n", ("columns",)),
+        ("SA(0.5),annual_rate\n0.1,0.01\n0.2,0.002\n", ("columns",)),
+        ("level_furlong,annual_rate\n0.1,0.01\n", ("columns",)),
+        ("intensity;annual_rate\n10;0.01\n", ("columns",)),
+        ("level_g,rate\n0.1,0.01\n", ("columns",)),
+        ("level_g,annual_rate,level_m_s2\n0.1,0.01,1\n", ("columns",)),
         (
             "PGA (cm/s),annual_rate\n0.1,0.01\n0.2,0.002\n",
-            r"has the column 'PGA \(cm/s\)', but PGA is in g; mend",
+            ("unit", "PGA (cm/s)"),
         ),
-        ("level_g,annual_rate\n0.1,abc\n", "line 2, holds '0.1,abc', but must hold two numbers"),
-        ("level_g,annual_rate\n0.1\n", "line 2, holds '0.1', but must hold two numbers"),
-        ("level_g,annual_rate\n0.1,nan\n0.2,0.01\n", "both must be above 0 and finite"),
-        ("level_g,annual_rate\n", "holds 0 points"),
-        ("", "has the columns ''"),
+        ("level_g,annual_rate\n0.1,abc\n", ("line", 2)),
+        ("level_g,annual_rate\n0.1\n", ("line", 2)),
+        ("level_g,annual_rate\n0.1,nan\n0.2,0.01\n", ("annual_rate",)),
+        ("level_g,annual_rate\n", ("points", 0)),
+        ("", ("columns",)),
     ],
 )
-def test_a_plain_file_without_a_unit_or_numbers_is_one_sentence(tmp_path, text, sentence):
+def test_a_plain_file_without_a_unit_or_numbers_is_one_sentence(tmp_path, text, named):
     path = tmp_path / "hazard.csv"
     path.write_text(text)
-    with pytest.raises(ConfigurationError, match=sentence):
+    with refused(ConfigurationError, *named):
         Hazard.read(path)
 
 
 def test_levels_in_g_are_no_levels_of_a_velocity():
     hazard = Hazard(np.array([0.1, 1.0]), np.array([1e-2, 1e-4]), unit="g")
-    with pytest.raises(ConfigurationError, match=r"is in g, but the intensity measure is pgv"):
+    with refused(ConfigurationError, "intensity_measure", "pgv"):
         _lognormal().annual_rate(hazard)
     assert _lognormal("AvgSA(0.2,2.0)", "g").annual_rate(hazard).value > 0
 
 
 def test_a_hazard_of_another_measure_is_refused():
     hazard = Hazard(np.array([0.1, 1.0]), np.array([1e-2, 1e-4]), "SA(0.5)")
-    with pytest.raises(ConfigurationError, match=r"is of SA\(0.5\), but the intensity measure is pgv"):
+    with refused(ConfigurationError, "intensity_measure", "pgv"):
         _lognormal().annual_rate(hazard)
     assert _lognormal("SA(0.5)", "g").annual_rate(hazard).value > 0
     of_range = replace(hazard, measure="AvgSA")

@@ -14,6 +14,7 @@ from rocking.codes.static_check import kinematic_check
 from rocking.errors import RockingError, StructureError
 from rocking.structures import Facade, LoadedWall
 from rocking.structures.kinds import StructureKind
+from tests.refusals import refused
 
 G = 9.80665
 TRIANGLE = "falls between two ties of a row"
@@ -239,20 +240,20 @@ def test_a_plane_stack_says_nothing_of_a_wall_between_its_ties(wall):
 
 
 @pytest.mark.parametrize(
-    ("values", "words"),
+    ("values", "named"),
     [
-        ({"unit_length": None}, "unit_length is missing, but a tie_spacing needs the length of the units"),
-        ({"tie_spacing": None}, "tie_spacing is missing, but a unit_length needs the distance"),
-        ({"tie_spacing": 0.0}, "tie_spacing is 0"),
-        ({"held_between": "beam"}, "held_between is 'beam'"),
+        ({"unit_length": None}, ("unit_length", "missing")),
+        ({"tie_spacing": None}, ("tie_spacing", "missing")),
+        ({"tie_spacing": 0.0}, ("tie_spacing", "0.0")),
+        ({"held_between": "beam"}, ("held_between", "'beam'")),
         (
             {"tie_heights": (), "tie_stiffness": 0.0, "unit_length": None},
-            "tie_spacing is 6.0, but tie_spacing says how ties hold",
+            ("tie_spacing", "6.0"),
         ),
     ],
 )
-def test_what_is_said_of_a_spacing_hangs_together(values, words):
-    with pytest.raises(StructureError, match=words):
+def test_what_is_said_of_a_spacing_hangs_together(values, named):
+    with refused(StructureError, *named):
         replace(FRONT, **values)
 
 
@@ -291,15 +292,15 @@ def test_rods_are_spread_over_the_metre():
 
 
 @pytest.mark.parametrize(
-    ("values", "words"),
+    ("values", "named"),
     [
-        ({"rod_length": None}, "rod_length is missing"),
-        ({"rod_diameter": None}, "rod_diameter is missing"),
-        ({"tie_spacing": None, "unit_length": None}, "tie_spacing is missing"),
-        ({"tie_stiffness": 2e7}, "tie_stiffness is 20000000.0, but follows from the rods"),
-        ({"tie_strength": 2e4}, "tie_strength is 20000.0, but follows from the rods"),
+        ({"rod_length": None}, ("rod_length", "missing")),
+        ({"rod_diameter": None}, ("rod_diameter", "missing")),
+        ({"tie_spacing": None, "unit_length": None}, ("tie_spacing", "missing")),
+        ({"tie_stiffness": 2e7}, ("tie_stiffness", "20000000.0")),
+        ({"tie_strength": 2e4}, ("tie_strength", "20000.0")),
     ],
 )
-def test_rods_are_described_once_and_whole(values, words):
-    with pytest.raises(StructureError, match=words):
+def test_rods_are_described_once_and_whole(values, named):
+    with refused(StructureError, *named):
         replace(FRONT, **({"tie_stiffness": 0.0} | RODS | values))

@@ -26,6 +26,7 @@ from rocking.study.plan import check_config_file, make_plan
 from rocking.study.products import FRAGILITY
 from rocking.study.settings import Settings, read_settings
 from rocking.tables.yaml_file import scalar_value
+from tests.refusals import refused
 
 ROOT = Path(rocking.__file__).parents[1]
 PERIOD, STEP = 1.0, 0.01
@@ -104,7 +105,7 @@ def test_what_a_file_holds_is_told_in_plain_words(study, capsys, content, words)
     (study / "config.yaml").write_text(content, encoding="utf-8")
     assert main(["run", str(study)]) == 2
     assert f"the file holds {words}, but must hold settings" in capsys.readouterr().err
-    with pytest.raises(rocking.RecordError, match="path is 3, but must be the path of a file"):
+    with refused(rocking.RecordError, "path", 3):
         rocking.read(3)
 
 

@@ -10,6 +10,7 @@ from rocking.errors import ConfigurationError, RockingError
 from rocking.study.cli import main
 from rocking.study.contents import ContentHashes
 from rocking.study.folder import check_own, locked, new_log, results_folder
+from tests.refusals import refused
 
 PIER = "- {name: pier, type: block, breadth_m: 2.0, height_m: 9.0}\n"
 MINE = b"a file of the user\n"
@@ -41,7 +42,7 @@ def _everything(folder: Path) -> dict[Path, bytes]:
     ],
 )  # fmt: skip
 def test_results_lie_in_a_plain_folder_of_their_own_inside_the_study(study: Path, name: str) -> None:
-    with pytest.raises(ConfigurationError, match="setting results is"):
+    with refused(ConfigurationError, "results"):
         results_folder(name, "records/catalogue.csv")
 
 
@@ -95,7 +96,7 @@ def test_a_lock_is_a_file_of_its_own(tmp_path: Path) -> None:
     os.close(locked(lock, fcntl.LOCK_EX | fcntl.LOCK_NB))
     lock.unlink()
     os.mkfifo(lock)
-    with pytest.raises(ConfigurationError, match=r"rocking_run\.lock: it is no file"):
+    with refused(ConfigurationError, "file", "rocking_run.lock"):
         locked(lock, fcntl.LOCK_SH)
 
 
@@ -104,7 +105,7 @@ def test_a_pipe_in_place_of_hashes_or_of_a_hazard_curve_keeps_nobody_waiting(tmp
 
     os.mkfifo(tmp_path / "pipe")
     assert ContentHashes(tmp_path / "pipe").of(tmp_path / "pipe") == ""
-    with pytest.raises(RockingError, match="no regular file"):
+    with refused(RockingError, "file", "pipe"):
         Hazard.read(tmp_path / "pipe")
 
 
