@@ -23,7 +23,7 @@ _ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,79}")
 _RESERVED = re.compile(
     r"(con|prn|aux|nul|(com|lpt)\d|summary|datapackage|paper|calibration|documentation|fragility|checks|code_check|code_sets|hold|stability|"
     r"validation|comparison|cracks|calibrate|calibrate_ensemble|cover|cover_rate|cover_earthquakes|trade_fragility|govern|stand|floors|fronts|"
-    r"measure_scatter|pulse_shapes|screen|validate|compare|halves|strengthening)(\..*)?",
+    r"measure_scatter|pulse_shapes|screen|tie_forces|worth|validate|compare|halves|strengthening)(\..*)?",
     re.I,
 )
 NAME_OF_RECORD = rf"(?!(?i:{_RESERVED.pattern})/)[A-Za-z0-9][A-Za-z0-9._-]*"
