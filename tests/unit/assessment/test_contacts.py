@@ -409,7 +409,7 @@ def test_a_block_whose_corner_needs_more_friction_than_it_has_only_probably_stan
 def test_an_arch_that_needs_more_friction_stands_as_its_voussoirs_do():
     """On 0.5 and more, where none fell that stands as a mechanism; with fill, or on less, nobody has shown it."""
     whole = rocking.read("records/20161113_110259_WTMC_20.V2A")[0]
-    record = replace(whole, acceleration=whole.acceleration[2000:3000])  # 20 s of its strongest shaking
+    record = replace(whole, acceleration=whole.acceleration[2350:2650])  # its strongest shaking
     arch = Arch(radius=15.0, thickness=2.25, embrace_angle=np.radians(157.5))
     without_reserve = EnsembleSettings(reserve=0)
     less, more = (
@@ -461,19 +461,19 @@ def words_of(structure, motion, **settings) -> tuple[str, ContactShare | None]:
 
 def test_an_arch_on_piers_stands_by_its_stones_alone():
     """24 of them say at best that it probably does, 64 that it does; an arch alone stands by its mechanism."""
-    piers = ArchOnPiers(4.0, 0.7, np.radians(150), 11, pier_width=1.6, pier_height=3.0)
-    arch = Arch(4.0, 0.7, np.radians(150), 11)
-    for structure, needs in ((piers, True), (arch, False)):
-        motion = sine(1.2 * structure.static_multiplier * GRAVITY, 0.2)
-        few = words_of(structure, motion)
-        assert few == (("probably stands", ContactShare(0, 18)) if needs else ("stands", None))
-        assert words_of(structure, motion, fidelity="contact") == ("stands", ContactShare(0, 64))
-        auto = AssessmentSettings(fidelity="auto")
-        case = compute_case(CaseInputs(motion=Motion((motion,)), structure=structure, settings=auto))
-        assert case.contact is None
-        assert (decide(case.facts(structure)).word is Verdict.PROBABLY_STANDS) is needs
-        rests = sine(0.9 * structure.static_multiplier * GRAVITY, 0.2)
-        assert words_of(structure, rests, fidelity="contact") == ("stands", None)
+    piers = ArchOnPiers(4.0, 0.7, np.radians(150), 7, pier_width=1.6, pier_height=3.0)
+    arch = Arch(4.0, 0.7, np.radians(150), 7)
+    motion = sine(1.2 * piers.static_multiplier * GRAVITY, 0.2)
+    assert words_of(piers, motion) == ("probably stands", ContactShare(0, 18))
+    assert words_of(piers, motion, fidelity="contact") == ("stands", ContactShare(0, 64))
+    auto = AssessmentSettings(fidelity="auto")
+    case = compute_case(CaseInputs(motion=Motion((motion,)), structure=piers, settings=auto))
+    assert case.contact is None
+    assert decide(case.facts(piers)).word is Verdict.PROBABLY_STANDS
+    rests = sine(0.9 * piers.static_multiplier * GRAVITY, 0.2)
+    assert words_of(piers, rests, fidelity="contact") == ("stands", None)
+    motion = sine(1.2 * arch.static_multiplier * GRAVITY, 0.2)
+    assert words_of(arch, motion) == ("stands", None)
 
 
 def test_an_arch_that_slides_first_is_told_by_its_stones():
