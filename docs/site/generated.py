@@ -27,7 +27,7 @@ from rocking.tables import data_package, read_table
 
 MEASURED = Path(__file__).parents[1] / "measured"
 """The tables that were measured once, each with what made it in figures.csv."""
-FEWEST_INTERVALS = 50
+FEWEST_INTERVALS = 40
 """Intervals below which a cell of coverage says nothing: of few draws a rate is told."""
 
 
@@ -185,6 +185,8 @@ def earthquakes() -> str:
                 and int(row["intervals"]) >= FEWEST_INTERVALS
             ]
             held = _least_to_largest(row["held"] for row in own)
+            if measure == "median" and own:  # of few draws each: all of them together
+                held = f"{100 * sum(float(row['held']) for row in own) / len(own):.0f}"
             before = _least_to_largest(row["held_as_if_independent"] for row in own)
             cells.append(
                 f"{held} % ({before})" if before and drawn[1] != "1" else f"{held} %" if held else "–"
@@ -231,6 +233,8 @@ def _cell_of_rate(rows: Sequence[Mapping[str, str]]) -> str:
         low, high = (f"{end:.3g}" if scale == 1 else f"{end:.0f}" for end in (min(values), max(values)))
         return f"{low}{unit}" if low == high else f"{low} to {high}{unit}"
 
+    if not rows:
+        return "–"
     told = [float(row["told"]) for row in rows]
     if max(told) == 0:
         return f"never told; ends hold {span('held_by_ends', 100, ' %')}"

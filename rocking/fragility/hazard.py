@@ -449,7 +449,7 @@ def rate_interval(of_stations: np.ndarray, sample: Sample) -> tuple[float, float
     positive = of_earthquakes.values > 0
     if positive.sum() < 2:
         return 0.0, math.inf
-    share = float(of_earthquakes.weights[positive].sum())
+    share = min(float(of_earthquakes.weights[positive].sum()), 1.0)  # a sum of shares may round to more
     part = of_earthquakes.part(positive)
     logs = part.of(np.log(part.values))
     count = logs.count

@@ -345,3 +345,8 @@ def test_a_level_at_the_largest_factor_itself_is_reached():
     curve = fragility(scaled, BLOCK, intensity_measure="pga", levels=levels, largest_factor=7.0)
     assert curve.levels.tolist() == levels[:2].tolist()
     assert not np.isnan(curve.analysis.rotation_ratios).any()
+
+
+def test_stations_that_say_the_same_have_an_interval_of_one_number():
+    """The shares of 20 stations add up to more than 1 by rounding, which once left the root of a number below 0."""
+    assert rate_interval(np.full(20, 0.01), _scattered(20)) == pytest.approx((0.01, 0.01))
