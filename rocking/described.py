@@ -65,7 +65,7 @@ class Described:
         """The type of a value that is not None."""
         kind = self.kind
         if self.optional:
-            kind = next(each for each in get_args(self.kind) if each is not NoneType)
+            kind = next(choice for choice in get_args(self.kind) if choice is not NoneType)
         return get_origin(kind) or kind
 
     @cached_property
@@ -168,22 +168,22 @@ def described_values(kind: Any) -> Mapping[str, Described]:
     """Return the descriptions of the fields of a dataclass, by their name."""
     hints = get_type_hints(kind, include_extras=True)
     return {
-        each.name: Described(each.name, hints[each.name], default=each.default, **each.metadata)
-        for each in fields(kind)
-        if "bounds" in each.metadata
+        part.name: Described(part.name, hints[part.name], default=part.default, **part.metadata)
+        for part in fields(kind)
+        if "bounds" in part.metadata
     }
 
 
 @cache
 def _keys(kind: Any) -> frozenset[str]:
     """The keys of a dataclass of described values."""
-    return frozenset(each.key for each in described_values(kind).values())
+    return frozenset(value.key for value in described_values(kind).values())
 
 
 @cache
 def parts_of(kind: Any) -> tuple[str, ...]:
     """Return the names of the fields of a dataclass whose default is a dataclass of described values."""
-    return tuple(each.name for each in fields(kind) if is_dataclass(each.default))
+    return tuple(part.name for part in fields(kind) if is_dataclass(part.default))
 
 
 def check_described(error: type[RockingError], made: Any) -> None:
@@ -192,10 +192,10 @@ def check_described(error: type[RockingError], made: Any) -> None:
     A part of its own must be of the class of its default. Raises `error` naming the first field that is wrong.
     """
     kind = made.__class__
-    for name, each in described_values(kind).items():
+    for name, declared in described_values(kind).items():
         value = getattr(made, name)
         try:
-            object.__setattr__(made, name, each.checked(value))
+            object.__setattr__(made, name, declared.checked(value))
         except ValueError as wrong:
             raise error.naming(name, value, f"{name} is {wrong}") from None
     for name in parts_of(kind):
@@ -221,7 +221,7 @@ def read_described(
     its value and what is allowed.
     """
     kind: Any = type(default)
-    allowed = {each.key: each for each in described_values(kind).values()}
+    allowed = {value.key: value for value in described_values(kind).values()}
     parts = {name: getattr(default, name) for name in parts_of(kind)}
     names = [*allowed, *parts]
     if not isinstance(mapping, Mapping):

@@ -242,15 +242,15 @@ class Strengthening(Drawn):
         worst = 0.0
         found = math.nan
         least = self.told[0]
-        for each in self.told[1:]:
-            both = np.flatnonzero(each.followed & least.followed)
-            rises = (each.overturns - least.overturns)[both]
+        for tried in self.told[1:]:
+            both = np.flatnonzero(tried.followed & least.followed)
+            rises = (tried.overturns - least.overturns)[both]
             rise = float(rises.mean()) if both.size else 0.0
             if rise > worst and rise > self.sample.part(both).spread(rises).reach(1 - RISES):
                 worst = rise
-                found = each.value
-            if each.share < least.share:
-                least = each
+                found = tried.value
+            if tried.share < least.share:
+                least = tried
         return found
 
     def as_typed(self, value: float) -> str:
@@ -388,7 +388,7 @@ def strengthen(
         raise ConfigurationError.naming(
             "records", records, f"records is {kind_of(records)}, but must be a list of accelerograms."
         )
-    if odd := [each for each in records if not isinstance(each, Accelerogram)]:
+    if odd := [record for record in records if not isinstance(record, Accelerogram)]:
         raise ConfigurationError.naming(
             "records", odd[0], f"records hold a {type(odd[0]).__name__}, but must hold accelerograms."
         )
@@ -402,7 +402,7 @@ def strengthen(
             "structure is one of the mechanisms of a wall, but must be the wall itself, which may open elsewhere once "
             "its sizes change."
         )
-    fields = {each.name: each for each in sizes(structure)}
+    fields = {size.name: size for size in sizes(structure)}
     if key not in fields:
         raise ConfigurationError(
             f"key is {shown(key)}, but {article(structure.type_name)} has no such size{nearest(key, fields)}; it has "
@@ -421,9 +421,9 @@ def sizes(structure: Structure) -> list[Field]:
         given.field.name: given.value for given in described.values if isinstance(given.value, list | tuple)
     }
     return [
-        each
-        for each in described.form.fields
-        if each.unit and (not each.is_list or len(lists.get(each.name, ())) == 1)
+        size
+        for size in described.form.fields
+        if size.unit and (not size.is_list or len(lists.get(size.name, ())) == 1)
     ]
 
 
@@ -450,7 +450,7 @@ def strengthen_scene(
     """
     if not (isinstance(between, tuple | list) and len(between) == 2):
         raise ConfigurationError(f"between is {shown(between)}, but must be two values, the lower one first.")
-    low, high = (finite(ConfigurationError, "between", each) for each in between)
+    low, high = (finite(ConfigurationError, "between", bound) for bound in between)
     if not 0 < low < high:
         raise ConfigurationError(
             f"between is {low:g} to {high:g}, but must go from above 0 to a larger value."
@@ -472,7 +472,11 @@ def strengthen_scene(
 
     values = np.geomspace(low, high, GRID).tolist()
     changed = {f"{value!r}": with_value(scene.structure, size, value) for value in values}
-    scenes = {name: replace(scene, name=name, structure=each) for name, each in changed.items() if each}
+    scenes = {
+        name: replace(scene, name=name, structure=structure)
+        for name, structure in changed.items()
+        if structure
+    }
     scenes[""] = replace(scene, name="")
     following = _Following(records, scenes, settings, sample, target, early, store, tell)
     outcomes = following.outcomes()
@@ -485,7 +489,9 @@ def strengthen_scene(
             return Tried(value, np.ones(moves.size), counting, "what acts on it at rest")
         return _tried(value, [own.get(name) for own in outcomes], sample, moves, counting)
 
-    given = {each.field.name: each for each in scene.structure.described.values}.get(size.name)
+    given = {
+        described_value.field.name: described_value for described_value in scene.structure.described.values
+    }.get(size.name)
     own = math.nan
     if given is not None:
         own = float(np.ravel(np.asarray(size.inward(given.value)))[0])
@@ -500,7 +506,7 @@ def strengthen_scene(
     if size.name != _TIE:
         return made
     if spectrum is None:
-        peak = float(np.mean([each.peak_acceleration for each in records]))
+        peak = float(np.mean([record.peak_acceleration for record in records]))
         spectrum = DesignSpectrum.ntc(ag=peak, f0=2.5, tc_star=0.5)
     return replace(made, static_tie=static_tie(scene.structure, size, (low, high), spectrum, terms))
 
@@ -590,8 +596,8 @@ class _Following:
         """Whether the bound can be met if nothing overturns at the stations that are left."""
         places = np.isin(self.sample.of_record, followed)
         told = [
-            own[name].share if each and not math.isnan(own[name].share) else 0.0
-            for each, own in zip(places, found, strict=True)
+            own[name].share if is_followed and not math.isnan(own[name].share) else 0.0
+            for is_followed, own in zip(places, found, strict=True)
         ]
         return _bounds(self.sample.by_station(np.array(told)), self.sample)[1] <= self.target
 
@@ -622,7 +628,8 @@ class _Following:
                 kept[name] = _Outcome(
                     share=decision.share,
                     governing=worst.ensembles.governing.description if worst.ensembles else "",
-                    slides=untold and any(each.kind is AssessmentKind.FRICTION for each in decision.tells),
+                    slides=untold
+                    and any(remark.kind is AssessmentKind.FRICTION for remark in decision.tells),
                 )
             if self.store is not None:
                 self.store.keep(keys[name], kept[name], {})
@@ -638,9 +645,9 @@ def _lifting(
         if scene.place.supports:
             return np.ones(len(records), dtype=bool)
         cracks = counting_cracks(scene.structure)
-        least = min(least, *(each.mechanism.uplift_multiplier for each in cracks))
+        least = min(least, *(crack.mechanism.uplift_multiplier for crack in cracks))
     strongest = (1 + settings.ensemble.amplitude_range) / GRAVITY
-    return np.array([strongest * each.peak_acceleration > least for each in records])
+    return np.array([strongest * record.peak_acceleration > least for record in records])
 
 
 def _tried(
@@ -650,8 +657,11 @@ def _tried(
 
     moves: the places of the stations that count, which are those of `counting`.
     """
-    told = [math.nan if each is None else 1.0 if math.isnan(each.share) else each.share for each in outcomes]
-    slid = [0.0 if each is None else float(each.slides) for each in outcomes]
+    told = [
+        math.nan if outcome is None else 1.0 if math.isnan(outcome.share) else outcome.share
+        for outcome in outcomes
+    ]
+    slid = [0.0 if outcome is None else float(outcome.slides) for outcome in outcomes]
     weights: dict[str, float] = {}
     for share, outcome in zip(told, outcomes, strict=True):
         if outcome is not None:
@@ -662,7 +672,7 @@ def _tried(
         shares=sample.by_station(np.array(told))[moves],
         sample=counting,
         governing=max(weights, key=weights.__getitem__, default=""),
-        untold=sum(each is not None and math.isnan(each.share) for each in outcomes),
+        untold=sum(outcome is not None and math.isnan(outcome.share) for outcome in outcomes),
         slid=sample.by_station(np.array(slid))[moves],
     )
 
@@ -688,7 +698,7 @@ def static_tie(
         if changed is None:
             return {}
         mechanisms = kinematic_check(changed, spectrum, terms).mechanisms
-        return {each.description: each.onset_acceleration for each in mechanisms}
+        return {mechanism.description: mechanism.onset_acceleration for mechanism in mechanisms}
 
     low, high = between
     try:

@@ -171,13 +171,13 @@ class Fragility(Drawn):
         if not places.size:
             return 0
         reaches = np.isfinite(self.exceedance[:, places[0] :]).any(axis=1)
-        return len({name for name, each in zip(self.stations, reaches, strict=True) if each})
+        return len({name for name, is_reached in zip(self.stations, reaches, strict=True) if is_reached})
 
     @property
     def reversals(self) -> np.ndarray:
         """The times that each record, scaled up, lets stand again what it had overturned, (r,)."""
-        falls = [each[np.isfinite(each)] > 0.5 for each in self.exceedance]
-        return np.array([int((np.diff(each.astype(int)) < 0).sum()) for each in falls])
+        falls = [shares[np.isfinite(shares)] > 0.5 for shares in self.exceedance]
+        return np.array([int((np.diff(steps.astype(int)) < 0).sum()) for steps in falls])
 
 
 def fragility_of(levels: np.ndarray, exceedance: np.ndarray, sample: Sample) -> Fragility:
@@ -532,8 +532,8 @@ def _rotation_ratios(
             ratios = single[0][:, None]
         else:
             motions = [GroundMotions.of(record.scaled(float(scale))) for scale in scales[is_open]]
-            members = [drawn(mechanism, each, points, ensemble, tolerance=tolerance) for each in motions]
-            ratios = np.array([each.rotation_ratios for each in members])
+            members = [drawn(mechanism, motion, points, ensemble, tolerance=tolerance) for motion in motions]
+            ratios = np.array([member.rotation_ratios for member in members])
         highest[is_open] = np.maximum(lowest[is_open], np.nan_to_num(ratios, nan=np.inf, posinf=np.inf))
         return highest
 

@@ -51,7 +51,7 @@ def nrml(curves: Mapping[str, FragilityCurve], lognormal: bool) -> bytes:
     model = ElementTree.SubElement(
         root, "fragilityModel", id="rocking", assetCategory="buildings", lossCategory="structural"
     )
-    over = dict.fromkeys(f"{each.measure}, {each.sample.words}" for each in curves.values())
+    over = dict.fromkeys(f"{curve.measure}, {curve.sample.words}" for curve in curves.values())
     ElementTree.SubElement(model, "description").text = f"{state} over {'; '.join(over)}"
     ElementTree.SubElement(model, "limitStates").text = state
     for name, curve in curves.items():
@@ -103,7 +103,7 @@ def _add_function(
         imls = ElementTree.SubElement(function, "imls", imt=imt, noDamageLimit=least)
         imls.text = " ".join(f"{level:.9g}" for level in levels)
         poes = ElementTree.SubElement(function, "poes", ls=state)
-        poes.text = " ".join(f"{each:.9g}" for each in curve.probability[tried])
+        poes.text = " ".join(f"{probability:.9g}" for probability in curve.probability[tried])
 
 
 def fragility_csv(curve: FragilityCurve) -> bytes:
@@ -111,8 +111,10 @@ def fragility_csv(curve: FragilityCurve) -> bytes:
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(("intensity_measure", "unit", "threshold", "level", *_COLUMNS))
-    values = zip(curve.levels.tolist(), *(getattr(curve, each).tolist() for each in _COLUMNS), strict=True)
+    values = zip(
+        curve.levels.tolist(), *(getattr(curve, column).tolist() for column in _COLUMNS), strict=True
+    )
     for row in values:
-        cells = ["" if math.isnan(each) else repr(each) for each in row]
+        cells = ["" if math.isnan(value) else repr(value) for value in row]
         writer.writerow((curve.measure, curve.unit, repr(curve.threshold), *cells))
     return stream.getvalue().encode()

@@ -94,31 +94,31 @@ class Hazard:
         mean = _OfOpenQuake.read(path, text, site)
         others = [
             _OfOpenQuake.read(
-                Path(each),
-                read_whole(Path(each), _LARGEST_HAZARD, ConfigurationError).decode(errors="replace"),
+                Path(file),
+                read_whole(Path(file), _LARGEST_HAZARD, ConfigurationError).decode(errors="replace"),
                 site,
             )
-            for each in quantiles
+            for file in quantiles
         ]
-        for each in others:
-            is_alike = each.imt == mean.imt and np.array_equal(each.levels, mean.levels)
-            if not (each.quantile and is_alike):
+        for other in others:
+            is_alike = other.imt == mean.imt and np.array_equal(other.levels, mean.levels)
+            if not (other.quantile and is_alike):
                 raise ConfigurationError.naming(
                     "quantile",
-                    each.kind,
-                    f"{each.path} is {each.kind!r} of {each.imt}, but must be a quantile of {mean.imt} at the levels "
-                    f"of {path}.",
+                    other.kind,
+                    f"{other.path} is {other.kind!r} of {other.imt}, but must be a quantile of {mean.imt} at the "
+                    f"levels of {path}.",
                 )
         measure, scale = _measure(mean)
         # A probability of 1 has no rate, and one of 0 no logarithm.
-        telling = np.all([(each.rates > 0) & np.isfinite(each.rates) for each in (mean, *others)], axis=0)
+        telling = np.all([(curve.rates > 0) & np.isfinite(curve.rates) for curve in (mean, *others)], axis=0)
         levels = mean.levels[telling] / scale
         _check(str(path), levels, mean.rates[telling])
         return cls(
             levels,
             mean.rates[telling],
             measure,
-            {each.quantile: each.rates[telling] for each in others if each.quantile},
+            {curve.quantile: curve.rates[telling] for curve in others if curve.quantile},
         )
 
     def is_of(self, name: str) -> bool:
@@ -251,8 +251,8 @@ class _OfOpenQuake:
         try:
             years = float(facts["investigation_time"])
             levels = np.array([float(name.removeprefix("poe-")) for name in columns])
-            places = [(float(each["lon"]), float(each["lat"])) for each in rows]
-            probabilities = np.array([[float(each[name]) for name in columns] for each in rows])
+            places = [(float(row["lon"]), float(row["lat"])) for row in rows]
+            probabilities = np.array([[float(row[name]) for name in columns] for row in rows])
         except (KeyError, TypeError, ValueError):
             raise ConfigurationError.naming(
                 "format",

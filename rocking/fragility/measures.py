@@ -216,8 +216,8 @@ def _filtered(period: float) -> IntensityMeasure:
 
 
 INTENSITY_MEASURES: dict[str, IntensityMeasure] = {
-    each.name: each
-    for each in (
+    measure.name: measure
+    for measure in (
         IntensityMeasure(
             "pgv", "m/s", "peak ground velocity", peak_velocity, openquake="PGV", openquake_scale=100.0
         ),
@@ -267,13 +267,13 @@ SPELLINGS = (
 )
 """What settings may say."""
 MEASURES_IN_WORDS = (
-    ", ".join(f"{each.name} [{each.unit or '-'}]" for each in INTENSITY_MEASURES.values())
+    ", ".join(f"{measure.name} [{measure.unit or '-'}]" for measure in INTENSITY_MEASURES.values())
     + ", SA(T), AvgSA(T1,T2), Sa_avg2(T), Sa_avg3(T) [g], FIV3(T) [m/s]; AvgSA and FIV3 alone: at the periods of the "
     "structure"
 )
 """Names with units, for the meanings of settings and columns."""
 _SPELLED = re.compile(r"\s*(\w+)\s*(?:\(([^()]*)\))?\s*")
-_BY_OPENQUAKE = {each.openquake: each for each in INTENSITY_MEASURES.values() if each.openquake}
+_BY_OPENQUAKE = {measure.openquake: measure for measure in INTENSITY_MEASURES.values() if measure.openquake}
 
 
 def intensity_measure(name: str, structure: Structure | Mechanism | None = None) -> IntensityMeasure:
@@ -354,7 +354,7 @@ def _parsed(name: str) -> tuple[str, tuple[float, ...]]:
         )
     count = WITH_PERIODS[stem][0]
     try:
-        periods = [float(each) for each in (inside or "").split(",")]
+        periods = [float(period) for period in (inside or "").split(",")]
     except ValueError:
         periods = []
     is_range = all(0 < period <= LONGEST_PERIOD for period in periods) and periods == sorted(set(periods))
@@ -396,5 +396,5 @@ def _three_digits(value: float) -> float:
 
 def compared(mechanism: Mechanism) -> tuple[IntensityMeasure, ...]:
     """Return the measures whose scatter is told of a structure: all without a period, and three with."""
-    from_structure = (_from_structure(each, mechanism) for each in FROM_STRUCTURE)
+    from_structure = (_from_structure(definition, mechanism) for definition in FROM_STRUCTURE)
     return *INTENSITY_MEASURES.values(), _spectral(1.0), *from_structure

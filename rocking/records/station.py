@@ -190,7 +190,7 @@ _NEAR = 1.0
 def _place(channel: Accelerogram, record: CatalogueRecord) -> tuple[Place | None, list[Remark]]:
     """The place of the station by its row, where it gives one that can be; what is wrong with it and the epicentre."""
     given = record.station_place
-    doubts = [each for each in (given, record.epicentre) if isinstance(each, Remark)]
+    doubts = [doubt for doubt in (given, record.epicentre) if isinstance(doubt, Remark)]
     if not isinstance(given, Place):
         return None, doubts
     stated = place_of(channel.latitude, channel.longitude)
