@@ -15,7 +15,13 @@ from rocking.assessment.ensemble import ensemble
 from rocking.assessment.inputs import CaseInputs
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.motions import GroundMotions, Motion, component_of, processed
-from rocking.assessment.one_case import compute_case, other_cracks, other_processings, predict
+from rocking.assessment.one_case import (
+    compute_case,
+    governing_crack,
+    other_cracks,
+    other_processings,
+    predict,
+)
 from rocking.assessment.rows import rows_of_record
 from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
@@ -132,6 +138,13 @@ def test_a_body_that_needs_more_friction_than_it_has_slides_as_the_ground_reache
     (body,) = cracks(Block.of_size(1.0, 1.25))
     assert [body.slides_at(friction) for friction in (0.3, 0.6)] == pytest.approx([0.3, 0.6])
     assert math.isnan(body.slides_at(0.81))
+
+
+def test_the_crack_that_governs_is_found_by_its_description():
+    several = cracks(WALL)
+    assert len(several) > 3
+    assert all(governing_crack(WALL, each.description) is each for each in several)
+    assert governing_crack(WALL, "as given") is several[0]
 
 
 def test_beside_a_known_crack_that_overturns_the_worst_other_is_told_and_followed_no_farther():
