@@ -116,7 +116,7 @@ def filled(text: str, name: str) -> str:
         told = measured(match[2])
         return told.origin if match[1] else told.words
 
-    return _MEASURED.sub(figure, _MARK.sub(content, text))
+    return _MARK.sub(content, _MEASURED.sub(figure, text))  # a file is shown as it stands
 
 
 def illustrated(text: str, page: str) -> tuple[str, dict[str, str]]:
