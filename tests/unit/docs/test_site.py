@@ -202,6 +202,12 @@ def test_a_drawing_shows_the_letter_of_every_size(name, kind, form):
             assert any(text.rstrip("₀₁₂₃₄₅₆₇₈₉") in (letter, letter[0]) for text in texts), field.meaning
 
 
+def test_a_file_is_shown_as_it_stands():
+    """Also where it names the marks that pages have."""
+    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    assert "<!-- measured: NAME -->" in text and filled("<!-- file: CONTRIBUTING.md -->", "made.md") == text
+
+
 def test_an_unknown_generated_part_is_refused():
     with pytest.raises(ConfigurationError, match=r"^strange.md: .*'nonsense'"):
         filled("<!-- generated: nonsense -->\n", "strange.md")
