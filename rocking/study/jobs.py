@@ -1,4 +1,7 @@
-"""The jobs of a study, one function for each rule of the workflow: what it does with the task that it is handed."""
+"""The jobs of a study: what each rule of the workflow does with the task that it is handed, one function for each rule.
+
+The products over all records beside the summary have one for all of them.
+"""
 
 from rocking.assessment.cores import on_cores
 from rocking.assessment.rows import FailureRow

@@ -15,7 +15,7 @@ from rocking.tables import Row, read_whole, regular_file, write_whole
 LARGEST = 200_000_000
 """Bytes of what is kept of a product that are read; of a record under ten structures some hundred thousand."""
 
-Rows = Mapping[type[Row], Iterable[Row]]
+Rows = Mapping[type[Row], Sequence[Row]]
 """The rows of tables by their class."""
 
 

@@ -44,13 +44,13 @@ from rocking.structures import Structure
 from rocking.structures.equivalent_block import Scale
 from rocking.study.documents import made_or_told
 from rocking.study.job import Job, Study
-from rocking.study.kept import kept_conclusion, kept_rows
+from rocking.study.kept import Rows, kept_conclusion, kept_rows
 from rocking.study.made_from import versions
 from rocking.study.outcomes import RecordOutcome, read_outcomes
 from rocking.study.outputs import PROVENANCE, SUMS, former_files, kept_of, remove, sums_of
 from rocking.study.products import BY_NAME
 from rocking.study.settings import package_sha256, structure_hashes
-from rocking.study.work import Rows, Work, work_of
+from rocking.study.work import Work, work_of
 from rocking.tables import (
     Row,
     data_package,

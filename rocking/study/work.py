@@ -1,7 +1,7 @@
 """The work of a product over all records: how it is made, and what summary, page to explore and terminal show of it."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
@@ -13,11 +13,9 @@ from rocking.reports.printing import Figures, faults_in_words
 from rocking.reports.style import new_figure, svg
 from rocking.study.documents import write_reason
 from rocking.study.job import Job, costs_no_other
+from rocking.study.kept import Rows
 from rocking.study.product import Product
 from rocking.tables import Row, write_whole
-
-Rows = Mapping[type[Row], Sequence[Row]]
-"""The rows of tables by their class."""
 
 
 @dataclass(frozen=True)

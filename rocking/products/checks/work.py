@@ -31,9 +31,10 @@ from rocking.reports.printing import sentence, strong, table_of, words, write_do
 from rocking.structures.tied import Tied
 from rocking.study.documents import made_or_told
 from rocking.study.job import Job, Study
+from rocking.study.kept import Rows
 from rocking.study.outcomes import read_outcomes
 from rocking.study.selection import pool_of, select_for
-from rocking.study.work import Made, Rows, Work
+from rocking.study.work import Made, Work
 from rocking.tables import rows_of, write_tables
 
 

@@ -28,7 +28,8 @@ from rocking.reports.pages import Panel
 from rocking.reports.printing import faults_in_words
 from rocking.structures import Mechanism
 from rocking.study.job import Job, Study, costs_no_other
-from rocking.study.work import Made, Rows, Work, write_beside
+from rocking.study.kept import Rows
+from rocking.study.work import Made, Work, write_beside
 from rocking.tables import Row, write_tables, write_whole
 
 OPENQUAKE = "fragility.xml"

@@ -7,8 +7,9 @@ from rocking.products.map.rows import StationRow, station_rows
 from rocking.quantities import counted
 from rocking.reports.pages import Panel
 from rocking.study.job import Job
+from rocking.study.kept import Rows
 from rocking.study.outcomes import read_outcomes
-from rocking.study.work import Made, Rows, Work
+from rocking.study.work import Made, Work
 from rocking.tables import rows_of, write_tables, write_whole
 
 

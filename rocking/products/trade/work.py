@@ -15,8 +15,9 @@ from rocking.products.trade.rows import TradeRow
 from rocking.records import Accelerogram, CatalogueRecord
 from rocking.reports.pages import Panel
 from rocking.study.job import Job, Study, costs_no_other
+from rocking.study.kept import Rows
 from rocking.study.terminal import WIDTH
-from rocking.study.work import Made, Rows, Work, write_beside
+from rocking.study.work import Made, Work, write_beside
 from rocking.tables import Row, rows_of, write_tables
 
 MOST_RECORDS = 70
