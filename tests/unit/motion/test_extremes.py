@@ -10,6 +10,7 @@ from rocking.motion import integrate
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures import Arch, Block, EquivalentBlock, Outcome, Wall
+from tests.refusals import refused
 
 SHAPE = np.convolve(np.random.default_rng(0).normal(size=400), np.hanning(15), "same")
 SHAPE = SHAPE / np.abs(SHAPE).max()
@@ -92,5 +93,5 @@ def test_zeno_chain_of_a_hundred_thousand_impacts_ends_in_rest(structure):
 def test_rattling_without_loss_is_cut_short_with_a_reason(structure):
     """η = 1 from 1e-6 rad: flights of 2 ms for a day would be 4e7 impacts; it stops and says so."""
     lossless = with_restitution(structure, 1.0, 1.0)
-    with pytest.raises(MotionError, match="5000000 impacts before the motion ended"):
+    with refused(MotionError, "impacts", 5_000_000):
         integrate(lossless, Accelerogram(np.zeros(1001), 100.0), initial_rotation=1e-6)
