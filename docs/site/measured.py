@@ -100,7 +100,8 @@ def measured(name: str) -> Figure:
 def code_sha256(files: Iterable[str]) -> str:
     """Return one hash of what the statements of some files of the repository mean.
 
-    Docstrings, comments, layout, types and the names that a file gives to its own variables and functions mean nothing;
+    Docstrings, comments, layout, types, what an error says and the names that a file gives to its own variables and
+    functions mean nothing;
     names of attributes, of what is imported, and of what Python has do. A file that is not Python counts as it is, one
     that is missing as nothing.
     """
@@ -119,7 +120,7 @@ def meaning(source: str) -> str:
 
 
 class _Plain(ast.NodeTransformer):
-    """Takes docstrings and types away."""
+    """Takes docstrings and types away, and what an error says: where it is raised no figure comes of it."""
 
     def visit(self, node: ast.AST) -> ast.AST:
         self.generic_visit(node)
@@ -127,6 +128,8 @@ class _Plain(ast.NodeTransformer):
             node.body = [each for each in node.body if not _says_nothing(each)] or [ast.Pass()]
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
             node.returns = None
+        if isinstance(node, ast.Raise):
+            node.exc = node.cause = None
         if isinstance(node, ast.arg):
             node.annotation = None
         if isinstance(node, ast.AnnAssign) and node.value is not None:

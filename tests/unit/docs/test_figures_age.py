@@ -37,6 +37,14 @@ def test_docstrings_comments_types_and_names_of_its_own_mean_nothing(changed):
     assert meaning(changed) == meaning(SOURCE)
 
 
+def test_what_an_error_says_means_nothing_and_where_it_is_raised_does():
+    raising = SOURCE.replace(
+        "    squared", "    if radius < 0:\n        raise ValueError('no radius')\n    squared"
+    )
+    assert meaning(raising.replace("ValueError('no radius')", "SizeError.of('radius')")) == meaning(raising)
+    assert meaning(raising.replace("radius < 0", "radius < 1")) != meaning(raising) != meaning(SOURCE)
+
+
 @pytest.mark.parametrize(
     ("before", "after"),
     [("4.0", "4.1"), ("min(", "max("), ("math.pi", "math.e"), ("radius * radius", "radius + radius")],
