@@ -416,14 +416,15 @@ def decide(facts: Facts) -> Decision:
     failed; under row 10 from the share at least to 1.
     """
     risk = facts.risk
-    counting = facts.counting
     followed = facts.followed
     governing = facts.governing
     unsettled = facts.doubts if facts.stacks is None else ()
     missing = (Remark(AssessmentKind.COMPONENT_MISSING),) if facts.failures else ()
     worse_beside = _worse_than_known(facts)
     beside = (*unsettled, *missing, *([Remark(AssessmentKind.OTHER_CRACK_WORSE)] if worse_beside else []))
-    left_out = () if math.isnan(facts.slides_at) else (Remark(AssessmentKind.SLIDES_FIRST),)
+    sliding = _slides_throughout(facts)
+    none_left = sliding and not facts.rests
+    left_out = () if none_left or math.isnan(facts.slides_at) else (Remark(AssessmentKind.SLIDES_FIRST),)
     asks_for_stacks = facts.stackable and facts.stacks is None
     contact_dynamics = (Remark(AssessmentKind.CONTACT_DYNAMICS),) if asks_for_stacks else ()
     if unsettled and not facts.stackable:
@@ -439,16 +440,9 @@ def decide(facts: Facts) -> Decision:
     if facts.rests:
         why = "the ground never reaches the uplift acceleration"
         return Decision(Verdict.STANDS, 0.0, (0.0, 0.0), why, (*beside, *left_out))
-    sliding = ""
-    if not math.isnan(facts.slides_at) and all(each.slides for each in counting):
-        sliding = (
-            f"slides before it lifts, at {facts.slides_at:.2g} g"
-            if facts.slides_at
-            else "slides apart at rest"
-        )
-        if not (facts.as_stones and facts.stacks):
-            tells = (Remark(AssessmentKind.FRICTION), *(contact_dynamics if facts.as_stones else ()))
-            return Decision(Verdict.CANNOT_BE_TOLD, math.nan, (math.nan, math.nan), sliding, beside, tells)
+    if sliding and not (facts.as_stones and facts.stacks):
+        tells = (Remark(AssessmentKind.FRICTION), *(contact_dynamics if facts.as_stones else ()))
+        return Decision(Verdict.CANNOT_BE_TOLD, math.nan, (math.nan, math.nan), sliding, beside, tells)
 
     # 4
     if governing is None and math.isnan(facts.run_ratio) and facts.settled is None:
@@ -542,6 +536,15 @@ def decide(facts: Facts) -> Decision:
     # 11
     told = math.nan if word is Verdict.CANNOT_BE_TOLD else share
     return Decision(word, told, interval, why, beside, tells)
+
+
+def _slides_throughout(facts: Facts) -> str:
+    """Where every crack that counts slides before it lifts, and the motion reaches so far, in words; else ""."""
+    if math.isnan(facts.slides_at) or not all(each.slides for each in facts.counting):
+        return ""
+    return (
+        f"slides before it lifts, at {facts.slides_at:.2g} g" if facts.slides_at else "slides apart at rest"
+    )
 
 
 def _envelope(words: Iterable[tuple[CrackFacts, Verdict]]) -> Verdict:

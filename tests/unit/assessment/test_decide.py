@@ -117,7 +117,8 @@ def test_3_the_stones_of_what_slides_first_tell_and_its_mechanism_makes_nothing_
         cracks = (crack(falls, slides=True),)
         told = decide(replace(slides, cracks=cracks, stacks=stacks))
         assert str(told.word) == expected
-        assert told.why.startswith("slides before it lifts, at 0.2 g; ")
+        assert told.why.startswith("slides before it lifts, at 0.2 g; ") and "another" not in told.why
+        assert AssessmentKind.SLIDES_FIRST not in kinds(told.doubts)
         assert told.why.endswith(f"; {stacks[0]} of {stacks[1]} runs as voussoirs fall in contact dynamics")
         assert told.share == max(stacks[0] / stacks[1], falls / 64)
     as_stack = replace(slides, as_stones="", stacks=(0, 64))
