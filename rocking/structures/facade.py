@@ -180,7 +180,7 @@ class Facade(Tied):
     ] = False
     top_slab: TopSlab = "hinged"
     thrust: Annotated[
-        float, Value("Horizontal thrust of a vault or roof outwards", 2.0, "kN/m", (0, 100), "H")
+        float, Value("Horizontal thrust of a vault or roof outwards", 0.2, "kN/m", (0, 100), "H")
     ] = 0.0
     thrust_height: Annotated[
         float | None, Value("Height of the thrust above the ground", 6.0, "m", (0, 60))

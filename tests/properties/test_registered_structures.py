@@ -50,8 +50,6 @@ def varied(draw, kind, form):
             continue
         if field.key in OF_LEAVES and "leaves_m" not in mapping:
             continue
-        if field.key == "leaves_m" and "thrust_kN_m" in mapping:
-            continue  # that is enough to push the leaf over on which it bears
         factor = draw(st.floats(0.8, 1.1) if "restitution" in field.key else st.floats(0.8, 1.25))
         value = field.value.example
         if isinstance(value, list):
