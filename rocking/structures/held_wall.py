@@ -506,7 +506,11 @@ class HeldWall:
                 if opening.outwards and self.multiplier(apart) < self.multiplier(opening):
                     yield apart
             return
-        yield from (Opening(foot, hold=max(ties), between=True) for foot in feet if foot < max(ties))
+        # A bonder holds its leaf all along, so that the triangle stands above the uppermost one.
+        lowest = max((hold.height for hold in self.holds if hold.kind == "bonder"), default=0.0)
+        yield from (
+            Opening(foot, hold=max(ties), between=True) for foot in feet if lowest <= foot < max(ties)
+        )
 
     def _ways(self, opening: Opening) -> Iterator[Opening]:
         """The opening with its lower part outwards and inwards, each to the side to which the ground pushes it."""

@@ -695,10 +695,14 @@ class Tied(CrackedAtHeight, Leaved):
     def _ties_of(self, leaf: Leaf) -> dict[str, Any]:
         """The fields by which the ties of the wall hold a leaf: outwards, tightened where it cannot go inwards."""
         ties = {each: getattr(self, each) for each in _NO_TIES} | _RODS_SPREAD
+        # Between bonders a leaf does as if it had no tie there, which is on the safe side.
+        highest = max(self.bonder_heights, default=0.0)
+        ties["tie_heights"] = tuple(height for height in self.tie_heights if height > highest)
         leans = leaf.moves == "outwards" or (leaf.is_inner and self._leans)
         if not leans:
             ties["tie_pretension"] = 0.0
-        if leaf.moves == "inwards" or not (ties["tie_stiffness"] or ties["tie_pretension"]):
+        pulls = ties["tie_heights"] and (ties["tie_stiffness"] or ties["tie_pretension"])
+        if leaf.moves == "inwards" or not pulls:
             return _NO_TIES
         return ties
 
