@@ -111,8 +111,8 @@ class Tied(CrackedAtHeight, Leaved):
     rod_length, m, rod_yield_stress and rod_modulus, Pa, rod_pretension, N: of each rod, in place of the stiffness
     E A/(L s), the strength f_y A/s and the pretension T/s.
     compressive_strength: of the masonry, Pa; None: the edges of its joints do not crush.
-    loaded_leaf: of its leaves the one on which loads and thrusts bear. Ties hold each leaf as they hold the wall; a
-    leaf that goes inwards alone is held by none.
+    loaded_leaf: of its leaves the one on which loads and thrusts bear. Ties hold each leaf without bonders as they hold
+    the wall; a leaf that goes inwards alone is held by none.
     opening: of one of its `mechanisms()`, in which alone it moves; held_at: the heights at which the rest of a wall
     holds this leaf of it to both sides, m; files give neither.
     """
@@ -695,14 +695,12 @@ class Tied(CrackedAtHeight, Leaved):
     def _ties_of(self, leaf: Leaf) -> dict[str, Any]:
         """The fields by which the ties of the wall hold a leaf: outwards, tightened where it cannot go inwards."""
         ties = {each: getattr(self, each) for each in _NO_TIES} | _RODS_SPREAD
-        # Between bonders a leaf does as if it had no tie there, which is on the safe side.
-        highest = max(self.bonder_heights, default=0.0)
-        ties["tie_heights"] = tuple(height for height in self.tie_heights if height > highest)
         leans = leaf.moves == "outwards" or (leaf.is_inner and self._leans)
         if not leans:
             ties["tie_pretension"] = 0.0
-        pulls = ties["tie_heights"] and (ties["tie_stiffness"] or ties["tie_pretension"])
-        if leaf.moves == "inwards" or not pulls:
+        pulls = ties["tie_stiffness"] or ties["tie_pretension"]
+        # That bonders alone hold a leaf which they hold is on the safe side.
+        if leaf.moves == "inwards" or not pulls or self.bonder_heights:
             return _NO_TIES
         return ties
 
