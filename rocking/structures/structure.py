@@ -529,7 +529,10 @@ class Structure(ABC):
         typed = self._given_restitution
         if self.one_sided or not isinstance(typed, float) or not isinstance(self._usual_restitution, str):
             return None
-        own = min(self._momentum_balance(mirrored) for mirrored in (False, True))
+        try:
+            own = min(self._momentum_balance(mirrored) for mirrored in (False, True))
+        except StructureError:
+            return None
         if own - typed <= TYPED_LOWER:
             return None
         # None is the balance of each side; a type that asks for a number gets the least of both
@@ -557,11 +560,24 @@ class Structure(ABC):
         return min(max(ratio, 0.0), 1.0)
 
     def _momentum_balance(self, mirrored: bool) -> float:
-        """η by the balance of momentum as the structure arrives from one side and leaves to the other."""
+        """η by the balance of momentum as the structure arrives from one side and leaves to the other.
+
+        Raises StructureError where the same bodies do not move to both sides.
+        """
         arriving = self.linkages[0]
         leaving = self.linkages[-1]
         if mirrored:
             arriving, leaving = leaving, arriving
+        if arriving.masses.shape != leaving.masses.shape or not np.allclose(
+            arriving.masses, leaving.masses, rtol=1e-9
+        ):
+            # what moves as one body to one side parts where it moves to the other, so that no body keeps its momentum
+            raise StructureError.naming(
+                "restitution",
+                self._given_restitution,
+                "the restitution is not given, but other bodies move to one side than to the other, so that no balance "
+                "of momentum gives it; give a number between 0 and 1.",
+            )
         before = arriving.motion(0.0)
         after = leaving.motion(0.0)
         return momentum_balance(
@@ -624,15 +640,20 @@ class Candidate:
         return math.nan if self.refusal else self.side.critical_rotation
 
     @cached_property
-    def refusal(self) -> str:
-        """Why its motion cannot be followed; "" where it can."""
+    def refused(self) -> StructureError | None:
+        """Why its motion cannot be followed; None where it can."""
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", StructureWarning)  # nobody asked for its restitution
                 self.structure.mechanism()
         except StructureError as wrong:
-            return str(wrong)
-        return ""
+            return wrong
+        return None
+
+    @property
+    def refusal(self) -> str:
+        """Why its motion cannot be followed, in a sentence; "" where it can."""
+        return str(self.refused or "")
 
     @property
     def reactions(self) -> tuple[Reaction, ...]:
@@ -845,7 +866,9 @@ class CrackedAtHeight(Crackable):
                 f"the structure does not stand with the {self._in_words(height)}: what acts on it at rest turns it "
                 "over; mend its loads or its sizes, or say by crack: known that it is cracked where it is described."
             ) from None
-        except StructureError:
+        except StructureError as wrong:
+            if wrong.field == "restitution":
+                raise  # it opens there, and only how it meets its foot again is not known
             return None
         return Candidate(self._in_words(height), height, structure)
 

@@ -368,6 +368,9 @@ class Tied(CrackedAtHeight, Leaved):
         is left, and one below a top that slips before: what would hold it there does not.
         """
         cracked = [self._limited(each) for each in super()._ranked_candidates(count)]
+        for bulge in self._bulges:
+            if bulge.refused is not None and bulge.refused.field == "restitution":
+                raise bulge.refused  # it may fall so, and no record could say whether
         followed = [each for each in self._bulges if not each.refusal]
         between = [each for each in followed if self._falls_between_ties(each)][:1]
         at_ties = [each for each in followed if not self._falls_between_ties(each)]

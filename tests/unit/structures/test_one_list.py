@@ -10,7 +10,7 @@ from courses import Courses
 from rocking.assessment.cracks import cracks, mechanisms_of
 from rocking.codes.check import CodeTerms
 from rocking.codes.static_check import kinematic_check
-from rocking.errors import DoesNotStandError
+from rocking.errors import DoesNotStandError, StructureError
 from rocking.records.design_spectrum import DesignSpectrum
 from rocking.structures import Facade, LoadedWall
 
@@ -150,3 +150,17 @@ def test_hinge_goes_as_near_to_the_top_of_a_front_as_of_a_wall(load):
     if not load:
         assert first.position == pytest.approx(0.95 * 3.6, rel=1e-5)
         assert first.uplift_multiplier == pytest.approx(0.7 / (0.95 * 3.6), rel=1e-5)
+
+
+def test_a_wall_whose_top_slips_below_a_tie_needs_its_restitution():
+    """It bulges below the tie and, to the other side, turns about its foot: no body keeps its momentum."""
+    values = {"top_load": 20e3, "top_friction": 0.3, "tie_heights": (2.14,), "tie_stiffness": 2e7}
+    wall = LoadedWall.of_size(3.2, 0.5, WEIGHT, **values)
+    with pytest.raises(StructureError) as refused:
+        wall.candidates()
+    assert (refused.value.field, refused.value.value) == ("restitution", None)
+    typed = LoadedWall.of_size(3.2, 0.5, WEIGHT, restitution=0.5, **values)
+    assert "hinge at 1.204 m (bulges between foot and tie)" in {
+        each.description for each in typed.candidates()
+    }
+    assert typed.restitution_of_geometry is None
