@@ -233,7 +233,8 @@ def test_a_structure_comes_back_from_its_description_a_file_and_another_process(
             assert f"{said}{field.suffix}" in structure.description
     assert structure.described.size and "=" not in structure.description
     for text in (repr(structure), repr(mechanism)):
-        assert not re.search("lambda|array|function", text) and len(text) < 800
+        # what a description of some forty keys takes, and less than a printed array
+        assert not re.search("lambda|array|function", text) and len(text) < 1200
 
 
 @registered
