@@ -21,9 +21,10 @@ from rocking.tables import edited_text, read_edited
 _OBSPY = "obspy:"
 _ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,79}")
 _RESERVED = re.compile(
-    r"(con|prn|aux|nul|(com|lpt)\d|summary|datapackage|paper|calibration|documentation|fragility|checks|code_check|code_sets|hold|stability|"
-    r"validation|comparison|cracks|calibrate|calibrate_ensemble|cover|cover_rate|cover_earthquakes|trade_fragility|govern|stand|floors|fronts|"
-    r"measure_scatter|pulse_shapes|screen|tie_forces|worth|validate|compare|halves|strengthening)(\..*)?",
+    r"(con|prn|aux|nul|(com|lpt)\d|summary|datapackage|paper|calibration|documentation|fragility|checks|code_check|"
+    r"code_sets|hold|stability|validation|comparison|cracks|calibrate|calibrate_ensemble|cover|cover_rate|"
+    r"cover_earthquakes|trade_fragility|govern|stand|floors|fronts|measure_scatter|pulse_shapes|screen|leaves|"
+    r"tie_forces|worth|validate|compare|halves|strengthening)(\..*)?",
     re.I,
 )
 NAME_OF_RECORD = rf"(?!(?i:{_RESERVED.pattern})/)[A-Za-z0-9][A-Za-z0-9._-]*"

@@ -9,6 +9,10 @@ import os
 
 import yaml
 
+import rocking.reports.explore
+import rocking.reports.printing
+import rocking.reports.record
+import rocking.study.jobs  # noqa: F401
 from rocking.assessment.compilation import load_all
 from rocking.study.apart import PREPARED
 from rocking.study.job import prepare

@@ -7,9 +7,11 @@ import pytest
 
 from rocking import DesignSpectrum, check
 from rocking.assessment.rows import RecordRows
+from rocking.products.checks.conclusion import code_conclusion_in_words, code_conclusions
 from rocking.products.checks.rows import CodeCheckRow, code_check_rows
 from rocking.reports.pages import Page, Table
 from rocking.reports.printing import compile_document
+from rocking.reports.summary import summary_data
 
 from .conftest import SETTINGS, Word, detailed, of_structures, pages, summarised, summary_report
 
@@ -149,7 +151,8 @@ def test_the_first_page_of_the_summary_holds_matrix_and_scatter_in_at_most_260_w
     level = DesignSpectrum.ntc(ag=0.3, f0=2.5, tc_star=0.35)
     checks = [row for name, each in structures.items() for row in code_check_rows(name, check(each, level))]
     shown = summarised(tables, structures) | {CodeCheckRow: checks}
-    page = pages(summary_report(shown, SETTINGS))[0]
+    by_the_code = code_conclusion_in_words(code_conclusions(checks))
+    page = pages(compile_document(summary_data(shown, SETTINGS, conclusions_beside=[by_the_code])))[0]
     assert covered(page) == []
     first = [word[4] for word in page]
     assert len(first) <= 260
