@@ -211,10 +211,22 @@ AWAY = "records/catalogue.csv: the file cannot be opened"
 @pytest.mark.parametrize(
     ("name", "harm", "mend", "words"),
     [
-        ("records", lambda at: at.rename(f"{at}_"), lambda at: Path(f"{at}_").rename(at), AWAY),
-        ("results", lambda at: _set_mode(at, 0o555), lambda at: _set_mode(at, 0o755), "Permission denied"),
+        pytest.param(
+            "records",
+            lambda at: at.rename(f"{at}_"),
+            lambda at: Path(f"{at}_").rename(at),
+            AWAY,
+            id="records vanish",
+        ),
+        pytest.param(
+            "results",
+            lambda at: _set_mode(at, 0o555),
+            lambda at: _set_mode(at, 0o755),
+            "Permission denied",
+            id="results read-only",
+            marks=pytest.mark.slow,
+        ),
     ],
-    ids=["records vanish", "results read-only"],
 )
 def test_after_a_folder_fails_the_same_command_goes_on(finished, start, tmp_path, name, harm, mend, words):
     """In the midst of a batch of three records, of which none is then taken for one that cannot be read."""
