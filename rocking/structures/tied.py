@@ -368,9 +368,7 @@ class Tied(CrackedAtHeight, Leaved):
         is left, and one below a top that slips before: what would hold it there does not.
         """
         cracked = [self._limited(each) for each in super()._ranked_candidates(count)]
-        for bulge in self._bulges:
-            if bulge.refused is not None and bulge.refused.field == "restitution":
-                raise bulge.refused  # it may fall so, and no record could say whether
+        self._check_restitution()
         followed = [each for each in self._bulges if not each.refusal]
         between = [each for each in followed if self._falls_between_ties(each)][:1]
         at_ties = [each for each in followed if not self._falls_between_ties(each)]
@@ -394,6 +392,12 @@ class Tied(CrackedAtHeight, Leaved):
             is_weakest = all(bulge.uplift_multiplier < each.uplift_multiplier for each in counting)
             counting.insert(0 if is_weakest else len(counting), bulge)
         return (*counting, *beside)
+
+    def _check_restitution(self) -> None:
+        """Refuse what bulges with no restitution of the geometry: it may fall so, and no record could say whether."""
+        for bulge in self._bulges:
+            if bulge.refused is not None and bulge.refused.field == "restitution":
+                raise bulge.refused
 
     def _falls_between_ties(self, candidate: Candidate) -> bool:
         """Whether it falls between two ties of a row."""

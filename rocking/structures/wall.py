@@ -620,6 +620,8 @@ class LoadedWall(CrackedWall, Tied):
         if self.opening is None:
             self.mechanism()  # one that its load pushes over is refused at birth
             self._check_leaves()
+            if self.top_friction is not None and self.tie_heights:
+                self._check_restitution()
 
     def _alone(self, leaf: Leaf) -> "LoadedWall":
         """A leaf between the same supports; of one that bears nothing these hold the top."""
