@@ -33,7 +33,7 @@ from rocking.assessment.rows import (
 from rocking.assessment.scene import Scene, on_friction
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.store import RecordStore, computation_version
-from rocking.errors import ConfigurationError, RockingError, about, fault_in_words
+from rocking.errors import ConfigurationError, RockingError, about, fault_in_words, one_structure
 from rocking.quantities import counted
 from rocking.records import Accelerogram, CatalogueRecord, aligned, open_station
 from rocking.records.place import Place
@@ -270,7 +270,7 @@ class Steps:
         horizontal, vertical = opened
         scenes = self._job.study.scenes
         asking = self._job.study.assessment
-        costs = [expected_seconds(each.structure, horizontal, asking) for each in scenes.values()]
+        costs = [_expected(scene, horizontal, asking) for scene in scenes.values()]
         if sum(costs) > WORTH_TELLING:
             number = counted(sum(each > 0 for each in costs), "structure")
             tell(
@@ -288,6 +288,15 @@ class Steps:
         if settings.histories:
             result = with_histories(result, settings.tolerance)
         _write(result, self._record, self._job)
+
+
+def _expected(scene: Scene, horizontal: Sequence[Accelerogram], settings: AssessmentSettings) -> float:
+    """What contact dynamics of a structure may take, s; 0 of one that fails, of which its own row says why."""
+    try:
+        with one_structure(scene.name):
+            return expected_seconds(scene.structure, horizontal, settings)
+    except RockingError:
+        return 0.0
 
 
 @contextlib.contextmanager

@@ -14,6 +14,7 @@ from rocking.assessment.rows import (
     VerdictRow,
     rows_of_record,
 )
+from rocking.errors import StructureError
 from rocking.structures import Block
 from rocking.study.outputs import outputs_of
 from rocking.study.summary import summarise, write_summary
@@ -124,3 +125,19 @@ def test_a_report_that_cannot_be_made_costs_its_record_nothing(tmp_path: Path, m
     assert fault.message.startswith("a fault of rocking in report.pdf (KeyError")
     assert outcome.rows[ComparisonRow] and outcome.rows[VerdictRow]
     assert (job.results / record.id / "report.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_what_cannot_be_priced_costs_its_record_nothing(tmp_path: Path, monkeypatch) -> None:
+    """What contact dynamics may take is told before a record, and no more."""
+    record = _record(tmp_path)
+    study = _study(pier=PIER, block=BLOCK)
+    expected = list(outcomes_in(worked([record], study, tmp_path / "priced").results, [record]))
+
+    def fails(*arguments):
+        raise StructureError("it has no price") if _is_of_pier(arguments[0]) else ValueError("nor has this")
+
+    monkeypatch.setattr("rocking.study.job.expected_seconds", fails)
+    found = list(outcomes_in(worked([record], study, tmp_path / "not").results, [record]))
+    for row_class in (VerdictRow, ComparisonRow, FailureRow):
+        rows = [list(csv_lines(row_class, outcome.rows[row_class])) for outcome in (*found, *expected)]
+        assert rows[0] == rows[1]
