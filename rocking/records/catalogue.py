@@ -91,7 +91,7 @@ class CatalogueRecord:
         "what the larger peak of the horizontal components is scaled to, by one factor on all components, in place "
         "of scale_factor: `pga 0.35 g` or `pgv 50 cm/s`",
     )
-    event: str = described("", "the earthquake, for the reader")
+    event: str = described("", "the earthquake, for the reader; a day in it overrides that of the file")
     station: str = described("", "the station, for the reader")
     licence: str = described("", "licence of the files, for the reader")
     inventory: str = described("", "StationXML of a miniSEED or SAC file, a path like `file`")

@@ -1,7 +1,9 @@
 """Station: what the files of one row of a catalogue hold, wherever they lie, on one span of time."""
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from datetime import date, timedelta
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -20,6 +22,7 @@ from rocking.records.doors import through
 from rocking.records.files import in_catalogue_folder, path_of
 from rocking.records.formats import Options
 from rocking.records.formats.layouts import Layouts
+from rocking.records.formats.text import day_of, iso_date
 from rocking.records.joining import joined
 from rocking.records.kinds import RecordKind
 from rocking.records.place import Place, place_of
@@ -170,6 +173,7 @@ def _as_declared(channel: Accelerogram, record: CatalogueRecord) -> Accelerogram
     facts: dict[str, Any] = {
         "station": record.station or channel.station,
         "event": record.event or channel.event,
+        "event_time": _event_time(channel, record),
         "high_pass_frequency": record.high_pass or channel.high_pass_frequency,
     }
     if record.magnitude is not None:
@@ -181,6 +185,22 @@ def _as_declared(channel: Accelerogram, record: CatalogueRecord) -> Accelerogram
         facts |= {"latitude": place.latitude, "longitude": place.longitude}
     enlarged = channel if record.scale_factor == 1 else scaled(channel, record.scale_factor)
     return replace(enlarged, **facts).warned(*doubts)
+
+
+_DAY = re.compile(r"\b(?:\d{4}-\d\d-\d\d|\d{1,2}/\d{1,2}/(?:\d{4}|\d\d))\b")
+
+
+def _event_time(channel: Accelerogram, record: CatalogueRecord) -> str:
+    """The time of the earthquake by the file, or its day by the row where that is another; zones differ by one day."""
+    stated = _DAY.search(record.event)
+    if stated is None:
+        return channel.event_time
+    day = iso_date(stated[0])
+    try:
+        apart = date.fromisoformat(day) - date.fromisoformat(day_of(channel.event_time))
+    except ValueError:  # one of both is no day
+        return channel.event_time
+    return channel.event_time if abs(apart) <= timedelta(days=1) else day
 
 
 _NEAR = 1.0
