@@ -18,12 +18,13 @@ from rocking import Arch, extract_pulses, integrate, predict_maximum
 from rocking.described import described_values
 from rocking.errors import CatalogueError, RecordError
 from rocking.quantities import GRAVITY
-from rocking.records import CatalogueRecord, files, load_catalogue, open_record
+from rocking.records import Accelerogram, CatalogueRecord, files, load_catalogue, open_record
 from rocking.records.catalogue import catalogue_text, repeated
 from rocking.records.files import download, fill_hashes, path_of
 from rocking.records.folder import list_folder
 from rocking.records.kinds import RecordKind
 from rocking.records.listing import listing_text
+from rocking.records.sample import earthquakes_of, stations_of
 from rocking.remarks import Remark
 from tests.refusals import refused
 
@@ -414,3 +415,30 @@ def test_the_readme_of_the_records_describes_every_column() -> None:
     text = (SHIPPED / "README.md").read_text(encoding="utf-8")
     described = [f"| `{each.key}` | {each.meaning} |" for each in described_values(CatalogueRecord).values()]
     assert [line for line in text.splitlines() if line.startswith("| `")] == described
+
+
+def test_no_motion_of_the_lists_of_the_research_is_of_two_sites() -> None:
+    """One file in two catalogues is one earthquake and one station, whatever its header calls them."""
+    rows = [
+        record for name in ("near_fault.csv", "fema_p695.csv") for record in load_catalogue(SHIPPED / name)
+    ]
+    named = [Accelerogram(np.zeros(2), 0.01, station=row.station, event=row.event) for row in rows]
+    earthquakes = earthquakes_of(named)
+    stations = stations_of(named, earthquakes)
+    sites: dict[str, set[tuple[str, str]]] = {}
+    for row, earthquake, station in zip(rows, earthquakes, stations, strict=True):
+        sites.setdefault(row.sha256, set()).add((earthquake, station))
+    assert {name: own for name, own in sites.items() if len(own) > 1} == {}
+
+
+@pytest.mark.parametrize(
+    ("event", "found"),
+    [("", "1994-01-17T12:31"), ("Northridge 1994-01-16", "1994-01-17T12:31"), ("EQ 6/28/92", "1992-06-28")],
+)
+def test_a_day_of_the_row_overrides_that_of_the_file(folder: Path, event: str, found: str) -> None:
+    """One day apart is another zone."""
+    values = "\n".join(" ".join(["0.01"] * 5) for _ in range(200))
+    head = "PEER STRONG MOTION DATABASE RECORD\nNORTHRIDGE 1/17/94 12:31, HERE, 009\n"
+    (folder / "a.AT2").write_text(f"{head}ACCELERATION IN UNITS OF G\nNPTS= 1000, DT= .01 SEC\n{values}\n")
+    (record,) = load_catalogue(write(folder, {"id": "one", "file": "a.AT2", "event": event}))
+    assert [channel.event_time for channel in open_record(record)] == [found]
