@@ -1,12 +1,17 @@
-"""Run one target of the research, as its rule asks."""
+"""Run one target of the research, as its rule asks.
 
+Where RESEARCH_SITES is set, on at most so many sites, of as many earthquakes as can be: for a target whose whole takes
+hours. `docs/measured/figures.csv` says which figures are of such a share.
+"""
+
+import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from docs.research.report import Target
-    from docs.research.sites import NamedRecord
+    from docs.research.sites import NamedRecord, Records
     from rocking.records import CatalogueRecord
 
 
@@ -65,6 +70,7 @@ def run(name: str, catalogues: Sequence[str], config: Mapping[str, Any], folder:
     from docs.research import validation
     from docs.research.report import Target
     from docs.research.shake_table import Campaign
+    from docs.research.sites import spread
     from rocking.assessment.scene import load_scenes
     from rocking.records import load_catalogue
     from rocking.study.settings import read_settings
@@ -77,9 +83,11 @@ def run(name: str, catalogues: Sequence[str], config: Mapping[str, Any], folder:
         campaign = Campaign.open(Path(catalogues[0]), Path(mirror) if mirror else None)
         validation.validate(Target(Path(folder), tell), campaign)
         return
-    motions = [motions_of(load_catalogue(Path(each)), mirror, tell) for each in catalogues]
+    motions: Sequence[Records] = [motions_of(load_catalogue(Path(each)), mirror, tell) for each in catalogues]
     listed = load_scenes(Path(settings.structures))
     on_the_ground = {name: each.structure for name, each in listed.items() if not each.place.supports}
+    if most := os.environ.get("RESEARCH_SITES"):
+        motions = spread(motions, int(most))
     targets()[name](Target(Path(folder), tell, motions, on_the_ground))
 
 

@@ -2,8 +2,10 @@
 
 import re
 import zlib
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import chain
+from operator import itemgetter
 from time import process_time
 from typing import TypeVar
 
@@ -114,6 +116,23 @@ def one_of_each(records: Iterable[SiteRecord]) -> list[SiteRecord]:
     """Return the first component of each site of records as `independent` gives them."""
     first = {component.site: component for component in reversed(list(records))}
     return list(reversed(first.values()))
+
+
+def spread(catalogues: Sequence[Records], most: int) -> list[list[NamedRecord]]:
+    """Return of each catalogue what counts of at most so many sites: the first of each earthquake, then the second.
+
+    A share of the sites so has as many earthquakes as it can, which are the sample.
+    """
+    motions = [list(records) for records in catalogues]
+    components = list(independent(chain.from_iterable(motions)))
+    turns: dict[str, dict[str, int]] = {}
+    for component in components:
+        of_earthquake = turns.setdefault(component.earthquake, {})
+        of_earthquake.setdefault(component.site, len(of_earthquake))
+    places = [(turn, site) for sites in turns.values() for site, turn in sites.items()]
+    chosen = {site for _, site in sorted(places, key=itemgetter(0))[:most]}
+    kept = {id(component.accelerogram) for component in components if component.site in chosen}
+    return [[(name, record) for name, record in records if id(record) in kept] for records in motions]
 
 
 def lifting_factor(

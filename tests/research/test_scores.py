@@ -6,7 +6,7 @@ from scipy.optimize import minimize
 
 from docs.research import scores
 from docs.research.scores import HAPPENED, logistic, logit_slope
-from docs.research.sites import independent
+from docs.research.sites import independent, spread
 from rocking.records import Accelerogram
 from rocking.records.sample import Sample
 
@@ -139,3 +139,23 @@ def test_a_site_under_two_names_counts_once():
         ("f", record("Landers", "Rinaldi Receiving Sta", "y")),
     ]
     assert [component.identifier for component in independent(listed)] == ["a", "b", "e", "f"]
+
+
+def test_a_share_of_the_sites_has_as_many_earthquakes_as_can_be():
+    """One site of each first; all components of what is taken, in the catalogue that they are of."""
+
+    def record(event: str, station: str, component: str) -> Accelerogram:
+        return Accelerogram(np.sin(np.arange(300) / 10), 0.01, component, event=event, station=station)
+
+    near = [("a", record("Kobe", "KJMA", "0")), ("b", record("Kobe", "KJMA", "90"))]
+    near += [("c", record("Kobe", "Takatori", "0"))]
+    far = [("d", record("Landers", "Lucerne", "0")), ("e", record("Landers", "Yermo", "0"))]
+    taken = [
+        [[name for name, _ in records] for records in spread([near, far], most)] for most in (1, 2, 3, 9)
+    ]
+    assert taken == [
+        [["a", "b"], []],
+        [["a", "b"], ["d"]],
+        [["a", "b", "c"], ["d"]],
+        [["a", "b", "c"], ["d", "e"]],
+    ]
