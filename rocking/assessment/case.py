@@ -86,7 +86,7 @@ class Variation:
     """A case with another crack or another processing of the record: its rotation ratios under record and pulse.
 
     predicted_rotation_ratio: nan without a pulse. crack, position: what opens, in words, and its height, m. counts:
-    whether it takes part in the verdict, as of `CrackFacts`.
+    whether it takes part in the verdict, as of `Candidate`.
     """
 
     integrated_rotation_ratio: float
@@ -219,7 +219,7 @@ class CaseResult:
             as_stones=body.as_stones,
             needs_stones=body.needs_stones,
             stackable=self.contact is None and stackable(body),
-            remarks=would_tell(self.ensembles, typed) if self.ensembles else (),
+            remarks=would_tell(self.ensembles, restitution_is_typed=typed) if self.ensembles else (),
             failures=failures,
         )
 

@@ -9,7 +9,7 @@ body flip between neighbouring values of several inputs, and no single one decid
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import KW_ONLY, dataclass, replace
 from functools import cached_property, lru_cache, partial
 
 import numpy as np
@@ -22,7 +22,7 @@ from rocking.assessment.settings import AssessmentSettings
 from rocking.motion.response import lifting_friction
 from rocking.motion.table import forcing_of, table_of
 from rocking.remarks import Remark
-from rocking.structures import Mechanism, Structure
+from rocking.structures import Structure
 from rocking.structures.leaves import of_leaf
 from rocking.structures.structure import CRACKS, WEAK_MASONRY, Candidate
 from rocking.structures.tied import Tied
@@ -34,56 +34,37 @@ FAR_FROM_DOUBT = IN_DOUBT / 2
 what is in doubt, as a mechanism may rotate more than its block."""
 
 
-@dataclass(frozen=True)
-class Crack:
-    """A mechanism that may form.
-
-    description: what opens, in words; "" of a structure with one mechanism. position: its height [m]; nan without one.
-    structure: that has this crack. friction: the largest coefficient that a joint of the mechanism needs as it lifts; 0
-    without joints. counts, bulges, part: as of `CrackFacts`. of_geometry: whether it is the first one once more, with
-    the restitution of the geometry in place of a lower one that is typed.
-    """
-
-    description: str
-    position: float
-    mechanism: Mechanism
-    structure: Structure = field(compare=False, repr=False)
-    friction: float = 0.0
-    counts: bool = True
-    bulges: bool = False
-    of_geometry: bool = False
-    part: str = ""
-
-    def slides_at(self, friction_coefficient: float) -> float:
-        """Return the acceleration [g] at which a joint slides before this lifts; nan where none does.
-
-        By statics of all joints, where the structure knows it; else until it lifts the forces of the joints of the
-        mechanism are taken to grow with the acceleration.
-        """
-        of_all_joints = self.structure.slides_at(friction_coefficient)
-        if not math.isnan(of_all_joints):
-            return of_all_joints
-        if not self.friction > friction_coefficient:
-            return math.nan
-        return self.mechanism.uplift_multiplier * friction_coefficient / self.friction
-
-
 @dataclass(frozen=True, eq=False)
 class FollowedCrack:
-    """The ensemble of one crack; description and position [m] as those of `Crack`.
+    """What following one candidate under the motions found, without the structure, so that it can be kept in a file.
 
-    slides: whether it slides before it lifts, under a motion that reaches so far. counts, bulges, part: as of
-    `CrackFacts`. of_geometry: as of `Crack`.
+    description, position [m], counts, bulges, of_geometry, part: as of `Candidate`. slides: whether it slides before it
+    lifts, under a motion that reaches so far.
     """
 
     description: str
     position: float
     ensemble: Ensemble
+    _: KW_ONLY
     slides: bool = False
     counts: bool = True
     bulges: bool = False
     of_geometry: bool = False
     part: str = ""
+
+    @classmethod
+    def of(cls, candidate: Candidate, ensemble: Ensemble, *, slides: bool) -> "FollowedCrack":
+        """Return what the ensemble of a candidate found of it."""
+        return cls(
+            candidate.description,
+            candidate.position,
+            ensemble,
+            slides=slides,
+            counts=candidate.counts,
+            bulges=candidate.bulges,
+            of_geometry=candidate.of_geometry,
+            part=candidate.part,
+        )
 
     @cached_property
     def facts(self) -> CrackFacts:
@@ -129,65 +110,41 @@ class CrackEnsembles:
 
 
 @lru_cache(maxsize=256)
-def cracks(structure: Structure) -> tuple[Crack, ...]:
-    """Return the mechanisms that may form; first the one that is known, or that statics chooses."""
-    return tuple(
-        Crack(
-            each.description,
-            each.position,
-            each.structure.mechanism(),
-            each.structure,
-            lifting_friction(each.structure),
-            each.counts,
-            bulges=_bulges(each),
-            of_geometry=each.description.endswith(_OF_GEOMETRY),
-            part=each.part,
-        )
-        for each in _forms(structure)
-    )
+def cracks(structure: Structure) -> tuple[Candidate, ...]:
+    """Return the mechanisms that may form; first the one that is known, or that statics chooses.
 
-
-def _bulges(candidate: Candidate) -> bool:
-    return isinstance(candidate.structure, Tied) and candidate.structure.opening is not None
-
-
-_OF_GEOMETRY = "of its geometry"
-
-
-@lru_cache(maxsize=256)
-def _forms(structure: Structure) -> tuple[Candidate, ...]:
-    """The candidates, and where a restitution is typed far below that of the geometry the first crack with that one.
-
-    A typed restitution that dissipates more energy than the geometry implies needs a measurement to be relied upon.
-    Those of leaves that may part are those of each leaf; of what is weakest they come first.
+    Where a restitution is typed far below that of the geometry, the first one comes once more with that of the
+    geometry: a typed restitution that dissipates more energy than the geometry implies needs a measurement to be relied
+    upon. Those of leaves that may part are those of each leaf; of what is weakest they come first.
     """
     every = structure.candidates(CRACKS)
     if not structure.leaves_alone:
         return _with_geometry(structure, every)
-    forms: list[Candidate] = []
+    forming: list[Candidate] = []
     alone = dict(structure.leaves_alone)
     for part in dict.fromkeys(each.part for each in every):
         if part:
-            forms += [of_leaf(part, each) for each in _forms(alone[part])]
+            forming += [of_leaf(part, each) for each in cracks(alone[part])]
         else:
-            forms += _with_geometry(structure, tuple(each for each in every if not each.part))
-    return tuple(forms)
+            forming += _with_geometry(structure, tuple(each for each in every if not each.part))
+    return tuple(forming)
 
 
 def _with_geometry(structure: Structure, several: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
     """The candidates of one part, with the first crack once more where its restitution is typed too low."""
-    first = next((each for each in several if each.counts and not _bulges(each)), None)
+    first = next((each for each in several if each.counts and not each.bulges), None)
     balanced = None if first is None else first.structure.restitution_of_geometry
     if first is None or balanced is None:
         return several
     own, with_own = balanced
     livelier = replace(
         first,
-        description=f"restitution {own:.2f} {_OF_GEOMETRY}",
+        description=f"restitution {own:.2f} of its geometry",
         structure=with_own,
+        of_geometry=True,
     )
     if len(several) == 1:
-        typed = first.structure.mechanism().restitution
+        typed = first.mechanism.restitution
         several = (replace(first, description=f"restitution {typed:.2f} as typed"),)
     return (*several, livelier)
 
@@ -195,8 +152,9 @@ def _with_geometry(structure: Structure, several: tuple[Candidate, ...]) -> tupl
 @lru_cache(maxsize=256)
 def mechanisms_of(structure: Structure) -> tuple[Candidate, ...]:
     """Return every mechanism: those that may be followed, and behind them those that statics alone lists."""
-    forms = _forms(structure)
-    return (*forms, *(each for each in structure.mechanisms() if not any(_same(each, own) for own in forms)))
+    forming = cracks(structure)
+    listed = (each for each in structure.mechanisms() if not any(_same(each, own) for own in forming))
+    return (*forming, *listed)
 
 
 def _same(one: Candidate, other: Candidate) -> bool:
@@ -210,7 +168,7 @@ def is_own(candidate: Candidate, structure: Structure) -> bool:
     """Whether a candidate is the mechanism that a structure has as it is described."""
     if candidate.refusal:
         return False
-    one, other = candidate.structure.mechanism(), structure.mechanism()
+    one, other = candidate.mechanism, structure.mechanism()
     alike = math.isclose(one.uplift_multiplier, other.uplift_multiplier, rel_tol=1e-6)
     return alike and math.isclose(one.critical_rotation, other.critical_rotation, rel_tol=1e-3)
 
@@ -222,22 +180,24 @@ def crushing_factor(structure: Structure) -> float | None:
     return None if crushed is None else structure.static_multiplier / crushed.static_multiplier
 
 
-def prepare_structure(structure: Structure, settings: AssessmentSettings, vertical: bool) -> None:
+def prepare_structure(structure: Structure, settings: AssessmentSettings, *, vertical: bool) -> None:
     """Let a structure compute what every record needs of it alone: mechanisms, tables, blocks and what crushing does.
 
     vertical: whether it meets a vertical motion. Raises RockingError as what follows it does.
     """
-    mechanisms = [structure.mechanism(), *(each.mechanism for each in cracks(structure))]
-    for each in mechanisms:
-        table_of(each, vertical)
-        if each.can_overturn:
-            table_of(each.equivalent_block(settings.acceleration_scale))
-            table_of(each.equivalent_block("uplift"))
+    forming = cracks(structure)
+    for candidate in forming:
+        _lifting_friction(candidate.structure)
+    for mechanism in (structure.mechanism(), *(candidate.mechanism for candidate in forming)):
+        table_of(mechanism, vertical)
+        if mechanism.can_overturn:
+            table_of(mechanism.equivalent_block(settings.acceleration_scale))
+            table_of(mechanism.equivalent_block("uplift"))
     mechanisms_of(structure)
     crushing_factor(structure)
 
 
-def counting_cracks(structure: Structure) -> tuple[Crack, ...]:
+def counting_cracks(structure: Structure) -> tuple[Candidate, ...]:
     """Return those of the mechanisms that may form that take part in the verdict."""
     return tuple(each for each in cracks(structure) if each.counts)
 
@@ -247,14 +207,14 @@ def never_lets_go(structure: Structure) -> str:
     held = [each.mechanism.never_lets_go for each in counting_cracks(structure)]
     if not all(held) or not isinstance(structure, Tied):
         return held[0] if all(held) else ""
-    lets_go = any(each.refusal or each.structure.mechanism().can_overturn for each in structure.mechanisms())
+    lets_go = any(each.refusal or each.mechanism.can_overturn for each in structure.mechanisms())
     return "" if lets_go else held[0]
 
 
 def cracked(structure: Structure, description: str) -> Structure:
     """Return the structure with the crack of this description; itself where none of its cracks has it."""
-    forms = (each.structure for each in _forms(structure) if each.description == description)
-    return next(forms, structure) if description else structure
+    described = (each.structure for each in cracks(structure) if each.description == description)
+    return next(described, structure) if description else structure
 
 
 def ensemble_over_cracks(
@@ -284,12 +244,12 @@ def ensemble_over_cracks(
     if len(parts) == 1:
         return parts[0]
     followed = tuple(each for part in parts for each in part.followed)
-    slides_at = [each.slides_at for each in parts if not math.isnan(each.slides_at)]
-    return CrackEnsembles(followed, min(slides_at, default=math.nan))
+    left_out_at = [each.slides_at for each in parts if not math.isnan(each.slides_at)]
+    return CrackEnsembles(followed, min(left_out_at, default=math.nan))
 
 
 def _of_part(
-    several: Sequence[Crack],
+    several: Sequence[Candidate],
     motions: GroundMotions,
     settings: AssessmentSettings,
     *,
@@ -300,8 +260,8 @@ def _of_part(
     counting = [each for each in several if each.counts]
     sliding = sliding_first(several, motions, settings)
     lifting = [each for each in counting if each not in sliding] or counting
-    left_out = [each.slides_at(settings.friction_coefficient) for each in counting if each not in lifting]
-    slides_at = min(left_out, default=math.nan)
+    left_out = [slides_at(each, settings.friction_coefficient) for each in counting if each not in lifting]
+    left_out_at = min(left_out, default=math.nan)
     first, *others = *lifting, *(each for each in several if not each.counts)
     of_statics = ensemble(
         first.mechanism,
@@ -310,37 +270,26 @@ def _of_part(
         tolerance=settings.tolerance,
         verdict_only=settings.fidelity == "auto",
     )
-    name = first.description if is_named or first.bulges else ""
-    statics = FollowedCrack(
-        name, first.position, of_statics, first in sliding, bulges=first.bulges, part=first.part
-    )
+    named = first if is_named or first.bulges else replace(first, description="")
+    statics = FollowedCrack.of(named, of_statics, slides=first in sliding)
     risk = settings.ensemble.risk
     settled = statics.facts.step(risk) is Verdict.OVERTURNS
     if settled:
         others = [each for each in others if not each.counts]
     if not others:
-        return CrackEnsembles((statics,), slides_at)
+        return CrackEnsembles((statics,), left_out_at)
     doubtful = others
     if not exhaustive:
         always = [each for each in others if each.bulges]
         rest = [each for each in others if not each.bulges]
-        doubtful = always + screened(rest, of_statics, motions, settings, first.mechanism.uplift_multiplier)
+        doubtful = always + screened(rest, of_statics, motions, settings, first.multiplier)
     mechanisms = {}
     for each in doubtful:
-        followed = FollowedCrack(
-            each.description,
-            each.position,
-            _alone(each, motions, settings),
-            each in sliding,
-            each.counts,
-            each.bulges,
-            each.of_geometry,
-            each.part,
-        )
+        followed = FollowedCrack.of(each, _alone(each, motions, settings), slides=each in sliding)
         mechanisms[followed] = each.mechanism
         if settled and followed.facts.step(risk) is Verdict.OVERTURNS:
             break
-    ensembles = CrackEnsembles((statics, *mechanisms), slides_at)
+    ensembles = CrackEnsembles((statics, *mechanisms), left_out_at)
     while (governing := ensembles.governing) in mechanisms:
         # Another crack may govern once this one has its members; each grows once.
         more = grown(
@@ -358,8 +307,8 @@ def _of_part(
 
 
 def sliding_first(
-    several: Sequence[Crack], motions: GroundMotions, settings: AssessmentSettings
-) -> list[Crack]:
+    several: Sequence[Candidate], motions: GroundMotions, settings: AssessmentSettings
+) -> list[Candidate]:
     """Return those of the mechanisms that may form that slide before they lift, under motions that reach so far.
 
     A bulge whose joints slide instead is no safer for it: it is none of them where anything that counts lifts, or
@@ -372,20 +321,38 @@ def sliding_first(
     return sliding
 
 
-def slides_first(crack: Crack, motions: GroundMotions, settings: AssessmentSettings) -> bool:
-    """Whether a crack slides before it lifts, under motions that reach so far."""
-    slides_at = crack.slides_at(settings.friction_coefficient)
-    each = (forcing_of(motion, motions.vertical) for motion in motions.horizontal.values())
-    return not math.isnan(slides_at) and any(forcing.excitation > slides_at for forcing in each)
+def slides_first(candidate: Candidate, motions: GroundMotions, settings: AssessmentSettings) -> bool:
+    """Whether a mechanism slides before it lifts, under motions that reach so far."""
+    level = slides_at(candidate, settings.friction_coefficient)
+    forcings = (forcing_of(motion, motions.vertical) for motion in motions.horizontal.values())
+    return not math.isnan(level) and any(forcing.excitation > level for forcing in forcings)
+
+
+def slides_at(candidate: Candidate, friction_coefficient: float) -> float:
+    """Return the acceleration [g] at which a joint slides before a mechanism lifts; nan where none does.
+
+    By statics of all joints, where the structure knows it; else until it lifts the forces of the joints of the
+    mechanism are taken to grow with the acceleration.
+    """
+    of_all_joints = candidate.structure.slides_at(friction_coefficient)
+    if not math.isnan(of_all_joints):
+        return of_all_joints
+    needed = _lifting_friction(candidate.structure)
+    if not needed > friction_coefficient:
+        return math.nan
+    return candidate.multiplier * friction_coefficient / needed
+
+
+_lifting_friction = lru_cache(maxsize=1024)(lifting_friction)
 
 
 def screened(
-    others: Sequence[Crack],
+    others: Sequence[Candidate],
     of_statics: Ensemble,
     motions: GroundMotions,
     settings: AssessmentSettings,
     lifted_at: float = 0.0,
-) -> list[Crack]:
+) -> list[Candidate]:
     """Return those of the `others` that may not stand, the worst first.
 
     Each meets three members of the ensemble of statics, or of the crack that is known: the two that rotate most, and
@@ -394,7 +361,7 @@ def screened(
     `lifted_at`, the λ of the first crack, may rock.
     """
     if np.all(of_statics.rotation_ratios == 0):
-        others = [each for each in others if each.mechanism.uplift_multiplier < lifted_at]
+        others = [each for each in others if each.multiplier < lifted_at]
     order = np.argsort(-of_statics.rotation_ratios, kind="stable")
     few = design(settings.ensemble)[order[[0, 1, order.size // 2]]]
     follow = partial(
@@ -412,10 +379,10 @@ def screened(
     return sorted(severity, key=severity.__getitem__, reverse=True)
 
 
-def _alone(crack: Crack, motions: GroundMotions, settings: AssessmentSettings) -> Ensemble:
+def _alone(candidate: Candidate, motions: GroundMotions, settings: AssessmentSettings) -> Ensemble:
     """The ensemble of one crack beside that of statics, which decides where more members may."""
     return ensemble(
-        crack.mechanism,
+        candidate.mechanism,
         motions,
         settings.ensemble,
         tolerance=settings.tolerance,
@@ -502,7 +469,7 @@ _KINDS = {
 }
 
 
-def would_tell(ensembles: CrackEnsembles, restitution_is_typed: bool = False) -> tuple[Remark, ...]:
+def would_tell(ensembles: CrackEnsembles, *, restitution_is_typed: bool = False) -> tuple[Remark, ...]:
     """Return the unknown whose measurement would help most: the first one, if it explains _TELLS at least.
 
     restitution_is_typed: whether the description gives its range, so that it is not known any better.

@@ -7,7 +7,7 @@ more.
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from enum import StrEnum
 
 from rocking.assessment.kinds import AssessmentKind
@@ -134,6 +134,7 @@ class CrackFacts:
     followed: int
     failed: int = 0
     farthest: float = math.nan
+    _: KW_ONLY
     slides: bool = False
     counts: bool = True
     bulges: bool = False

@@ -14,12 +14,12 @@ from time import process_time
 from rocking.assessment.case import CaseResult, Failure, Prediction, Variation
 from rocking.assessment.contacts import MOST_RUNS, RUNS, contact_share, doubt, friction_needed, ties_give
 from rocking.assessment.cracks import (
-    Crack,
     counting_cracks,
     cracked,
     cracks,
     ensemble_over_cracks,
     is_own,
+    slides_at,
     sliding_first,
 )
 from rocking.assessment.decide import Verdict, decide
@@ -49,6 +49,7 @@ from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_as_printed, predict_maximum
 from rocking.structures import Mechanism, Structure
 from rocking.structures.leaves import parts_of
+from rocking.structures.structure import Candidate
 
 
 @dataclass
@@ -179,7 +180,7 @@ def with_contacts(
     sliding = sliding_first(cracks(structure), motions, settings)
     slides = all(each in sliding for each in counting)
     if slides:
-        case = replace(case, slides_at=counting[0].slides_at(settings.friction_coefficient))
+        case = replace(case, slides_at=slides_at(counting[0], settings.friction_coefficient))
     elif decide(case.facts(structure)).word.badness < Verdict.PROBABLY_OVERTURNS.badness:
         ratios = {name: case.largest_of_part(name) for name, _ in parts_of(structure)}
         reason = doubt(structure, motions, ratios.pop(""), settings, bounces, ratios)
@@ -321,7 +322,7 @@ def other_cracks(
         if math.isnan(ratio):
             # Raises the reason.
             integrate(each.structure, accelerogram, strict(settings.tolerance), vertical=vertical)
-        mechanism = each.structure.mechanism()
+        mechanism = each.mechanism
         predicted = math.nan
         if pulse and mechanism.can_overturn:
             block = mechanism.equivalent_block(settings.acceleration_scale)
@@ -435,7 +436,7 @@ def compute_reserve(inputs: ReserveInputs, clock: Clock) -> Reserve:
         return reserve(crack.mechanism, motions, inputs.settings)
 
 
-def governing_crack(structure: Structure, description: str) -> Crack:
+def governing_crack(structure: Structure, description: str) -> Candidate:
     """Return the crack of this description; the first one where none has it, as where only one may form."""
     several = cracks(structure)
     return next((crack for crack in several if crack.description == description), several[0])

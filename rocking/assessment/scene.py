@@ -28,7 +28,6 @@ from rocking.hashes import sha256_of
 from rocking.quantities import finite, listed, shown
 from rocking.remarks import Remark
 from rocking.structures import Mechanism, Structure
-from rocking.structures.alone import as_structure
 from rocking.structures.kinds import StructureKind
 from rocking.structures.structure_list import (
     LONGEST_KEY,
@@ -38,6 +37,7 @@ from rocking.structures.structure_list import (
     nearest,
     structure_from_config,
 )
+from rocking.structures.unknown_geometry import as_structure
 from rocking.tables import read_edited
 from rocking.tables.yaml_file import read_yaml, scalar_value
 

@@ -4,8 +4,8 @@ import math
 from dataclasses import dataclass, field
 from enum import StrEnum
 
+from rocking.codes.code_capacity import LIMIT_STATES, CodeCapacity, LimitPoint
 from rocking.codes.kinds import CheckKind
-from rocking.codes.local_mechanism import LIMIT_STATES, LimitPoint, LocalMechanism
 from rocking.errors import ConfigurationError
 from rocking.floors.support import Support
 from rocking.quantities import finite, kind_of, positive
@@ -271,9 +271,9 @@ class StructureCheck:
         Dynamic check; None without records, and where `nonlinear` is None.
     damage_level : float
         Least a_g at which a mechanism starts, that of SLD, m/s².
-    mechanisms : tuple of LocalMechanism
+    mechanisms : tuple of CodeCapacity
         All that were checked.
-    governing : LocalMechanism
+    governing : CodeCapacity
         The mechanism that decides.
     restraints : tuple of Restraint, optional
         What holds the structure sideways.
@@ -295,8 +295,8 @@ class StructureCheck:
     nonlinear: Check | None = None
     dynamic: DynamicCheck | None = None
     damage_level: float
-    mechanisms: tuple[LocalMechanism, ...] = field(repr=False)
-    governing: LocalMechanism = field(repr=False)
+    mechanisms: tuple[CodeCapacity, ...] = field(repr=False)
+    governing: CodeCapacity = field(repr=False)
     restraints: tuple[Restraint, ...] = field(default=(), repr=False)
     remark: Remark | None = None
     were_it_unknown: "StructureCheck | None" = field(default=None, repr=False)

@@ -22,8 +22,8 @@ from rocking.codes.check import (
     DynamicCheck,
     StructureCheck,
 )
+from rocking.codes.code_capacity import LIMIT_STATES, CodeCapacity, LimitState
 from rocking.codes.kinds import CheckKind
-from rocking.codes.local_mechanism import LIMIT_STATES, LimitState, LocalMechanism
 from rocking.codes.selection import SETS, Selection
 from rocking.codes.static_check import kinematic_check
 from rocking.errors import ConfigurationError
@@ -269,11 +269,11 @@ def _none_of(stations: int, failing: float, size: int) -> float:
     return math.comb(sound, size) / math.comb(stations, size) if sound >= size else 0.0
 
 
-def _sides_together(mechanisms: Sequence[LocalMechanism]) -> list[tuple[LocalMechanism, ...]]:
+def _sides_together(mechanisms: Sequence[CodeCapacity]) -> list[tuple[CodeCapacity, ...]]:
     """The mechanisms of each crack together: one to a side, positive first."""
-    bodies: list[tuple[LocalMechanism, ...]] = []
+    bodies: list[tuple[CodeCapacity, ...]] = []
     for each in mechanisms:
-        if each.sign < 0:
+        if each.candidate.sign < 0:
             bodies[-1] = (*bodies[-1], each)
         else:
             bodies.append((each,))
@@ -284,12 +284,12 @@ def _sides_together(mechanisms: Sequence[LocalMechanism]) -> list[tuple[LocalMec
 class _Body:
     """One crack with its sides, the mechanism that is followed, and d of the limit state on each side, m."""
 
-    sides: tuple[LocalMechanism, ...]
+    sides: tuple[CodeCapacity, ...]
     mechanism: Mechanism
     limits: tuple[float, ...]
 
     @classmethod
-    def of(cls, sides: tuple[LocalMechanism, ...], state: LimitState) -> "_Body":
+    def of(cls, sides: tuple[CodeCapacity, ...], state: LimitState) -> "_Body":
         limits = tuple(each.limit(state).displacement for each in sides)
         return cls(sides, with_confidence(sides), limits)
 
@@ -325,7 +325,7 @@ def _felt(record: Accelerogram, support: Support | None) -> Accelerogram:
     return record if support is None else support.motion(record)
 
 
-def with_confidence(sides: Sequence[LocalMechanism]) -> Mechanism:
+def with_confidence(sides: Sequence[CodeCapacity]) -> Mechanism:
     """Return the mechanism whose restoring actions are divided by the confidence factor."""
     made = [_weakened(each.static.side, each.confidence_factor) for each in sides]
     negative = made[1] if len(made) > 1 else None

@@ -13,16 +13,16 @@ from dataclasses import replace
 import numpy as np
 
 from rocking.codes.check import Check, CodeTerms, StructureCheck
+from rocking.codes.code_capacity import LIMIT_STATES, CodeCapacity, LimitState
 from rocking.codes.crossings import Crossings
 from rocking.codes.floor_demand import FloorDemand
 from rocking.codes.kinds import CheckKind
-from rocking.codes.local_mechanism import LIMIT_STATES, LimitState, LocalMechanism
 from rocking.errors import ConfigurationError, DoesNotStandError, StructureError
 from rocking.quantities import GRAVITY, kind_of, positive
 from rocking.records.design_spectrum import DesignSpectrum
 from rocking.remarks import Remark
 from rocking.structures import Structure
-from rocking.structures.leaves import parts_of
+from rocking.structures.leaves import of_leaf, parts_of
 from rocking.structures.linkage import FRICTION
 from rocking.structures.structure import AS_GIVEN, Candidate, Crackable
 from rocking.structures.tied import Tied
@@ -80,7 +80,7 @@ def _kinematic_check(structure: Structure, spectrum: DesignSpectrum, terms: Code
     """The checks with the crack that is known, or with all that may form."""
     if isinstance(structure, Structure):
         structure = structure.with_friction(FRICTION)
-    mechanisms = _local_mechanisms(structure, terms)
+    mechanisms = _capacities(structure, terms)
     floor = FloorDemand(spectrum, terms.support)
     starts = _starts(mechanisms, floor)
     first = _lowest(starts.capacities)  # all feel the same motion as they start
@@ -133,33 +133,29 @@ def _level_check(made: StructureCheck, spectrum: DesignSpectrum, clause: str, ca
     )
 
 
-def _not_made(mechanism: LocalMechanism) -> Remark:
+def _not_made(mechanism: CodeCapacity) -> Remark:
     """Why checks that need d_0 were not made."""
-    return Remark.of(CheckKind.NO_DISPLACEMENT, why=mechanism.body.mechanism().never_lets_go)
+    return Remark.of(CheckKind.NO_DISPLACEMENT, why=mechanism.candidate.mechanism.never_lets_go)
 
 
-def _local_mechanisms(structure: Structure, terms: CodeTerms) -> tuple[LocalMechanism, ...]:
+def _capacities(structure: Structure, terms: CodeTerms) -> tuple[CodeCapacity, ...]:
     """The mechanisms of the structure that may open, with the values of the check in them."""
     parts = dict(parts_of(structure)) if isinstance(structure, Structure) else {}
     return tuple(
-        LocalMechanism(
-            description=words,
-            body=body,
-            sign=sign,
-            static=body.static_capacity(sign),
+        CodeCapacity(
+            candidate,
+            static=candidate.structure.static_capacity(candidate.sign),
             confidence_factor=float(terms.confidence_factor),
             elastic_period=terms.elastic_period,
             support_loss=terms.support_loss,
-            one_sided=parts[part].one_sided,
-            part=part,
+            one_sided=parts[candidate.part].one_sided,
         )
-        for words, sign, body, part in _opening(structure)
+        for candidate in _opening(structure)
     )
 
 
-def _opening(structure: Structure) -> Iterator[tuple[str, int, Structure, str]]:
-    """The mechanisms that may open: crack and side of the fall, sign of that side, the structure with the crack, and
-    the leaf that falls alone.
+def _opening(structure: Structure) -> Iterator[Candidate]:
+    """The mechanisms that may open, each to one side, which stands in its description.
 
     Those of `Structure.mechanisms` whose motion can be followed; of hinges between supports that which limit analysis
     finds and one that is typed, of other cracks all, and where the crack is known no other. What ties keep shut to one
@@ -171,12 +167,12 @@ def _opening(structure: Structure) -> Iterator[tuple[str, int, Structure, str]]:
             "geometry, as rocking.Block or rocking.Facade."
         )
     own = [each for each in structure.candidates() if not each.part]
-    cracked = [each for each in own if each.counts and not _bulges(each)]
+    cracked = [each for each in own if each.counts and not each.bulges]
     if structure.statics_chooses:
         typed = structure.crack_in_words if isinstance(structure, Crackable) else ""
         cracked = [*cracked[:1], *(each for each in cracked[1:] if each.description == typed)]
     family = [each for each in structure.mechanisms() if not each.part]
-    bulges = [each for each in family if _bulges(each) and not each.refusal]
+    bulges = [each for each in family if each.bulges and not each.refusal]
     for candidate in cracked:
         body = candidate.structure
         opens = "" if candidate.description == AS_GIVEN else f"{candidate.description}, "
@@ -186,25 +182,20 @@ def _opening(structure: Structure) -> Iterator[tuple[str, int, Structure, str]]:
             if shut and sign > 0:
                 continue
             falls = "" if body.symmetric else side
-            yield f"{opens}{falls}".removesuffix(", ") or AS_GIVEN, sign, body, ""
+            words = f"{opens}{falls}".removesuffix(", ") or AS_GIVEN
+            yield replace(candidate, description=words, sign=sign)
     for candidate in bulges:
         wall = candidate.structure
         assert isinstance(wall, Tied)
-        yield wall.way_in_words(candidate.sign), candidate.sign, wall, ""
+        yield replace(candidate, description=wall.way_in_words(candidate.sign))
     for name, leaf in structure.leaves_alone:
-        for words, sign, body, _ in _opening(leaf):
-            yield f"{name} alone" if words == AS_GIVEN else f"{name} alone, {words}", sign, body, name
+        yield from (of_leaf(name, candidate) for candidate in _opening(leaf))
 
 
 def _sides(body: Structure) -> Iterator[tuple[int, str]]:
     """The sides to which a body falls, by sign and in words."""
     signs = (1,) if body.symmetric or body.one_sided else (1, -1)
     yield from zip(signs, body.side_names, strict=False)
-
-
-def _bulges(candidate: Candidate) -> bool:
-    """Whether a wall that something holds bulges, or slips below its top."""
-    return getattr(candidate.structure, "opening", None) is not None
 
 
 def _lowest(levels: np.ndarray, then: np.ndarray | None = None) -> int:
@@ -218,7 +209,7 @@ def _lowest(levels: np.ndarray, then: np.ndarray | None = None) -> int:
     return _lowest(np.where(least, then, np.inf))
 
 
-def _starts(mechanisms: Sequence[LocalMechanism], floor: FloorDemand) -> Crossings:
+def _starts(mechanisms: Sequence[CodeCapacity], floor: FloorDemand) -> Crossings:
     """The levels at which each mechanism starts: C8.7.1.8, or C8.7.1.9 of a part that is free to vibrate."""
     period = mechanisms[0].elastic_period
 
@@ -231,7 +222,7 @@ def _starts(mechanisms: Sequence[LocalMechanism], floor: FloorDemand) -> Crossin
     return Crossings.of(felt, onsets, floor.spectrum.level)
 
 
-def _collapses(mechanisms: Sequence[LocalMechanism], floor: FloorDemand, state: LimitState) -> Crossings:
+def _collapses(mechanisms: Sequence[CodeCapacity], floor: FloorDemand, state: LimitState) -> Crossings:
     """The levels at which the displacement demand at the secant period of each mechanism is that of the limit state."""
     points = [each.limit(state) for each in mechanisms]
     periods = np.array([point.period for point in points])
@@ -245,8 +236,8 @@ def _collapses(mechanisms: Sequence[LocalMechanism], floor: FloorDemand, state: 
 
 
 def _on_the_better_branch(
-    mechanisms: Sequence[LocalMechanism], floor: FloorDemand, state: LimitState
-) -> tuple[LocalMechanism, ...]:
+    mechanisms: Sequence[CodeCapacity], floor: FloorDemand, state: LimitState
+) -> tuple[CodeCapacity, ...]:
     """The mechanisms, each with its limit state where a tie breaks or behind that, whichever bears the larger a_g.
 
     What is left after the break is a chain of its own (C8.7.1.2.1.6), so that a tie takes nothing from it.

@@ -35,7 +35,7 @@ from rocking.quantities import GRAVITY, counted
 from rocking.records import Accelerogram
 from rocking.records.sample import Sample
 from rocking.structures import EquivalentBlock, Mechanism, Structure
-from rocking.structures.alone import as_structure
+from rocking.structures.unknown_geometry import as_structure
 from rocking.tables import write_whole
 
 LEVELS = 40

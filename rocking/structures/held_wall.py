@@ -6,7 +6,7 @@ outwards by u(z) = Σ ω_j (z − z_j)₊. What rises is G(0), what is pushed B(
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import KW_ONLY, dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 from operator import itemgetter
@@ -214,6 +214,7 @@ class Opening:
     foot: float
     hinge: float | None = None
     hold: float | None = None
+    _: KW_ONLY
     upright: bool = False
     outwards: bool = True
     forwards: bool = True
@@ -493,7 +494,7 @@ class HeldWall:
             for hold, hinge in spans:
                 stands_above = hold is not None and hold < self.height * (1 - _SAME)
                 for upright in (False, True) if stands_above else (False,):
-                    yield from self._ways(Opening(foot, hinge, hold, upright))
+                    yield from self._ways(Opening(foot, hinge, hold, upright=upright))
         if self.ties_apart:
             yield from self._openings_between_ties(joints, feet)
 

@@ -4,7 +4,7 @@ import math
 import warnings
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import KW_ONLY, dataclass, field, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, Self
 
@@ -604,20 +604,23 @@ class Structure(ABC):
 class Candidate:
     """One mechanism that may form: a `structure` whose crack is known, at `position` [m] above the base.
 
-    description: in words, "hinge at 2.56 m". position: nan where a height does not tell it, as of an arch's hinges.
+    description: in words, "hinge at 2.56 m". position: nan where no height describes it, as of an arch's hinges.
     name: what it does, "bulges between foot and tie". limit: its λ by limit analysis, in which a tie pulls with the
     force at which it yields; None where it has no such tie. sign: of the rotation to the side to which it falls; 0:
-    both sides. counts: whether it takes part in the verdict; otherwise it is told beside the crack that is known.
-    part: the leaf that falls alone, "outer leaf"; "" where all of the structure does.
+    both sides. counts: whether it takes part in the verdict; otherwise it is reported along with the known crack.
+    of_geometry: whether it is another candidate once more, with the restitution of the geometry in place of a lower one
+    that is typed. part: the leaf that falls alone, "outer leaf"; "" where all of the structure does.
     """
 
     description: str
     position: float
     structure: Structure
+    _: KW_ONLY
     name: str = ""
     limit: float | None = None
     sign: int = 0
     counts: bool = True
+    of_geometry: bool = False
     part: str = ""
 
     def __post_init__(self) -> None:
@@ -625,9 +628,19 @@ class Candidate:
         object.__setattr__(self, "name", self.name or self.structure.does)
 
     @property
+    def mechanism(self) -> Mechanism:
+        """The mechanism itself; the same object at every call."""
+        return self.structure.mechanism()
+
+    @property
+    def bulges(self) -> bool:
+        """Whether a held wall bulges in it, or slips below its top, which it may wherever it is cracked."""
+        return getattr(self.structure, "opening", None) is not None
+
+    @property
     def multiplier(self) -> float:
         """λ of its mechanism."""
-        return self.structure.mechanism().uplift_multiplier
+        return self.mechanism.uplift_multiplier
 
     @property
     def uplift_multiplier(self) -> float:
@@ -672,7 +685,7 @@ class Candidate:
     @property
     def side(self) -> Side:
         """The side to which it falls; of two alike the positive one."""
-        return self.structure.mechanism().sides[-1 if self.sign < 0 else 0]
+        return self.mechanism.sides[-1 if self.sign < 0 else 0]
 
 
 class LeafAlone(NamedTuple):

@@ -442,7 +442,7 @@ class Tied(CrackedAtHeight, Leaved):
             name = wall.name(opening)
             is_named = opening.hinge is not None or opening.between or wall.slip(opening) != 0
             words = f"{what} at {place:.4g} m" + (f" ({name})" if is_named else "")
-            family.append(Candidate(words, place, opened, name, multiplier, sign))
+            family.append(Candidate(words, place, opened, name=name, limit=multiplier, sign=sign))
         return tuple(family)
 
     @property

@@ -146,7 +146,7 @@ def prepare(settings: Settings) -> None:
         study = Study(scenes_of(settings.structures, ContentHashes(None, LARGEST_FILE)), settings)
         for scene in study.scenes.values():
             with contextlib.suppress(RockingError):
-                prepare_structure(scene.structure, study.assessment, settings.vertical)
+                prepare_structure(scene.structure, study.assessment, vertical=settings.vertical)
 
 
 @dataclass(frozen=True)

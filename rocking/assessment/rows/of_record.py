@@ -520,7 +520,7 @@ class VariationRow(CaseRow[VariedCase]):
 
 
 @dataclass(frozen=True)
-class HeldMechanism(OfStructure):
+class CandidateCase(OfStructure):
     """One mechanism of a structure, and one of the heights at which something holds it; None where nothing does.
 
     governs: whether the numbers of the case are its own. followed: its members; None where statics alone lists it.
@@ -557,26 +557,26 @@ class HeldMechanism(OfStructure):
         return held[self.place] if self.hold is not None and self.place < len(held) else math.nan
 
 
-of_mechanism = Columns(HeldMechanism)
-of_candidate = of_mechanism.part(lambda of: of.candidate)
-of_side = of_mechanism.optional(lambda of: None if of.candidate.refusal else of.candidate.side)
-of_members = of_mechanism.optional(lambda of: of.followed.ensemble if of.followed else None)
-of_hold = of_mechanism.optional(lambda of: of.hold)
+of_candidate_case = Columns(CandidateCase)
+of_candidate = of_candidate_case.part(lambda of: of.candidate)
+of_side = of_candidate_case.optional(lambda of: None if of.candidate.refusal else of.candidate.side)
+of_members = of_candidate_case.optional(lambda of: of.followed.ensemble if of.followed else None)
+of_hold = of_candidate_case.optional(lambda of: of.hold)
 
 
 @row("mechanisms")
-class MechanismRow(CaseRow[HeldMechanism]):
+class MechanismRow(CaseRow[CandidateCase]):
     """One row per mechanism in which a structure may fall, and per height at which something holds it back.
 
     Forces are N per metre of wall, against what moves outwards positive.
     """
 
-    mechanism: str = of_mechanism("What it does, in words", lambda of: of.mechanism)
-    crack: str = of_mechanism("What opens and where, as in the other tables", lambda of: of.crack)
+    mechanism: str = of_candidate_case("What it does, in words", lambda of: of.mechanism)
+    crack: str = of_candidate_case("What opens and where, as in the other tables", lambda of: of.crack)
     counts: bool = of_candidate(
         "Whether it takes part in the verdict, where it is followed", lambda candidate: candidate.counts
     )
-    governs: bool = of_mechanism(
+    governs: bool = of_candidate_case(
         "Whether it governs, so that the numbers of verdicts.csv are its own", lambda of: of.governs
     )
     uplift_multiplier: float = of_candidate(
@@ -598,17 +598,17 @@ class MechanismRow(CaseRow[HeldMechanism]):
         "What holds it at a height: tie, floor or top; empty: nothing", lambda hold: hold.kind
     )
     hold_height_m: float = of_hold("That height above the ground", lambda hold: hold.height)
-    hold_force_at_rest_n_per_m: float = of_mechanism(
+    hold_force_at_rest_n_per_m: float = of_candidate_case(
         "Force there as the mechanism starts; empty where ties keep it shut", lambda of: of.at_rest
     )
-    largest_hold_force_n_per_m: float = of_mechanism(
+    largest_hold_force_n_per_m: float = of_candidate_case(
         "Largest force there over the motion as recorded, without the impacts of the wall; with them it is about 2.8 "
         "times the static force (1.9 to 4.8 in eight of ten walls)",
         lambda of: of.largest,
     )
 
 
-def held_mechanisms(period_result: "PeriodResult", identity: Identity) -> Iterator[HeldMechanism]:
+def candidate_cases(period_result: "PeriodResult", identity: Identity) -> Iterator[CandidateCase]:
     """Yield every mechanism of a structure with each of its holds, and what was found of it; none without a result."""
     if period_result.worst is None:
         return
@@ -626,7 +626,7 @@ def held_mechanisms(period_result: "PeriodResult", identity: Identity) -> Iterat
         governs = candidate.description == period_result.crack or (only and not period_result.crack)
         check = period_result.check_of(candidate)
         for place, hold in enumerate(candidate.reactions or (None,)):
-            yield HeldMechanism(identity, period_result, candidate, governs, own, check, hold, place)
+            yield CandidateCase(identity, period_result, candidate, governs, own, check, hold, place)
 
 
 @dataclass(frozen=True)
@@ -894,7 +894,7 @@ def rows_of_record(
             identity = replace(identity, component=period_result.component)
             verdicts.append(VerdictRow.of(OfStructure(identity, period_result)))
         with _told(failures, identity, period_result):
-            mechanisms += [MechanismRow.of(each) for each in held_mechanisms(period_result, identity)]
+            mechanisms += [MechanismRow.of(each) for each in candidate_cases(period_result, identity)]
     components = list(zip(identities, result.components, strict=True))
     return RecordRows(
         record=[RecordRow.of(ReadComponent(*each, licence, epicentre)) for each in components],

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from rocking.codes.check import Check, DynamicCheck, StructureCheck
-from rocking.codes.local_mechanism import LIMIT_STATES, LocalMechanism
+from rocking.codes.code_capacity import LIMIT_STATES, CodeCapacity
 from rocking.codes.selection import Selection
 from rocking.products.checks.rows import KINDS
 from rocking.reports.drawings import draw_dimensions, draw_structure
@@ -47,9 +47,9 @@ def bars_figure(checked: StructureCheck, untied: StructureCheck | None, words: S
     figure = new_figure(_HEIGHT)
     mechanism = checked.governing
     drawn = panel_at(figure, 2, 6, 58, _HEIGHT - 10)
-    rotation = mechanism.sign * _TURNED * mechanism.static.side.critical_rotation
+    rotation = mechanism.candidate.sign * _TURNED * mechanism.static.side.critical_rotation
     # The values beside loads and ties are English; on an Italian page they stand among the assumptions alone.
-    draw_structure(drawn, mechanism.body, rotation, values=words.language == "en")
+    draw_structure(drawn, mechanism.candidate.structure, rotation, values=words.language == "en")
     drawn.set_aspect("equal", adjustable="datalim")
     drawn.margins(0.08)
     drawn.autoscale_view()
@@ -173,7 +173,7 @@ def basis_figure(structure: Structure, checked: StructureCheck, words: Sentences
     return figure
 
 
-def _draw_capacity(axes: Axes, mechanism: LocalMechanism, words: Sentences) -> None:
+def _draw_capacity(axes: Axes, mechanism: CodeCapacity, words: Sentences) -> None:
     """a against d with its limit displacements and the secants whose periods the check takes."""
     side = mechanism.static.side
     bends = np.array(side.bends)

@@ -20,8 +20,8 @@ from rocking.codes.check import (
     StructureCheck,
     says_nothing,
 )
+from rocking.codes.code_capacity import LIMIT_STATES, CodeCapacity
 from rocking.codes.kinds import CheckKind
-from rocking.codes.local_mechanism import LIMIT_STATES, LocalMechanism
 from rocking.codes.selection import SETS, Selection
 from rocking.errors import RockingError, one_structure
 from rocking.floors.place import GROUND, Place
@@ -62,8 +62,11 @@ class CheckedStructure:
     records, stations, earthquakes: how many there are, but for those of which it cannot be told; still: stations at
     which nothing lifts it. verdicts: stations by the worst verdict on it there, and doubts: what may make
     one worse than said. reserves: under each record of the study under which one was sought; reserve_doubts: the kinds
-    of doubt for which they may be too high. mechanisms: all in which it may fall. peaks: the least and the largest peak
-    acceleration of the records of the study as they act, m/s². remarks: on the structure and on the design level.
+    of doubt for which they may be too high. mechanisms: all in which it may fall. mechanism_shares: of each that was
+    followed the share of its members that overturns, the mean over stations; largest_forces: the largest force of each
+    of its holds over all records, N per metre, nan where it was not followed as recorded. peaks: the least and the
+    largest peak acceleration of the records of the study as they act, m/s². remarks: on the structure and on the design
+    level.
     """
 
     name: str
@@ -85,7 +88,9 @@ class CheckedStructure:
     doubts: Sequence[Kind] = ()
     reserves: Sequence[Reserve] = ()
     reserve_doubts: Sequence[Kind] = ()
-    mechanisms: Sequence["ListedMechanism"] = ()
+    mechanisms: Sequence[Candidate] = ()
+    mechanism_shares: Mapping[Candidate, float] = field(default_factory=dict)
+    largest_forces: Mapping[Candidate, Sequence[float]] = field(default_factory=dict)
     peaks: tuple[float, float] = (math.nan, math.nan)
     remarks: Sequence[Remark] = ()
 
@@ -98,19 +103,6 @@ class CheckedStructure:
     def has_ties(self) -> bool:
         """Whether ties hold it."""
         return isinstance(self.structure, Tied) and bool(self.structure.tie_heights)
-
-
-@dataclass(frozen=True, eq=False)
-class ListedMechanism:
-    """One mechanism in which a structure may fall, and what the records of the study say of it.
-
-    share: of its members that overturn, the mean over stations; nan where no record asked for them. largest: the
-    largest force of each of its holds over all records, N per metre; nan where it was not followed as recorded.
-    """
-
-    candidate: Candidate
-    share: float = math.nan
-    largest: Sequence[float] = ()
 
 
 def structures_data(
@@ -414,7 +406,7 @@ def _reserve(page: CheckedStructure, words: Sentences) -> tuple[str, str]:
     return f"{words.number(reached.min(), 2)}\u00a0×", words("sure reserve", doubts=doubts)
 
 
-def _assumptions(page: CheckedStructure, mechanism: LocalMechanism, words: Sentences) -> list[str]:
+def _assumptions(page: CheckedStructure, mechanism: CodeCapacity, words: Sentences) -> list[str]:
     """What the checks take for given, to be confirmed on site."""
     structure = page.structure
     given = [each for each in structure.described.values if each.value is not False]
@@ -514,21 +506,22 @@ def _mechanism_table(page: CheckedStructure, words: Sentences) -> Table:
         (words("head overturns"), "auto", "r"),
         (words("head holds"), "2", "l"),
     ]
-    weakest: dict[tuple[str, int], ListedMechanism] = {}
-    for each in sorted(page.mechanisms, key=lambda each: each.candidate.uplift_multiplier):
-        weakest.setdefault((each.candidate.name, each.candidate.sign), each)
-    shown = [each for each in page.mechanisms if each in weakest.values() or not math.isnan(each.share)]
+    weakest: dict[tuple[str, int], Candidate] = {}
+    for candidate in sorted(page.mechanisms, key=lambda candidate: candidate.uplift_multiplier):
+        weakest.setdefault((candidate.name, candidate.sign), candidate)
     lines: list[list[Cell]] = []
-    for each in shown:
-        candidate = each.candidate
+    for candidate in page.mechanisms:
+        share = page.mechanism_shares.get(candidate)
+        if share is None and candidate not in weakest.values():
+            continue
         multiplier = candidate.uplift_multiplier
         lines.append(
             [
                 _falls(candidate, words),
                 words.number(multiplier) if math.isfinite(multiplier) else words("held shut"),
                 "–" if candidate.refusal else words.number(candidate.side.frequency_parameter),
-                "–" if math.isnan(each.share) else words.percents(each.share),
-                _holds(each, words),
+                "–" if share is None else words.percents(share),
+                _holds(candidate, page.largest_forces.get(candidate, ()), words),
             ]
         )
     return table(heads, lines)
@@ -537,20 +530,19 @@ def _mechanism_table(page: CheckedStructure, words: Sentences) -> Table:
 def _falls(candidate: Candidate, words: Sentences) -> str:
     """What falls, and where it opens."""
     if words.language != "en":
-        return _opens(candidate.structure, candidate.sign, words, candidate.part)
+        return _opens(candidate, words)
     alone = f"{candidate.part} alone" if candidate.part else ""
     opens = candidate.description.removeprefix(alone).removeprefix(", ")
     opens = opens.removesuffix(f" ({candidate.name.removeprefix(alone).strip()})")
     return candidate.name if opens in ("", AS_GIVEN) else f"{candidate.name}: {opens}"
 
 
-def _holds(mechanism: ListedMechanism, words: Sentences) -> str:
+def _holds(candidate: Candidate, largest_forces: Sequence[float], words: Sentences) -> str:
     """The force at each height at which something holds it, as it starts and the largest over the records."""
-    candidate = mechanism.candidate
     holds = candidate.reactions if math.isfinite(candidate.uplift_multiplier) else ()
     texts = []
     for place, hold in enumerate(holds):
-        largest = mechanism.largest[place] if place < len(mechanism.largest) else math.nan
+        largest = largest_forces[place] if place < len(largest_forces) else math.nan
         key = "hold" if math.isnan(largest) else "hold in motion"
         texts.append(
             words(
@@ -576,15 +568,16 @@ def _valued(check: Check, value: float, words: Sentences) -> str:
     return f"{letter} = {words.quantity(value, check.unit)}"
 
 
-def opening_words(mechanism: LocalMechanism, words: Sentences) -> str:
+def opening_words(mechanism: CodeCapacity, words: Sentences) -> str:
     """Return what opens, and to which side it falls."""
     if words.language == "en":
         return mechanism.description
-    return _opens(mechanism.body, mechanism.sign, words, mechanism.part)
+    return _opens(mechanism.candidate, words)
 
 
-def _opens(body: Structure, sign: int, words: Sentences, part: str) -> str:
-    """What opens of a body with one crack, and to which side it falls; part: the leaf that falls alone, or ""."""
+def _opens(candidate: Candidate, words: Sentences) -> str:
+    """What opens, and to which side it falls."""
+    body = candidate.structure
     opening = body.opening if isinstance(body, Tied) else None
     position = getattr(body, "crack_position", math.nan)
     if opening is not None:
@@ -599,8 +592,8 @@ def _opens(body: Structure, sign: int, words: Sentences, part: str) -> str:
         opens = words("opens at", height=words.number(position))
     else:
         opens = words("opens as given")
-    side = "" if body.symmetric else words(f"side {body.side_names[0 if sign >= 0 else 1]}")
-    return ", ".join(filter(None, (words(f"alone {part}") if part else "", opens, side)))
+    side = "" if body.symmetric else words(f"side {body.side_names[0 if candidate.sign >= 0 else 1]}")
+    return ", ".join(filter(None, (words(f"alone {candidate.part}") if candidate.part else "", opens, side)))
 
 
 def _sentences(page: CheckedStructure, checked: StructureCheck, words: Sentences) -> list[str]:

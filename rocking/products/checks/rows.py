@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from rocking.assessment.rows import Placed, PlacedRow
 from rocking.codes.check import Check, DynamicCheck, Part, StructureCheck
-from rocking.codes.local_mechanism import LimitPoint, LocalMechanism
+from rocking.codes.code_capacity import CodeCapacity, LimitPoint
 from rocking.tables import Columns, row
 
 KINDS = {
@@ -37,7 +37,7 @@ class MadeCheck(Placed):
         return self.checked.with_any_crack(self.check)
 
     @property
-    def governing(self) -> LocalMechanism:
+    def governing(self) -> CodeCapacity:
         """The mechanism that governs."""
         return self.checked.governing
 

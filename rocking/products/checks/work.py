@@ -21,13 +21,14 @@ from rocking.codes.selection import Selection
 from rocking.errors import ConfigurationError, RockingError, one_structure
 from rocking.floors.support import Support
 from rocking.products.checks.conclusion import CodeConclusion, code_conclusion_in_words, code_conclusions
-from rocking.products.checks.report import CheckedStructure, ListedMechanism, structures_data
+from rocking.products.checks.report import CheckedStructure, structures_data
 from rocking.products.checks.rows import KINDS, CodeCheckRow, code_check_rows
 from rocking.records import load_catalogue
 from rocking.records.sample import Sample
 from rocking.remarks import Remark
 from rocking.reports.pages import Panel, Part
 from rocking.reports.printing import sentence, strong, table_of, words, write_document
+from rocking.structures.structure import Candidate
 from rocking.structures.tied import Tied
 from rocking.study.documents import made_or_told
 from rocking.study.job import Job, Study
@@ -146,7 +147,7 @@ def write_checks(
             try:
                 with one_structure(name):
                     if page.checked:
-                        page = replace(page, mechanisms=_mechanisms(scene, of_scene, station_of))
+                        page = _with_mechanisms(page, of_scene, station_of)
             except RockingError as error:
                 page = replace(page, checked=None, refusal=error.remark or str(error))
             pages.append(page)
@@ -229,15 +230,17 @@ def _checked(
     )
 
 
-def _mechanisms(
-    scene: Scene, rows: Sequence[MechanismRow], station_of: Mapping[str, str]
-) -> list[ListedMechanism]:
-    """Every mechanism of a scene with what its rows say: the mean share over stations, the largest forces of holds."""
+def _with_mechanisms(
+    page: CheckedStructure, rows: Sequence[MechanismRow], station_of: Mapping[str, str]
+) -> CheckedStructure:
+    """The page with every mechanism, and what the rows of its scene say: mean shares over stations, largest forces."""
     found: dict[str, list[MechanismRow]] = {}
     for row in rows:
         found.setdefault(row.crack, []).append(row)
-    listed = []
-    for candidate in mechanisms_of(scene.structure):
+    mechanisms = mechanisms_of(page.structure)
+    mean_shares: dict[Candidate, float] = {}
+    largest_forces: dict[Candidate, list[float]] = {}
+    for candidate in mechanisms:
         shares: dict[str, dict[str, float]] = {}
         forces: dict[float, float] = {}
         for row in found.get(candidate.description, ()):
@@ -246,15 +249,11 @@ def _mechanisms(
                 shares.setdefault(station_of[row.record], {})[row.record] = share
             so_far = forces.get(row.hold_height_m, math.nan)
             forces[row.hold_height_m] = float(np.fmax(so_far, row.largest_hold_force_n_per_m))
-        of_stations = [sum(each.values()) / len(each) for each in shares.values()]
-        listed.append(
-            ListedMechanism(
-                candidate,
-                sum(of_stations) / len(of_stations) if of_stations else math.nan,
-                [forces.get(each.height, math.nan) for each in candidate.reactions],
-            )
-        )
-    return listed
+        of_stations = [sum(of_records.values()) / len(of_records) for of_records in shares.values()]
+        if of_stations:
+            mean_shares[candidate] = sum(of_stations) / len(of_stations)
+        largest_forces[candidate] = [forces.get(hold.height, math.nan) for hold in candidate.reactions]
+    return replace(page, mechanisms=mechanisms, mechanism_shares=mean_shares, largest_forces=largest_forces)
 
 
 def verdicts_by_station(verdicts: Iterable[VerdictRow], station_of: Mapping[str, str]) -> Counter[Verdict]:

@@ -8,8 +8,8 @@ from rocking.assessment.cracks import cracks
 from rocking.errors import StructureError
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
-from rocking.structures.alone import as_structure
 from rocking.structures.linkage import UnknownContacts
+from rocking.structures.unknown_geometry import as_structure
 
 BLOCK = rocking.Block(2.0, 0.2)
 SHAKEN = Accelerogram(Pulse(3.0, 5.0, 0.5).acceleration(np.arange(600) * 0.01), 0.01)

@@ -29,8 +29,8 @@ from rocking.contacts.dynamics import SECONDS_A_STEP, STEP, follow_stack
 from rocking.errors import MotionError
 from rocking.quantities import GRAVITY
 from rocking.remarks import Remark
-from rocking.structures.alone import as_structure
 from rocking.structures.stack import COURSES
+from rocking.structures.unknown_geometry import as_structure
 
 CONTACT = AssessmentSettings(fidelity="contact")
 SPIRE = Spire(width=3.0, height=15.0, wall_thickness=0.25)

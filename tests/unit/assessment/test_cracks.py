@@ -9,7 +9,7 @@ import pytest
 import rocking
 from rocking.assessment import contacts
 from rocking.assessment.assessor import Assessor
-from rocking.assessment.cracks import cracks, ensemble_over_cracks
+from rocking.assessment.cracks import cracks, ensemble_over_cracks, slides_at
 from rocking.assessment.decide import Verdict, decide
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.inputs import CaseInputs
@@ -136,8 +136,8 @@ def test_a_crack_that_is_known_decides_and_what_falls_beside_it_is_told():
 def test_a_body_that_needs_more_friction_than_it_has_slides_as_the_ground_reaches_that_friction():
     """Coulomb: μ g below tan α g, and never on more friction than tan α."""
     (body,) = cracks(Block.of_size(1.0, 1.25))
-    assert [body.slides_at(friction) for friction in (0.3, 0.6)] == pytest.approx([0.3, 0.6])
-    assert math.isnan(body.slides_at(0.81))
+    assert [slides_at(body, friction) for friction in (0.3, 0.6)] == pytest.approx([0.3, 0.6])
+    assert math.isnan(slides_at(body, 0.81))
 
 
 def test_the_crack_that_governs_is_found_by_its_description():

@@ -24,11 +24,11 @@ SAFEST_FIRST = (
 )
 
 
-def crack(falls, members=64, failed=0, farthest=0.8, name="hinge", slides=False, counts=True):
+def crack(falls, members=64, failed=0, farthest=0.8, name="hinge", *, slides=False, counts=True):
     """A crack of so many members, of which some failed and some of the others fall."""
     followed = members - failed
     farthest = math.nan if not followed else math.inf if falls else farthest
-    return CrackFacts(name, falls, followed, failed, farthest, slides, counts)
+    return CrackFacts(name, falls, followed, failed, farthest, slides=slides, counts=counts)
 
 
 def word(**facts):
@@ -589,7 +589,8 @@ def worsened(facts, chance):
             left = each.farthest if followed > 1 else math.nan
             worse += [(falls, followed - 1, failed + 1, left), (falls + 1, followed, failed, math.inf)]
         for counts in worse:
-            other = CrackFacts(each.name, *counts, each.slides, each.counts, each.bulges)
+            falls, followed, failed, farthest = counts
+            other = replace(each, falls=falls, followed=followed, failed=failed, farthest=farthest)
             ways.append({"cracks": (*facts.cracks[:place], other, *facts.cracks[place + 1 :])})
     return replace(facts, **ways[int(chance() * len(ways))])
 

@@ -12,7 +12,7 @@ from rocking.hashes import sha256_of_content
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.structures import Block, LoadedWall
-from rocking.structures.alone import as_structure
+from rocking.structures.unknown_geometry import as_structure
 
 RECORD = Accelerogram(np.sin(np.arange(100.0)), 0.01, "EW")
 MOTION = Motion((RECORD,))

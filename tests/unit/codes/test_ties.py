@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 
 from rocking import Block, DesignSpectrum, Facade, LoadedWall
 from rocking.codes.check import CodeTerms
-from rocking.codes.local_mechanism import LIMIT_STATES
+from rocking.codes.code_capacity import LIMIT_STATES
 from rocking.codes.static_check import kinematic_check
 from rocking.structures.held_wall import Opening
 from rocking.structures.kinds import StructureKind

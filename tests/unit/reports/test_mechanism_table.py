@@ -6,7 +6,7 @@ import pytest
 
 from rocking import DesignSpectrum, Facade, LoadedWall, check
 from rocking.assessment.cracks import mechanisms_of
-from rocking.products.checks.report import CheckedStructure, ListedMechanism, structures_data
+from rocking.products.checks.report import CheckedStructure, structures_data
 from rocking.study.settings import Settings
 
 pytestmark = pytest.mark.usefixtures("undrawn")
@@ -17,13 +17,16 @@ ONE_STOREY = Facade(
 )  # fmt: skip
 
 
-def basis(structure, **values):
+def basis(structure, share=None, forces=()):
+    listed = mechanisms_of(structure)
     page = CheckedStructure(
         name="wall",
         structure=structure,
         checked=check(structure, SPECTRUM),
         untied=check(structure.without_ties(), SPECTRUM) if structure.tie_heights else None,
-        mechanisms=[ListedMechanism(each, **values) for each in mechanisms_of(structure)],
+        mechanisms=listed,
+        mechanism_shares={} if share is None else dict.fromkeys(listed, share),
+        largest_forces=dict.fromkeys(listed, forces),
     )
     return structures_data([page], SPECTRUM, Settings().for_pages).sheets[0].answers[0].basis
 
@@ -41,7 +44,7 @@ def test_the_table_names_each_kind_of_mechanism_once_with_the_force_that_holds_i
     # of cracks at eleven heights the weakest one, about the foot, in which the tie pulls with its strength
     (whole,) = [each for each in rows if each.startswith("overturns about its foot")]
     assert "1.49" in whole
-    followed = texts(basis(ONE_STOREY, share=0.25, largest=[12e3]).mechanisms.rows)
+    followed = texts(basis(ONE_STOREY, share=0.25, forces=[12e3]).mechanisms.rows)
     assert len(followed) == len(mechanisms_of(ONE_STOREY))
     assert all("25\u00a0%" in each for each in followed)
     assert any("tie at 3.60 m: 8.86 (12.0) kN/m" in each for each in followed)

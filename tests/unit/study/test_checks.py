@@ -131,7 +131,8 @@ def test_a_page_lists_the_mechanisms_of_its_own_structure(study, monkeypatch):
     monkeypatch.setattr("rocking.products.checks.work.write_document", lambda *_: None)
     written = Study(scenes, read_settings(settings | DESIGN))
     write_checks(written, folder, [], [filled(RecordRow, record="a", station="a")], mechanisms=rows)
-    assert [(page.name, page.mechanisms[0].share) for page in pages] == [("one", 0.25), ("other", 0.75)]
+    shares = [(page.name, page.mechanism_shares[page.mechanisms[0]]) for page in pages]
+    assert shares == [("one", 0.25), ("other", 0.75)]
 
 
 @pytest.mark.usefixtures("undrawn")

@@ -25,7 +25,7 @@ from tests.unit.study.test_job import _record, _study
 FUNCTIONS = {
     "rocking.assessment.assessor": ("predict", "governing_crack", "cracked"),
     "rocking.assessment.one_case": ("check_model", "ensemble_over_cracks", "other_cracks"),
-    rows_of_record.__module__: ("held_mechanisms",),
+    rows_of_record.__module__: ("candidate_cases",),
 }
 METHODS = ("mechanism", "candidates", "contact_forces", "capacity_curve", "crushing")
 PLACES = [

@@ -13,7 +13,7 @@ from rocking.structures.structure import Structure
 
 
 @dataclass(frozen=True, repr=False)
-class MechanismAlone(Structure):
+class UnknownGeometry(Structure):
     """A mechanism that somebody gives without its geometry: it has one crack, no outline and unknown contacts."""
 
     _contacts_unknown: ClassVar[str] = "a mechanism alone has no contacts that are known"
@@ -51,4 +51,4 @@ class MechanismAlone(Structure):
 
 def as_structure(followed: Structure | Mechanism) -> Structure:
     """Return what is to be followed as a structure."""
-    return MechanismAlone(followed) if isinstance(followed, Mechanism) else followed
+    return UnknownGeometry(followed) if isinstance(followed, Mechanism) else followed

@@ -1,10 +1,10 @@
-"""A local mechanism as the Italian code sees it: one degree of freedom, its capacity curve and its limit states.
+"""The capacity curve of a local mechanism by the Italian code: one degree of freedom, and its limit states.
 
 Circolare 7/2019, C8.7.1.2.1, to the NTC 2018.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from functools import cached_property
 
 import numpy as np
@@ -13,8 +13,8 @@ from numpy.typing import ArrayLike
 from rocking.codes.kinds import CheckKind
 from rocking.quantities import GRAVITY
 from rocking.remarks import Remark
-from rocking.structures import Structure
 from rocking.structures.capacity import StaticCapacity
+from rocking.structures.structure import Candidate
 
 _MOST_FALL = 0.5
 """Share of the largest capacity in acceleration by which it may fall as a part breaks (C8.7.1.2.1.6)."""
@@ -55,26 +55,29 @@ class LimitPoint:
 
 
 @dataclass(frozen=True, eq=False)
-class LocalMechanism:
-    """One mechanism to one side as the code sees it: one degree of freedom, with the confidence factor in it.
+class CodeCapacity:
+    """The capacity of one mechanism to one side by the code: one degree of freedom, with the confidence factor in it.
 
-    description: what opens, to which side. body: the structure with that crack. sign: of the rotation. elastic_period:
-    T_0 of a part free to vibrate, s; 0 of one tied rigidly to the structure. support_loss: horizontal displacement of
-    the control point at which what it carries falls, m; inf where nothing does. one_sided: whether it leans on
-    something. released: how many ruptures of ties that limit its displacement are passed: its limit states lie on the
-    branch of the curve behind them, where that bears more. part: the leaf that falls alone; "" of the whole structure.
+    candidate: the mechanism, with the side to which it falls in its description. elastic_period: T_0 of a part free to
+    vibrate, s; 0 of one tied rigidly to the structure. support_loss: horizontal displacement of the control point at
+    which what it carries falls, m; inf where nothing does. one_sided: whether it leans on something. released: how many
+    ruptures of ties that limit its displacement are passed: its limit states lie on the branch of the curve behind
+    them, where that bears more.
     """
 
-    description: str
-    body: Structure
-    sign: int
+    candidate: Candidate
     static: StaticCapacity
     confidence_factor: float
+    _: KW_ONLY
     elastic_period: float = 0.0
     support_loss: float = math.inf
     one_sided: bool = False
     released: int = 0
-    part: str = ""
+
+    @property
+    def description(self) -> str:
+        """What opens, and to which side it falls."""
+        return self.candidate.description
 
     @property
     def onset_multiplier(self) -> float:
