@@ -33,8 +33,8 @@ from rocking.records import Accelerogram
 from rocking.records.design_spectrum import DesignSpectrum
 from rocking.records.sample import Sample
 from rocking.structures import Structure, structure_from_config
-from rocking.structures.fields import Field, article
-from rocking.structures.structure_list import nearest
+from rocking.structures.description import article, nearest
+from rocking.structures.fields import Field
 
 GRID = 15
 """Values that are tried, in equal ratios from end to end of the range."""

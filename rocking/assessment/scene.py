@@ -28,13 +28,12 @@ from rocking.hashes import sha256_of
 from rocking.quantities import finite, listed, shown
 from rocking.remarks import Remark
 from rocking.structures import Mechanism, Structure
+from rocking.structures.description import LONGEST_KEY, nearest
 from rocking.structures.kinds import StructureKind
 from rocking.structures.structure_list import (
-    LONGEST_KEY,
     NAME,
     TYPES,
     definitions,
-    nearest,
     structure_from_config,
 )
 from rocking.structures.unknown_geometry import as_structure

@@ -15,7 +15,7 @@ from rocking import quantities
 from rocking.remarks import Language, Remark, filled
 from rocking.reports import printing
 from rocking.reports.printing import unit_of
-from rocking.structures.fields import Given
+from rocking.structures.description import Given
 
 
 @dataclass(frozen=True)

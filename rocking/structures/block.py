@@ -8,7 +8,15 @@ import numpy as np
 
 from rocking.errors import SizeError, StructureError
 from rocking.structures.drawing import Path, rectangle, span, swept
-from rocking.structures.fields import OneSided, OptionalUnitWeight, Value, count, length, restitution_value
+from rocking.structures.fields import (
+    OneSided,
+    OptionalUnitWeight,
+    Value,
+    count,
+    form_made_by,
+    length,
+    restitution_value,
+)
 from rocking.structures.linkage import PRESSED, STILL, Parts, Restitution, Turning, check_pressed, inset
 from rocking.structures.stack import MOST_COURSES, Course, Stack, counted_courses, courses_between
 from rocking.structures.structure import CrackedAtHeight, Crushable, unplaced
@@ -86,7 +94,7 @@ class Block(Crushable):
         unit_weight: float | None = None,
     ) -> "Block":
         """Return the block of that breadth and height [m]; the others as for the class."""
-        cls._check_values("of_size", breadth=breadth, height=height)
+        form_made_by(cls, "of_size").check(breadth=breadth, height=height)
         half = np.hypot(breadth, height) / 2
         slenderness = np.arctan2(breadth, height)
         return cls(

@@ -108,9 +108,7 @@ class BuildingPart(Form):
     def construct(self, **values: Any) -> Structure:
         """Return the structure of sizes and options by name, in SI; raises StructureError where it cannot stand."""
         sizes = {each.name: values.pop(each.name, None) for each in self.fields if each.name in _SIZES}
-        for each in self.fields:
-            if sizes.get(each.name) is not None:
-                each.in_si(sizes[each.name])
+        self.check(**{name: size for name, size in sizes.items() if size is not None})
         structure: Structure = super().construct(**self.arguments(sizes), **values)
         return structure
 

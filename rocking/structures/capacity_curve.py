@@ -3,7 +3,7 @@
 import csv
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property, partial
 from itertools import pairwise
 from pathlib import Path
@@ -15,8 +15,9 @@ from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, shown
 from rocking.remarks import Remark
 from rocking.structures.capacity import StaticCapacity, StaticCurve
+from rocking.structures.description import Description
 from rocking.structures.drawing import rectangle
-from rocking.structures.fields import Description, OneSided, RestitutionNumber, Value
+from rocking.structures.fields import OneSided, RestitutionNumber, Value
 from rocking.structures.kinds import StructureKind
 from rocking.structures.linkage import Parts, Turning
 from rocking.structures.mechanism import Mechanism, Side
@@ -190,7 +191,7 @@ class CapacityCurve(Structure):
     @cached_property
     def described(self) -> Description:
         """What it says of itself: the points, so that they count, and not the name of the file that held them."""
-        return super(CapacityCurve, replace(self)).described
+        return Description.of(self)
 
     @property
     def _leaves_out(self) -> Remark:

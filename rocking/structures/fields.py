@@ -10,7 +10,7 @@ from functools import cache, reduce
 from inspect import Parameter, Signature, signature
 from operator import or_
 from types import NoneType
-from typing import Annotated, Any, Literal, NamedTuple, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
 
 import numpy as np
 from annotated_types import Interval, MinLen
@@ -18,8 +18,6 @@ from annotated_types import Interval, MinLen
 from rocking.described import Described
 from rocking.errors import SizeError, StructureError
 from rocking.quantities import LENGTHS, finite, shown
-from rocking.remarks import Remark
-from rocking.structures.kinds import StructureKind
 
 _SI = {
     "°": np.pi / 180,
@@ -204,6 +202,12 @@ class Form:
     made_of: Any
     make: str = ""
 
+    def check(self, **values: object) -> None:
+        """Hold `values` by name, in SI, against what their types say; raises StructureError."""
+        for key in self.fields:
+            if key.name in values:
+                key.in_si(values[key.name])
+
     def construct(self, **values: Any) -> Any:
         """Return the structure of `values` by name, in SI; raises StructureError where it cannot stand."""
         make = getattr(self.made_of, self.make) if self.make else self.made_of
@@ -271,6 +275,11 @@ def forms(kind: Any) -> tuple[Form, ...]:
     return tuple(Form.of(kind, make, meaning) for make, meaning in kind._described_as.items())
 
 
+def form_made_by(kind: Any, make: str) -> Form:
+    """Return the form of a structure's class that its class method `make` takes in a file."""
+    return next(form for form in forms(kind) if form.make == make)
+
+
 def field_of(name: str, hint: Any, value: Value, default: Any = Parameter.empty) -> Field:
     """Return the key of a parameter of that type, its default `Parameter.empty` where it must be given."""
     required = default is Parameter.empty
@@ -290,100 +299,3 @@ def field_of(name: str, hint: Any, value: Value, default: Any = Parameter.empty)
     kinds = [kind_of(each) for each in options if each is not NoneType]
     kind: Any = reduce(or_, [each for each in kinds if each is not None])
     return Field(name, kind, value.meaning, value.unit, default=... if required else default, value=value)
-
-
-def article(kind: str) -> str:
-    """Return `kind` with its article, in words."""
-    name = kind.replace("_", " ")
-    return f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
-
-
-_ROCKS_OVER = ("thickness", "breadth", "width", "column_breadth")
-"""The names of the size over which a body rocks, the first that it has; the breadth of a wall is its length across."""
-
-
-class Given(NamedTuple):
-    """One value of a description: its field, the value in the unit of a file, and how it would be typed."""
-
-    field: Field
-    value: Any
-    text: str
-
-
-@dataclass(frozen=True)
-class Description:
-    """What one structure says of itself: the form in which it is described, and the values of its keys."""
-
-    form: Form
-    values: tuple[Given, ...]
-
-    @property
-    def type_name(self) -> str:
-        """The `type` in a file."""
-        return self.form.type_name
-
-    @property
-    def words(self) -> str:
-        """The description in words with units: "breadth 0.6 m, height 6.0 m"."""
-        shown = [given for given in self.values if given.value is not False]
-        return ", ".join(given.field.phrased(given.text) for given in shown)
-
-    @property
-    def size(self) -> str:
-        """Its sizes in short, as they were typed: "0.6 × 6.0 m", "10 × 1.5 m, 157.5°"."""
-        by_unit: dict[str, list[str]] = {}
-        for given in self.values:
-            if given.field.required and given.field.unit:
-                by_unit.setdefault(given.field.suffix, []).append(given.text)
-        return ", ".join(" × ".join(texts) + unit for unit, texts in by_unit.items())
-
-    @property
-    def remarks(self) -> tuple[Remark, ...]:
-        """A remark on each size beyond its plausible range, and on a body that is broader than it is tall."""
-        unusual = []
-        for given in self.values:
-            low, high = given.field.value.usual or (-np.inf, np.inf)
-            values = given.value if isinstance(given.value, list | tuple) else [given.value]
-            beyond = [each for each in values if isinstance(each, int | float) and not low <= each <= high]
-            if beyond:
-                usual = {"value": beyond[0], "low": float(low), "high": float(high)}
-                words = {"unit": given.field.suffix, "type": article(self.form.type_name)}
-                unusual.append(Remark.of(StructureKind.SIZE_UNUSUAL, given.field.key, **usual, **words))
-        sizes = {given.field.name: given for given in self.values}
-        heights = [sizes[name] for name in ("height", "column_height") if name in sizes]
-        across = [sizes[name] for name in _ROCKS_OVER if name in sizes]
-        if heights and across and across[0].value > heights[0].value:
-            names = {
-                "height": heights[0].field.key,
-                "height_m": heights[0].value,
-                "across_m": across[0].value,
-            }
-            unusual.append(Remark.of(StructureKind.BROADER_THAN_TALL, across[0].field.key, **names))
-        return tuple(unusual)
-
-    @property
-    def front(self) -> np.ndarray:
-        """The outline of its front (k, 2), m, beside the section; (0, 2) where its form knows none."""
-        return self.form.front_of({given.field.name: given.value for given in self.values})
-
-    @property
-    def entry(self) -> dict[str, object]:
-        """The entry of a structure list that describes it, without a name."""
-        return {"type": self.type_name, **{given.field.key: given.value for given in self.values}}
-
-
-def remember_as_typed(
-    structure: object,
-    form: Form,
-    values: Mapping[str, object],
-    texts: Mapping[str, str],
-) -> None:
-    """Let a structure describe itself by the `values` of a file, by key, and by their `texts` as they were typed."""
-    object.__setattr__(structure, "_typed", (form, {key: (values[key], texts[key]) for key in values}))
-
-
-def typed_text(value: object, number: str = "{}") -> str:
-    """Return a value as it would be typed, a float by the format `number`: "6", "momentum", "3.5, 3.2"."""
-    if isinstance(value, list | tuple):
-        return ", ".join(typed_text(each, number) for each in value)
-    return number.format(value) if isinstance(value, float) else str(value)

@@ -15,17 +15,9 @@ from rocking.errors import DoesNotStandError, SizeError, StructureError, Structu
 from rocking.quantities import GRAVITY, within
 from rocking.remarks import Remark
 from rocking.structures.capacity import StaticCapacity, StaticCurve
-from rocking.structures.drawing import Dimension, Mark, Path, plane, span
-from rocking.structures.fields import (
-    CompressiveStrength,
-    Description,
-    Given,
-    PlainSignature,
-    Value,
-    constructor,
-    forms,
-    typed_text,
-)
+from rocking.structures.description import Description
+from rocking.structures.drawing import Dimension, Mark, Path, plane
+from rocking.structures.fields import CompressiveStrength, PlainSignature, Value, constructor
 from rocking.structures.kinds import StructureKind
 from rocking.structures.linkage import (
     HIGHEST_SHARE,
@@ -48,8 +40,6 @@ from rocking.structures.stones import Stones
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-
-_SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 AS_GIVEN = "as given"
 """The description of the one mechanism of what does not crack."""
@@ -122,14 +112,6 @@ class Structure(ABC):
                 "it leans on takes part in the impact; give it."
             )
 
-    @classmethod
-    def _check_values(cls, make: str, **values: object) -> None:
-        """Hold `values` of the class method `make` against what their types say; raises StructureError."""
-        form = next(each for each in forms(cls) if each.make == make)
-        for each in form.fields:
-            if each.name in values:
-                each.in_si(values[each.name])
-
     def __repr__(self) -> str:
         """The description, and the first remark on unusual values."""
         return " ".join([f"{type(self).__name__}({self.description})", *map(str, self.described.remarks[:1])])
@@ -155,9 +137,9 @@ class Structure(ABC):
         return self._mechanism
 
     def __getstate__(self) -> dict[str, Any]:
-        """The fields and what was typed: the rest is computed again after a copy or in another process."""
-        state = {each.name: getattr(self, each.name) for each in fields(self)}
-        return state | ({"_typed": self.__dict__["_typed"]} if "_typed" in self.__dict__ else {})
+        """The fields and its description as typed: the rest is computed again after a copy or in another process."""
+        kept = [*(field.name for field in fields(self)), "_described"]
+        return {name: self.__dict__[name] for name in kept if name in self.__dict__}
 
     @property
     def symmetric(self) -> bool:
@@ -396,24 +378,7 @@ class Structure(ABC):
 
     def dimensions(self) -> tuple[Dimension, ...]:
         """Return the dimension lines of the sizes it was described by, at rest; of a list, one for each value."""
-        lines = []
-        paths = dict(self._dimensions())
-        front = self.described.front
-        if len(front):
-            paths["front"] = span(front[0], front[1], [0.0, -0.06 * front[:, 1].max()])
-        for given in self.described.values:
-            letter = given.field.value.letter
-            unit = given.field.suffix
-            path = paths.get(given.field.value.dimension or given.field.name, [])
-            if not isinstance(path, list):
-                lines.append(Dimension(letter, given.text + unit, *path))
-                continue
-            # A drawing may show fewer dimensions than the list has values.
-            shown = zip(given.text.split(", "), path, strict=False)
-            for number, (text, own_path) in enumerate(shown, start=1):
-                numbered = letter + str(number).translate(_SUBSCRIPTS)
-                lines.append(Dimension(numbered, text + unit, *own_path))
-        return tuple(lines)
+        return self.described.dimensions(self._dimensions())
 
     def marks(self, rotation: float = 0.0) -> tuple[Mark, ...]:
         """Return the loads, thrusts, ties and supports on it at a signed `rotation` [rad]."""
@@ -474,24 +439,9 @@ class Structure(ABC):
 
     @property
     def described(self) -> Description:
-        """What it says of itself in a file: as it was typed, or else in the first of its forms.
-
-        Options that were not given are left out.
-        """
-        if "_typed" in self.__dict__:
-            form, typed = self.__dict__["_typed"]
-            given = [Given(each, *typed[each.key]) for each in form.fields if each.key in typed]
-            return Description(form, tuple(given))
-        form = forms(type(self))[0]
-        defaults = {each.name: each.default for each in constructor(type(self)).fields}
-        values = []
-        for each in form.fields:
-            value = getattr(self, each.name)
-            is_an_option_given = value is not None and value != defaults.get(each.name)
-            if each.required or is_an_option_given:
-                outside = each.outward(value)
-                values.append(Given(each, outside, typed_text(outside, "{:.6g}")))
-        return Description(form, tuple(values))
+        """What it says of itself in a file: as it was typed, or else in the first of its forms."""
+        typed: Description | None = self.__dict__.get("_described")
+        return typed or Description.of(self)
 
     @cached_property
     def _mechanism(self) -> Mechanism:

@@ -1,18 +1,17 @@
 """The types of structure there are, and the structure that an entry of a list describes.
 
-Degrees, metres and kilonewtons outside, SI and radians inside; each size is remembered as it was typed. The JSON schema
-follows from the forms of the types.
+Degrees, metres and kilonewtons outside, SI and radians inside; the structure describes itself as it was typed. The JSON
+schema follows from the forms of the types.
 """
 
-from collections.abc import Iterable, Mapping
-from difflib import get_close_matches
+from collections.abc import Mapping
 from pkgutil import resolve_name
-from typing import Any
 
-from rocking.errors import ConfigurationError, SizeError
+from rocking.errors import ConfigurationError
 from rocking.quantities import shown
 from rocking.structures.building_parts import PARTS
-from rocking.structures.fields import Form, article, forms, remember_as_typed, typed_text
+from rocking.structures.description import Description, nearest
+from rocking.structures.fields import Form, forms
 from rocking.structures.other_names import answer
 from rocking.structures.structure import Structure
 
@@ -78,67 +77,8 @@ def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str
         hint = f" ({known.words})" if known else nearest(kind, TYPES, _ALIKE)
         given = "missing" if kind is None else shown(kind)
         raise ConfigurationError(f"type is {given}, but must be one of {', '.join(TYPES)}{hint}.")
-    values = {
-        key: value for key, value in mapping.items() if key not in ("type", "name") and value is not None
-    }
-    form = _form(kind, values, [key for key in mapping if key not in ("type", "name")])
-    arguments: dict[str, Any] = {
-        form.keys[key].name: form.keys[key].inward(value) for key, value in values.items()
-    }
-    try:
-        structure: Structure = form.construct(**arguments)
-    except SizeError as error:
-        # By the key of the file, and as it was typed; of a list it is the one value that is wrong.
-        key = next((key for key, field in form.keys.items() if field.name == error.field), error.field)
-        typed = values.get(key)
-        value = error.shown if typed is None or isinstance(typed, list | tuple) else shown(typed)
-        raise SizeError.of(key, value, error.said) from None
-    remember_as_typed(
-        structure, form, values, {key: typed_text(value) for key, value in values.items()} | dict(texts or {})
-    )
+    structure: Structure = Description.read(TYPES[kind], mapping, texts or {}).structure()
     return structure
-
-
-def _form(kind: str, values: Mapping[str, object], keys_typed: Iterable[str]) -> Form:
-    """The form of `kind` that the keys of `values` fill; ConfigurationError names what is unknown, missing or too much.
-
-    keys_typed: those of `values`, and those whose value was left blank.
-    """
-    of_kind = TYPES[kind]
-    allowed = {key for form in of_kind for key in form.keys}
-    for key in keys_typed:
-        if key not in allowed:
-            keys = ", ".join(sorted(allowed))
-            if str(key).isdigit() and key not in values:
-                raise ConfigurationError(
-                    f"{key} is not a key of {article(kind)}: a comma parts the entries within braces; write a number "
-                    f"with a point, as in 3.{key}."
-                )
-            name = str(key) if len(str(key)) <= LONGEST_KEY else shown(key)
-            raise ConfigurationError(
-                f"{name} is not a key of {article(kind)}{nearest(key, allowed)}; use {keys}."
-            )
-    form = max(of_kind, key=lambda form: len(set(form.required) & values.keys()))
-    missing = [key for key in form.required if key not in values]
-    if missing:
-        raise ConfigurationError(
-            f"{article(kind)} needs {' and '.join(missing)}; give {'it' if len(missing) == 1 else 'them'}."
-        )
-    foreign = [key for key in values if key not in form.keys]
-    if foreign:
-        raise ConfigurationError(
-            f"{article(kind)} is given {' and '.join(foreign)} beside {' and '.join(form.required)}; give one set."
-        )
-    return form
-
-
-LONGEST_KEY = 80
-"""Characters of a key that is compared with those that exist, and repeated as it is."""
-
-
-def nearest(word: object, allowed: Iterable[str], likeness: float = 0.5) -> str:
-    nearest = get_close_matches(str(word)[:LONGEST_KEY], list(allowed), n=1, cutoff=likeness)
-    return f" (did you mean {nearest[0]}?)" if nearest else ""
 
 
 NAME = {

@@ -18,8 +18,8 @@ from rocking.structures.fields import (
     OneSided,
     OptionalUnitWeight,
     Value,
+    form_made_by,
     length,
-    remember_as_typed,
     restitution_value,
 )
 from rocking.structures.held_wall import HeldWall, Hold, Load, Opening, Storey
@@ -249,7 +249,7 @@ class CrackedWall(CrackedAtHeight, Leaved):
 
         Raises StructureError for a hinge outside the wall, or a crack that is known, but not where.
         """
-        cls._check_values("of_size", height=height)
+        form_made_by(cls, "of_size").check(height=height)
         if hinge_height is None:
             if crack is not None:
                 raise unplaced("hinge_height")
@@ -713,16 +713,7 @@ class LoadedWall(CrackedWall, Tied):
         """Return it with this friction at its top where it states none; it describes itself as it did."""
         if self.top_friction is not None or not self.top_load:
             return self
-        described = self.described
-        made = replace(self, top_friction=coefficient)
-        values = {each.field.key: each for each in described.values}
-        remember_as_typed(
-            made,
-            described.form,
-            {key: each.value for key, each in values.items()},
-            {key: each.text for key, each in values.items()},
-        )
-        return made
+        return self.described.describes(replace(self, top_friction=coefficient))
 
     @property
     def slips(self) -> bool:

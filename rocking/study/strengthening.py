@@ -17,8 +17,8 @@ from rocking.records import Accelerogram, load_catalogue
 from rocking.records.sample import Sample
 from rocking.reports.panels import svg_of
 from rocking.strengthening import Strengthening, Tried, sizes, strengthen_scene
-from rocking.structures.fields import Field, article
-from rocking.structures.structure_list import nearest
+from rocking.structures.description import article, nearest
+from rocking.structures.fields import Field
 from rocking.study.job import Study
 from rocking.study.plan import check_config_file, config_file, make_plan
 from rocking.study.selection import joined_by_station, opened, pool_of
