@@ -86,7 +86,8 @@ def front_trial(component: SiteRecord, place: int) -> FrontTrial:
     free = integrate(both, motion)
     falls = free.outcome is Outcome.OVERTURNS
     half, seven_tenths, nine_tenths = (
-        integrate(replace(both, one_sided=True, restitution=restitution), motion).outcome is Outcome.OVERTURNS
+        integrate(replace(both, behind="cross_walls", restitution=restitution), motion).outcome
+        is Outcome.OVERTURNS
         for restitution in RESTITUTIONS
     )
     return FrontTrial(

@@ -49,7 +49,7 @@ SEVERAL_CRACKS: Mapping[str, Structure] = {
     "open spire": Spire(width=3.0, height=15.0, wall_thickness=0.25),
     "loaded wall": LoadedWall.of_size(6.4, 0.4, 19e3, top_load=1e4, one_sided=True, restitution=0.7),
     "two storeys": Facade(
-        (3.2, 3.2), (0.6, 0.6), 19e3, floor_loads=(1e4, 1e4), one_sided=True, restitution=0.7
+        (3.2, 3.2), (0.6, 0.6), 19e3, floor_loads=(1e4, 1e4), behind="cross_walls", restitution=0.7
     ),
 }
 """Beside the structures of the list, of which few may crack in several places."""

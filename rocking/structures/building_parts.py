@@ -12,7 +12,7 @@ import numpy as np
 from rocking.errors import SizeError
 from rocking.structures.block import Block, RigidBody, Spire
 from rocking.structures.drawing import Path
-from rocking.structures.facade import Facade
+from rocking.structures.facade import Facade, behind_leaf
 from rocking.structures.fields import Field, Form, constructor, field_of, length
 from rocking.structures.leaves import Leaf, Leaved
 from rocking.structures.linkage import Restitution
@@ -92,7 +92,7 @@ def _of_leaf(wall: Block | RigidBody) -> dict[str, Any]:
 def _bonded(height: float, leaf: Leaf, heights: tuple[float, ...], options: dict[str, Any]) -> Facade:
     """A leaf that bonders hold at `heights` [m] and whose top is free."""
     weight = options.pop("unit_weight") or USUAL_WEIGHT
-    return Facade((height,), (leaf.thickness,), weight, held_at=heights, **options)
+    return Facade((height,), (leaf.thickness,), weight, held_at=heights, **behind_leaf(options))
 
 
 @dataclass(frozen=True)

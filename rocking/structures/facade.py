@@ -4,6 +4,7 @@ x = 0 is the outer face, x < 0 the building; the positive side rocks outwards ab
 """
 
 from collections import Counter
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
@@ -97,7 +98,7 @@ class Facade(Tied):
     tie_stiffness : float, default 0.0
         Stiffness of each tie per metre of wall, N/m².
     tie_pretension : float, default 0.0
-        Force of each tie at rest per metre of wall, N/m; needs `one_sided`.
+        Force of each tie at rest per metre of wall, N/m; needs `behind` "cross_walls".
     tie_strength : float or None, optional
         Force per metre of wall at which each tie yields, or breaks where no plastic elongation is given, N/m;
         None: elastic.
@@ -121,11 +122,9 @@ class Facade(Tied):
     rod_modulus : float, default 200000000000.0
         Modulus of elasticity of a rod, Pa.
     rod_pretension : float, default 0.0
-        Force of a rod at rest, N; needs `one_sided`.
+        Force of a rod at rest, N; needs `behind` "cross_walls".
     loaded_leaf : {'inner', 'outer'} or None, optional
         The leaf on which loads bear; None: the inner one.
-    one_sided : bool or None, optional
-        Older name of `behind`: True for "cross_walls", False for "nothing".
     opening : Opening or None, optional
         Which of its mechanisms this is alone; None of a structure as it is listed.
     held_at : tuple of float, optional
@@ -205,14 +204,6 @@ class Facade(Tied):
             phrase="{value} behind",
         ),
     ] = field(default=None, kw_only=True)
-    one_sided: Annotated[
-        bool | None,
-        Value(
-            "Rocks outwards only: true is behind: cross_walls, false is behind: nothing",
-            False,
-            phrase="one-sided",
-        ),
-    ] = field(default=None, kw_only=True)  # type: ignore[assignment]
     inward_restitution: Annotated[
         float | None,
         Value(
@@ -228,7 +219,7 @@ class Facade(Tied):
     def __post_init__(self) -> None:
         super().__post_init__()
         self._check_storeys()
-        self._stand_before()
+        self._check_behind()
         self._check_ties()
         if self.opening is not None:
             return
@@ -275,25 +266,22 @@ class Facade(Tied):
                 f" m, but must lie on the façade, from 0 to below its height of {self.height:.6g} m.",
             )
 
-    def _stand_before(self) -> None:
-        """Hold what stands behind against one_sided, which says whether it moves outwards only as it opens here."""
-        if self.behind is None:
-            return
-        said = {"nothing": True, "floors": False, "cross_walls": False}[self.behind]
-        if self.one_sided is said:
-            raise StructureError(
-                f"one_sided is {self.one_sided!r}, but behind is {self.behind!r}; leave one_sided out, which is an "
-                "older name of behind: true for cross_walls, false for nothing."
+    def _check_behind(self) -> None:
+        """Refuse what stands behind without the restitution of an impact on it."""
+        if self.behind in ("floors", "cross_walls") and not isinstance(self.restitution, float):
+            raise SizeError.of(
+                "restitution",
+                "missing" if self.restitution is None else repr(self.restitution),
+                f", but must be a number between 0 and 1 for a façade with {self.behind.replace('_', ' ')} behind, "
+                "which take part in the impact; give it.",
             )
-        if self.behind != "nothing" and not isinstance(self.restitution, float):
-            raise StructureError(
-                f"restitution is {self.restitution!r}, but must be a number between 0 and 1 for a façade with "
-                f"{self.behind.replace('_', ' ')} behind, which take part in the impact; give it."
-            )
-        opening = self.opening or Opening(self.crack_position)
-        leans = self.held_wall.other_way(opening) is None
-        # Not False where it is free inwards above its floors: that would be said of another crack, too.
-        object.__setattr__(self, "one_sided", True if leans else None)
+
+    @cached_property
+    def one_sided(self) -> bool:
+        """Whether it moves outwards only as it opens here, as something behind stops it."""
+        if self.behind in (None, "nothing"):
+            return False
+        return self.held_wall.other_way(self.opening or Opening(self.crack_position)) is None
 
     @property
     def _sections(self) -> tuple[tuple[float, float, float, float], ...]:
@@ -305,12 +293,10 @@ class Facade(Tied):
 
     @property
     def _leans(self) -> bool:
-        return self.behind == "cross_walls" or bool(self.behind is None and self.one_sided)
+        return self.behind == "cross_walls"
 
     def _alone(self, leaf: Leaf) -> "Facade":
         """A leaf of one thickness over all storeys; floors behind the wall hold the inner one alone."""
-        is_behind = self.behind in ("floors", "cross_walls") and leaf.is_inner and leaf.moves == "both ways"
-        as_wall: dict[str, Any] = {"behind": self.behind, "one_sided": None, "restitution": self.restitution}
         held_at = self.bonder_heights
         if leaf.moves == "inwards":
             held_at = (*held_at, *(hold.height for hold in self.held_wall.holds if hold.inwards == np.inf))
@@ -331,9 +317,16 @@ class Facade(Tied):
             thicknesses=(leaf.thickness,) * len(self.thicknesses),
             held_at=tuple(sorted(set(held_at))),
             **(self.together | loads | self._ties_of(leaf) | cracked),
-            **{"behind": None, "inward_restitution": None}
-            | (as_wall if is_behind else self._stands_as(leaf)),
+            **self._stands_as(leaf),
         )
+
+    def _stands_as(self, leaf: Leaf) -> dict[str, Any]:
+        """Behind the inner leaf stands what does behind the wall; a leaf that only leaves another leans on it."""
+        if leaf.is_inner and leaf.moves == "both ways" and self.behind in ("floors", "cross_walls"):
+            as_wall = {"behind": self.behind, "restitution": self.restitution}
+        else:
+            as_wall = behind_leaf(super()._stands_as(leaf))
+        return {**as_wall, "inward_restitution": None}
 
     @property
     def height(self) -> float:
@@ -370,7 +363,7 @@ class Facade(Tied):
     @property
     def _leaves_out(self) -> Remark | None:
         """A remark where floors stand behind it through which the model lets it rock."""
-        if self.behind or self.one_sided or not (any(self.floor_loads) or self.tie_heights):
+        if self.behind or not (any(self.floor_loads) or self.tie_heights):
             return None
         return Remark(StructureKind.FLOORS_BEHIND)
 
@@ -603,3 +596,9 @@ class Facade(Tied):
         if self.crack_height:
             paths["crack_height"] = [span([0.0, 0.0], [0.0, self.crack_height], [0.06 * self.height, 0.0])]
         return paths
+
+
+def behind_leaf(options: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the options of a leaf alone as a façade takes them: the leaf that it leans on stands behind it."""
+    others = {name: value for name, value in options.items() if name != "one_sided"}
+    return {"behind": "cross_walls" if options["one_sided"] else None, **others}

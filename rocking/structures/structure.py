@@ -83,7 +83,6 @@ class Structure(ABC):
     needs_stones: ClassVar[bool] = False
     _usual_restitution: ClassVar[float | str] = "momentum"
     statics_chooses: ClassVar[bool] = False
-    one_sided = False
     _contacts_unknown: ClassVar[str] = ""
     together: ClassVar[dict[str, Any]] = {}
 
@@ -104,12 +103,13 @@ class Structure(ABC):
             value = getattr(self, each.name)
             if value is not each.default:
                 object.__setattr__(self, each.name, each.in_si(value))
-        restitution = self._given_restitution
-        if self.one_sided and not isinstance(restitution, float):
-            given = "missing" if restitution is None else repr(restitution)
-            raise StructureError(
-                f"restitution is {given}, but a one-sided body needs its own number between 0 and 1, as what "
-                "it leans on takes part in the impact; give it."
+        # As it is typed: whether a façade is, follows from its geometry, which is checked later.
+        if vars(self).get("one_sided") and not isinstance(self._given_restitution, float):
+            raise SizeError.of(
+                "restitution",
+                "missing" if self._given_restitution is None else repr(self._given_restitution),
+                ", but a one-sided body needs its own number between 0 and 1, as what it leans on takes part in the "
+                "impact; give it.",
             )
 
     def __repr__(self) -> str:
@@ -140,6 +140,11 @@ class Structure(ABC):
         """The fields and its description as typed: the rest is computed again after a copy or in another process."""
         kept = [*(field.name for field in fields(self)), "_described"]
         return {name: self.__dict__[name] for name in kept if name in self.__dict__}
+
+    @property
+    def one_sided(self) -> bool:
+        """Whether it rocks to the positive side only, as it leans on something; a key of types that may."""
+        return False
 
     @property
     def symmetric(self) -> bool:

@@ -15,7 +15,7 @@ from rocking.errors import DoesNotStandError, SizeError, StructureError, Structu
 from rocking.quantities import GRAVITY
 from rocking.remarks import Remark
 from rocking.structures.drawing import Mark, plane
-from rocking.structures.fields import OneSided, Value
+from rocking.structures.fields import Value
 from rocking.structures.held_wall import Chain, HeldWall, Hold, Opening
 from rocking.structures.kinds import StructureKind
 from rocking.structures.leaves import Leaf, Leaved, of_leaf
@@ -105,7 +105,6 @@ class Tied(CrackedAtHeight, Leaved):
     tie_heights: of ties above the ground, m; tie_stiffness: of each, N/m per m; tie_pretension, N/m; tie_strength,
     N/m, None for elastic ties, and tie_plastic_elongation, m, by which they yield before they break. A tie pulls
     inwards only; one that is tightened needs a structure that cannot rock inwards.
-    one_sided: it leans on cross walls and rocks outwards only; restitution must then be a number.
     tie_spacing: of the ties of a row along the wall, m, with the unit_length of the masonry, m, or held_between:
     "floor" where a stiff floor or a ring beam holds all along; without a spacing they are taken to. rod_diameter,
     rod_length, m, rod_yield_stress and rod_modulus, Pa, rod_pretension, N: of each rod, in place of the stiffness
@@ -128,7 +127,8 @@ class Tied(CrackedAtHeight, Leaved):
         float, Value("Stiffness of each tie per metre of wall, kN/m per m", 50.0, "kN/m²", (1, 1e5), "k")
     ] = field(default=0.0, kw_only=True)
     tie_pretension: Annotated[
-        float, Value("Force of each tie at rest; needs one_sided", 0.0, "kN/m", (0, 200), "T")
+        float,
+        Value("Force of each tie at rest; needs a wall that cannot move inwards", 0.0, "kN/m", (0, 200), "T"),
     ] = field(default=0.0, kw_only=True)
     tie_strength: Annotated[
         float | None,
@@ -207,7 +207,7 @@ class Tied(CrackedAtHeight, Leaved):
         Value("Modulus of elasticity of a rod", None, "GPa", (60, 210), bounds={"ge": 1, "le": 1000}),
     ] = field(default=200e9, kw_only=True)
     rod_pretension: Annotated[
-        float, Value("Force of a rod at rest; needs one_sided", None, "kN", (0, 200))
+        float, Value("Force of a rod at rest; needs a wall that cannot move inwards", None, "kN", (0, 200))
     ] = field(default=0.0, kw_only=True)
     loaded_leaf: Annotated[
         Literal["inner", "outer"] | None,
@@ -217,7 +217,6 @@ class Tied(CrackedAtHeight, Leaved):
             phrase="loads on the {value} leaf",
         ),
     ] = field(default=None, kw_only=True)
-    one_sided: OneSided = field(default=False, kw_only=True)
     opening: Opening | None = field(default=None, kw_only=True)
     held_at: tuple[float, ...] = field(default=(), kw_only=True)
 
@@ -782,7 +781,8 @@ class Tied(CrackedAtHeight, Leaved):
             raise SizeError.of(
                 "tie_pretension",
                 repr(pretension),
-                ", but must be 0 unless the wall is one_sided: moving inwards, a tightened tie goes slack.",
+                ", but must be 0 unless the wall cannot move inwards (one_sided, or behind: cross_walls of a façade): "
+                "moving inwards, a tightened tie goes slack.",
             )
 
 

@@ -602,6 +602,7 @@ class LoadedWall(CrackedWall, Tied):
         ),
     ] = False
     restitution: Balanced = None
+    one_sided: OneSided = field(default=False, kw_only=True)
     top_friction: Annotated[
         float | None,
         Value(

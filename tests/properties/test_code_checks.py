@@ -26,7 +26,7 @@ SPIRES = st.builds(
 FACADES = st.builds(
     lambda t, load, strength: Facade(
         (3.5, 3.0), (t, 0.8 * t), 20e3, floor_loads=(load, load / 2), eccentricity=t / 10, tie_heights=(6.0,),
-        tie_stiffness=4e5, tie_strength=strength, crack_storey=1, crack="known", one_sided=True, restitution=0.6,
+        tie_stiffness=4e5, tie_strength=strength, crack_storey=1, crack="known", behind="cross_walls", restitution=0.6,
     ),
     st.floats(0.4, 0.9),
     st.floats(1e3, 20e3),

@@ -279,7 +279,7 @@ def test_a_wall_falls_as_it_bulges_below_the_tie_that_holds_it_for_good(crack):
         (0.4, 0.4),
         19e3,
         floor_loads=(1e4, 1e4),
-        one_sided=True,
+        behind="cross_walls",
         restitution=0.7,
         tie_heights=(6.4,),
         tie_stiffness=2e7,
@@ -324,7 +324,7 @@ def test_what_a_tie_keeps_shut_caps_no_word(step):
 def test_a_held_wall_that_turns_far_only_probably_stands():
     """Row 8b: beyond 0.4 φ_cr of any mechanism, in any member; what its contacts need is left out."""
     front = Facade(
-        (3.2,), (0.4,), 19e3, one_sided=True, restitution=0.5, tie_heights=(3.2,), tie_stiffness=2e7
+        (3.2,), (0.4,), 19e3, behind="cross_walls", restitution=0.5, tie_heights=(3.2,), tie_stiffness=2e7
     )
     words = {}
     for amplitude in (4.0, 5.0):

@@ -108,7 +108,7 @@ def test_an_estimate_settles_up_to_the_risk_and_on_the_side_where_it_lies():
 def test_a_block_unlike_its_mechanism_settles_nothing_and_gets_no_estimate():
     """A wall on stiff ties: no line is near its restoring force (theory: the equivalent block)."""
     tie = {"tie_heights": (3.4,), "tie_stiffness": 1e6}
-    tied = Facade((3.5,), (0.6,), 20e3, **tie, one_sided=True, restitution=0.5)
+    tied = Facade((3.5,), (0.6,), 20e3, **tie, behind="cross_walls", restitution=0.5)
     mechanism = tied.mechanism()
     assert mechanism.block_defects.restoring > 1
     strong = record(40.0 * mechanism.uplift_multiplier / MECHANISM.uplift_multiplier)

@@ -12,7 +12,7 @@ from rocking.structures import Facade
 
 ONE_RUN = AssessmentSettings(ensemble=EnsembleSettings(members=0))
 TIED = Facade(
-    (3.2, 3.2), (0.4, 0.4), 19e3, floor_loads=(1e4, 1e4), one_sided=True, restitution=0.7, tie_heights=(6.4,),
+    (3.2, 3.2), (0.4, 0.4), 19e3, floor_loads=(1e4, 1e4), behind="cross_walls", restitution=0.7, tie_heights=(6.4,),
     tie_stiffness=2e7, crack_storey=1, crack="known",
 )  # fmt: skip
 

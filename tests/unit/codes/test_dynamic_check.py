@@ -96,7 +96,7 @@ def test_the_confidence_factor_divides_weight_and_ties_alike(elongation):
 
     facade = Facade(
         (3.2, 2.8), (0.6, 0.5), 20e3, (10e3, 5e3), 0.05, tie_heights=(3.1, 5.8), tie_stiffness=3e5,
-        tie_strength=6e3, tie_plastic_elongation=elongation, restitution=0.6, one_sided=True,
+        tie_strength=6e3, tie_plastic_elongation=elongation, restitution=0.6, behind="cross_walls",
     )  # fmt: skip
     factor, step = 1.35, 0.01
     weak = with_confidence(

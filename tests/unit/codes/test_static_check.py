@@ -197,7 +197,7 @@ def facade(thrust=1.5e3, strength=6e3, stiffness=4e5):
     return Facade(
         (3.5, 3.0), (0.6, 0.5), 20e3, floor_loads=(12e3, 6e3), eccentricity=0.05, thrust=thrust, thrust_height=6.2,
         tie_heights=(6.0,), tie_stiffness=stiffness, tie_strength=strength, crack_storey=1, crack="known",
-        one_sided=True, restitution=0.6,
+        behind="cross_walls", restitution=0.6,
     )  # fmt: skip
 
 

@@ -349,7 +349,7 @@ def test_a_front_that_is_free_to_rock_through_its_floors_is_told():
     sizes = {"storey_heights": (3.5, 3.0), "thicknesses": (0.6, 0.5), "unit_weight": 20e3}
     fronts = {
         "floors": Facade(**sizes, floor_loads=(12e3, 6e3)),
-        "leaning": Facade(**sizes, floor_loads=(12e3, 6e3), one_sided=True, restitution=0.5),
+        "leaning": Facade(**sizes, floor_loads=(12e3, 6e3), behind="cross_walls", restitution=0.5),
         "free": Facade(**sizes),
     }
     report = assessed("one", [shaken()], fronts)

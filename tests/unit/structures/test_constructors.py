@@ -40,11 +40,10 @@ def test_a_pier_of_no_density_of_masonry_is_refused():
 def test_a_very_stiff_tie_is_taken_with_the_same_remark_by_facade_and_wall():
     """An elastic tie never lets go: the wall reaches no balance, the façade none before it lies on the ground."""
     ties = {"unit_weight": 18e3, "tie_heights": (2.8,), "tie_stiffness": 1e9}
-    outwards = {"one_sided": True, "restitution": 0.9}
     facade = rocking.Facade(
-        storey_heights=(3.0,), thicknesses=(0.4,), floor_loads=(10e3,), **ties, **outwards
+        (3.0,), (0.4,), floor_loads=(10e3,), **ties, behind="cross_walls", restitution=0.9
     )
-    wall = rocking.LoadedWall.of_size(3.0, 0.4, hinge_height=1.5, **ties, **outwards)
+    wall = rocking.LoadedWall.of_size(3.0, 0.4, hinge_height=1.5, **ties, one_sided=True, restitution=0.9)
     assert not wall.mechanism().can_overturn
     assert facade.mechanism().critical_rotation == pytest.approx(np.pi / 2, abs=1e-3)
     for structure in (facade, wall):

@@ -18,16 +18,19 @@ LOADED = LoadedWall(
 )
 
 
-TIGHT = {"one_sided": True, "restitution": 0.5}
+TIGHT = {"restitution": 0.5}
 CASES = {
     "façade": (FACADE, facade_lagrangian),
     "façade, loads held": (replace(FACADE, loads_held=True), facade_lagrangian),
     "façade under a flat slab": (replace(FACADE, top_slab="flat"), facade_lagrangian),
-    "façade, tightened": (replace(FACADE, **TIGHT, tie_pretension=2e3), facade_lagrangian),
+    "façade, tightened": (
+        replace(FACADE, **TIGHT, behind="cross_walls", tie_pretension=2e3),
+        facade_lagrangian,
+    ),
     "wall": (LOADED, wall_lagrangian),
     "wall, load held": (replace(LOADED, load_held=True), wall_lagrangian),
     "wall under a flat slab": (replace(LOADED, top_slab="flat"), wall_lagrangian),
-    "wall, tightened": (replace(LOADED, **TIGHT, tie_pretension=1e3), wall_lagrangian),
+    "wall, tightened": (replace(LOADED, **TIGHT, one_sided=True, tie_pretension=1e3), wall_lagrangian),
 }
 
 

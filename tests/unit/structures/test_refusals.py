@@ -9,7 +9,7 @@ from tests.refusals import refused
 
 PIERS = {"pier_width": 2.0, "pier_height": 4.0}
 TIED = {"tie_heights": (3.4,), "tie_stiffness": 8e3}
-TIGHT = TIED | {"tie_pretension": 3e3, "one_sided": True, "restitution": 0.5}
+TIGHT = TIED | {"tie_pretension": 3e3, "behind": "cross_walls", "restitution": 0.5}
 
 
 def facade(**changes):
@@ -21,6 +21,7 @@ def facade(**changes):
     [
         (lambda: Block(1.0, 0.2, restitution="magic"), "restitution", "'magic'"),
         (lambda: Wall(2.0, 1.0, float("nan")), "thickness", "nan"),
+        (lambda: Block(1.0, 0.2, one_sided=True), "restitution", "missing"),
         (lambda: Wall.hinged_at(3.0, 3.5, 0.3), "hinge_height", "3.5"),
         (lambda: RigidBody(0.3, 0.4, 2.0, -1.4), "inertia", "-1.4"),
         (lambda: Spire(3.0, 12.0, crack_height=12.0), "crack_height", "12.0"),
@@ -49,10 +50,6 @@ def test_a_size_that_does_not_go_with_the_others_is_refused(make, field, value):
 @pytest.mark.parametrize(
     "make, message",
     [
-        (
-            lambda: Block(1.0, 0.2, one_sided=True),
-            "restitution is missing, but a one-sided body needs its own",
-        ),
         (lambda: Wall.of_size(3.0, 0.3, crack="known"), "crack is 'known', but hinge_height is missing"),
         (lambda: Spire(3.0, 15.0, crack="known"), "crack is 'known', but crack_height is missing"),
         (

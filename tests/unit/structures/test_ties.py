@@ -22,7 +22,7 @@ FACADE = Facade(
     (3.2, 2.8), (0.6, 0.5), 20e3, (10e3, 5e3), 0.05, tie_heights=(3.1, 5.8), tie_stiffness=3e5,
     tie_strength=6e3, tie_plastic_elongation=0.03, restitution=0.85,
 )  # fmt: skip
-TIGHTENED = replace(FACADE, one_sided=True, restitution=0.6, tie_pretension=2e3)
+TIGHTENED = replace(FACADE, behind="cross_walls", restitution=0.6, tie_pretension=2e3)
 WALL = LoadedWall(
     2.0, 1.4, 0.3, 19e3, top_load=9e3, tie_heights=(1.5, 2.6), tie_stiffness=4e5, tie_strength=6e3,
     tie_plastic_elongation=0.015, restitution=0.85,

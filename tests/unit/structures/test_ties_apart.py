@@ -269,7 +269,6 @@ def test_rods_are_spread_over_the_metre():
         held_between="floor",
         **RODS,
         rod_pretension=10e3,
-        one_sided=True,
     )
     area = np.pi * 0.024**2 / 4
     assert area == pytest.approx(452.389e-6, rel=1e-5)
@@ -283,7 +282,6 @@ def test_rods_are_spread_over_the_metre():
         tie_stiffness=rods.tie_stiffness,
         tie_strength=rods.tie_strength,
         tie_pretension=5e3,
-        one_sided=True,
     )
     assert rods.static_multiplier == spread.static_multiplier
     (said,) = (each for each in rods.assumptions if each.kind is StructureKind.RODS_SPREAD)
