@@ -73,8 +73,8 @@ def run(name: str, catalogues: Sequence[str], config: Mapping[str, Any], folder:
     from docs.research.sites import spread
     from rocking.assessment.scene import load_scenes
     from rocking.records import load_catalogue
+    from rocking.study.progress import line_writer
     from rocking.study.settings import read_settings
-    from rocking.study.terminal import line_writer
 
     settings = read_settings(config)
     mirror = settings.mirror

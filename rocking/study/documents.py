@@ -10,7 +10,7 @@ from rocking.errors import fault_in_words
 from rocking.reports.pages import Part, PlainPage
 from rocking.reports.printing import Figures, write_document
 from rocking.reports.style import new_figure, svg
-from rocking.study.terminal import log_error
+from rocking.study.progress import log_error
 from rocking.tables import write_whole
 from rocking.tables.workbook import workbook
 

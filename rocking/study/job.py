@@ -49,9 +49,10 @@ from rocking.study.outcomes import RecordOutcome, outcomes_written
 from rocking.study.outputs import case_timings_of, cases_of, kept_of, outcome_of, sums_of
 from rocking.study.plan import JOBS, Plan, plan_of_job, scenes_of, study_remarks
 from rocking.study.products import BY_NAME
+from rocking.study.progress import line_writer, log_error, tell, tell_compilation, tell_error
 from rocking.study.settings import Settings, settings_sha256
 from rocking.study.task import Task
-from rocking.study.terminal import line_writer, log_error, record_line, tell, tell_compilation, tell_error
+from rocking.study.terminal import record_line
 from rocking.tables import Row, write_rows, write_tables, written_together
 
 WORTH_TELLING = 5.0

@@ -28,14 +28,8 @@ from rocking.study.outputs import CASES, PROVENANCE, kept_of
 from rocking.study.plan import JOBS, Plan, check_config_file, config_file, make_plan
 from rocking.study.product import Product
 from rocking.study.products import BY_NAME, PRODUCTS
-from rocking.study.terminal import (
-    Progress,
-    check_any_read,
-    closing_lines,
-    conclusion_lines,
-    fitting,
-    paths_to_read,
-)
+from rocking.study.progress import Progress, fitting
+from rocking.study.terminal import check_any_read, closing_lines, conclusion_lines, paths_to_read
 from rocking.tables import read_rows, read_table
 
 _LOCK = REMEMBERED / "rocking_run.lock"

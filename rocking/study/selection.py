@@ -13,8 +13,8 @@ from rocking.records.catalogue import COLUMNS, catalogue_text, read_rows
 from rocking.reports.panels import svg_of
 from rocking.study.job import Study
 from rocking.study.plan import check_config_file, config_file
+from rocking.study.progress import bar
 from rocking.study.settings import Settings, read_settings
-from rocking.study.terminal import bar
 from rocking.tables import write_whole
 
 

@@ -11,8 +11,8 @@ from rocking.records.folder import catalogue_of_folder
 from rocking.records.formats.layouts import NAME
 from rocking.records.listing import listing_text
 from rocking.study.flow import OWN_SNAKEFILE, workflow_folder
+from rocking.study.progress import bar
 from rocking.study.settings import Settings, first_yaml
-from rocking.study.terminal import bar
 from rocking.tables import write_whole
 
 

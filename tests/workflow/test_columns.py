@@ -12,7 +12,7 @@ from rocking.products.fragility.work import write_fragility
 from rocking.records.catalogue import CatalogueRecord
 from rocking.study.job import Study
 from rocking.study.settings import Settings, StudyFragility
-from rocking.study.summary import write_summary
+from rocking.study.summary_tables import write_summary
 from tests.unit.assessment.made_rows import Impossible
 from tests.unit.study.made_jobs import outcomes_in, worked
 from tests.workflow.conftest import ROOT

@@ -18,8 +18,8 @@ from rocking.products.trade.rows import TradeRow
 from rocking.products.trade.work import trade_lines
 from rocking.reports.pages import Part
 from rocking.study.job import costs_no_other
+from rocking.study.progress import line_writer
 from rocking.study.settings import Settings
-from rocking.study.terminal import line_writer
 
 STRUCTURES = {"block": rocking.Block(2.0, 0.15), "stout": rocking.Block(2.0, 0.7)}
 

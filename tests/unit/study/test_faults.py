@@ -17,7 +17,8 @@ from rocking.assessment.rows import (
 from rocking.errors import StructureError
 from rocking.structures import Block
 from rocking.study.outputs import outputs_of
-from rocking.study.summary import summarise, write_summary
+from rocking.study.summary import summarise
+from rocking.study.summary_tables import write_summary
 from rocking.tables import csv_lines, read_rows
 from tests.unit.study.made_jobs import outcomes_in, worked
 from tests.unit.study.test_job import _record, _study

@@ -27,8 +27,8 @@ from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.structures import Block, Spire
 from rocking.study.job import Study
+from rocking.study.progress import line_writer
 from rocking.study.settings import Settings, StudyFragility
-from rocking.study.terminal import line_writer
 from rocking.study.work import write_beside
 from rocking.tables import read_rows, read_table
 from tests.made_structures import HELD

@@ -32,10 +32,11 @@ from rocking.study.job import Study, assess_catalogued, rows_of
 from rocking.study.kept import keep_rows
 from rocking.study.outcomes import read_outcomes
 from rocking.study.outputs import cases_of, kept_of, outcome_of, outputs_of
+from rocking.study.progress import line_writer
 from rocking.study.results import Results
 from rocking.study.settings import Settings, StudyTrade
-from rocking.study.summary import summarise, write_summary
-from rocking.study.terminal import line_writer
+from rocking.study.summary import summarise
+from rocking.study.summary_tables import write_summary
 from rocking.tables import csv_lines, frame, read_rows, write_tables
 from tests.unit.assessment.made_rows import Impossible, filled
 from tests.unit.study.made_jobs import made_job, outcomes_in, take_steps, worked

@@ -15,7 +15,7 @@ from rocking.records.sample import Sample
 from rocking.strengthening import sizes, strengthen_scene
 from rocking.study.job import Study
 from rocking.study.plan import make_plan
-from rocking.study.summary import write_summary
+from rocking.study.summary_tables import write_summary
 from rocking.tables import read_table
 from tests.made_pools import DESIGN
 from tests.unit.study.made_jobs import outcomes_in, worked

@@ -3,7 +3,7 @@
 from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
 
-from rocking.study.terminal import Progress
+from rocking.study.progress import Progress
 
 
 class LogHandler(LogHandlerBase):

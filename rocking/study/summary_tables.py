@@ -1,0 +1,115 @@
+"""The tables over all records of a study, written record by record."""
+
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import Any
+
+from rocking.assessment.case import Failure
+from rocking.assessment.rows import (
+    RECORD_TABLES,
+    SUMMARY_TABLES,
+    AgreementRow,
+    CapacityRow,
+    ComparisonRow,
+    ExpectedFallsRow,
+    FailedCase,
+    FailureRow,
+    RecordRow,
+    RemarkRow,
+    StructureRow,
+    VerdictRow,
+    agreement_rows,
+    capacity_rows,
+    counted_cases,
+    falls_over,
+    falls_under,
+    named_records,
+    structure_rows,
+)
+from rocking.errors import RockingError, one_structure
+from rocking.records.sample import Sample
+from rocking.structures import Structure
+from rocking.structures.equivalent_block import Scale
+from rocking.study.outcomes import RecordOutcome
+from rocking.tables import (
+    Row,
+    rows_of,
+    rows_written,
+    write_tables,
+    written_together,
+)
+
+
+def write_summary(
+    outcomes: Iterable[RecordOutcome],
+    structures: Mapping[str, Structure],
+    target: Path,
+    reports: bool,
+    variants: Collection[str] = (),
+    faults: Collection[Row] = (),
+    each_unnamed: bool = False,
+    remarks: Collection[Row] = (),
+    scale: Scale = "rest",
+) -> tuple[dict[type[Row], list[Row]], list[dict[str, Any]], list[Sequence[float]], dict[str, str]]:
+    """Write the tables of the summary into `target`, record by record.
+
+    reports: whether the rows, and what the page to explore and the spectra show of each record, are returned as well:
+    of thousands of records, which have no reports, they would fill the memory. variants: names of structures that
+    stand for another one. faults: of what else stands over all records. each_unnamed: whether records that name no
+    earthquake are of one each. remarks: on the study itself. scale: the block that predicts. Returned as the last are
+    the hashes of the files of the records.
+    """
+    kept: dict[type[Row], list[Row]] = {each: [] for each in SUMMARY_TABLES}
+    pages: list[dict[str, Any]] = []
+    spectra: list[Sequence[float]] = []
+    sums: dict[str, str] = {}
+    falls_of_records: list[ExpectedFallsRow] = []
+    cases: list[ComparisonRow] = []
+    read: list[RecordRow] = []
+    of_records = [each for each in SUMMARY_TABLES if each in RECORD_TABLES]
+    with written_together(), ExitStack() as stack:
+        write = {
+            each: stack.enter_context(rows_written(each, target / each.table.file_name))
+            for each in of_records
+        }
+        write[RemarkRow](remarks)  # what was typed, before what records say
+        kept[RemarkRow] += remarks if reports else ()
+        for outcome in outcomes:
+            for each in of_records:
+                write[each](outcome.rows[each])
+                if reports:
+                    kept[each] += outcome.rows[each]
+            read += rows_of(RecordRow, outcome.rows)[:1]
+            verdicts = rows_of(VerdictRow, outcome.rows)
+            cases += counted_cases(rows_of(ComparisonRow, outcome.rows), verdicts)
+            sums |= outcome.sums
+            if falls := falls_under(verdicts, variants):
+                falls_of_records.append(falls)
+            if reports:
+                pages.append(outcome.page)
+                spectra += outcome.spectra.values()
+        told = [*faults]
+        for name, structure in structures.items():
+            with told_of_structure(told, name):
+                kept[StructureRow] += structure_rows({name: structure}, scale)
+            with told_of_structure(told, name):
+                kept[CapacityRow] += capacity_rows({name: structure})
+        write[FailureRow](told)
+        kept[FailureRow] += told if reports else ()
+        names = named_records(read, each_unnamed)
+        of_all = falls_over(falls_of_records, Sample.named(names[each.record] for each in falls_of_records))
+        kept[ExpectedFallsRow] = [*falls_of_records, *([of_all] if of_all else [])]
+        kept[AgreementRow] = list(agreement_rows(cases, names))
+        write_tables({each: rows for each, rows in kept.items() if each not in write}, target)
+    return kept, pages, spectra, sums
+
+
+@contextmanager
+def told_of_structure(faults: list[Row], name: str) -> Iterator[None]:
+    """Add a row to `faults` for what goes wrong within with one structure, and go on behind it."""
+    try:
+        with one_structure(name):
+            yield
+    except RockingError as error:
+        faults.append(FailureRow.of(FailedCase("", "", name, Failure("summary", str(error)))))
