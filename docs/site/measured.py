@@ -3,8 +3,9 @@ since.
 
 `docs/measured/figures.csv` holds a row for each. A page prints one by `<!-- measured: NAME -->`, and by
 `<!-- measured by: NAME -->` what made it and how old it is, beside a table or a sentence that tells it. Run as a script
-it lists the figures whose code has changed since in meaning; `--first-screen` fails where one that a reader meets first
-is older, and `--renew` writes the hashes of the code as it is, for figures that were just measured again.
+it lists the figures whose code has changed since in meaning, or whose list of records; `--first-screen` fails where one
+that a reader meets first is older, `--renew` writes the hashes of the code as it is, for figures that were just
+measured again, and `--keep` keeps the scores of a target, which pages print cell by cell (`kept`).
 """
 
 import argparse
@@ -15,12 +16,22 @@ from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 
+from docs.site.kept import SCORES
 from rocking.errors import ConfigurationError
 from rocking.hashes import sha256_of_bytes
 from rocking.tables import write_whole
 
 ROOT = Path(__file__).parents[2]
 FIGURES = ROOT / "docs" / "measured" / "figures.csv"
+LISTS = (
+    "near_fault fema_p695",
+    "fema_p695",
+    "near_fault",
+    "fema_p695 near_fault catalogue",
+    "catalogue",
+    "shake_table",
+)
+"""The lists of records that something is measured on, by the names of the catalogues."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +60,9 @@ class Figure:
 
     @property
     def is_older(self) -> bool:
-        """Whether the code that it measures has changed since in meaning."""
+        """Whether the code that it measures has changed since in meaning, or its list of records."""
+        if self.records_sha256 and self.records_sha256 not in map(records_sha256, LISTS):
+            return True
         return self.code_sha256 != code_sha256(self.files.split())
 
     @property
@@ -95,6 +108,12 @@ def measured(name: str) -> Figure:
     if name not in known:
         raise ConfigurationError(f"measured figure is {name!r}, but must be one of {', '.join(known)}.")
     return known[name]
+
+
+def records_sha256(lists: str) -> str:
+    """Return the hash of some catalogues of the repository, by their names apart by blanks, as a row has it."""
+    contents = ((ROOT / "records" / f"{name}.csv").read_bytes() for name in lists.split())
+    return sha256_of_bytes(*contents)[:16]
 
 
 def code_sha256(files: Iterable[str]) -> str:
@@ -310,7 +329,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--renew", nargs="*", metavar="NAME", help="figures that were measured again at --commit"
     )
     parser.add_argument("--commit", default="", help="at which they were")
+    parser.add_argument("--records", choices=LISTS, help="the catalogues that they were measured on")
+    parser.add_argument(
+        "--keep", nargs="*", default=[], metavar="FOLDER", help="results of targets whose scores are kept"
+    )
     options = parser.parse_args(arguments)
+    for folder in map(Path, options.keep):
+        write_whole(SCORES / f"{folder.name}.csv", (folder / "scores.csv").read_bytes())
     known = figures()
     if options.renew is not None:
         for name in options.renew or list(known):
@@ -319,6 +344,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 figure,
                 commit=options.commit or figure.commit,
                 code_sha256=code_sha256(figure.files.split()),
+                records_sha256=records_sha256(options.records) if options.records else figure.records_sha256,
             )
         lines = [",".join(each.name for each in fields(Figure))]
         lines += [",".join(_cell(cell) for cell in asdict(figure).values()) for figure in known.values()]

@@ -2,8 +2,9 @@
 
 `<!-- generated: NAME -->` stands for what the function NAME of `generated` returns, `<!-- file: PATH -->` for a file
 of the repository, `<!-- measured: NAME -->` within a line for a figure of docs/measured/figures.csv with its age,
-`<!-- measured by: NAME -->` for what made it, and `<!-- figure: NAME. CAPTION -->` for the figure of the axes that the
-examples above left in `axes`.
+`<!-- measured by: NAME -->` for what made it, `<!-- score FORM: TARGET; SUBJECT; PART; MEASURE -->` for a score that a
+target of the research left in docs/measured/scores, and `<!-- figure: NAME. CAPTION -->` for the figure of the axes
+that the examples above left in `axes`.
 """
 
 import io
@@ -20,6 +21,7 @@ from matplotlib.figure import Figure
 from docs.paper.report import equivalence_figures
 from docs.site.drawings import drawing, forms
 from docs.site.generated import GENERATED
+from docs.site.kept import told
 from docs.site.measured import measured
 from rocking.errors import ConfigurationError
 
@@ -36,6 +38,7 @@ _RC: dict[str, object] = {
 }
 _MARK = re.compile(r"^<!-- (generated|file): (\S+) -->$", re.M)
 _MEASURED = re.compile(r"<!-- measured( by)?: (\S+) -->")
+_SCORE = re.compile(r"<!-- score (\S+): (.*?) -->")
 _EXAMPLE = re.compile(r"^```python\n(.*?)^```$|^<!-- figure: (\w+)\. (.*?) -->$", re.M | re.S)
 
 
@@ -113,10 +116,11 @@ def filled(text: str, name: str) -> str:
         return GENERATED[part]()
 
     def figure(match: re.Match[str]) -> str:
-        told = measured(match[2])
-        return told.origin if match[1] else told.words
+        found = measured(match[2])
+        return found.origin if match[1] else found.words
 
-    return _MARK.sub(content, _MEASURED.sub(figure, text))  # a file is shown as it stands
+    printed = _SCORE.sub(lambda match: told(*match.groups()), _MEASURED.sub(figure, text))
+    return _MARK.sub(content, printed)  # a file is shown as it stands
 
 
 def illustrated(text: str, page: str) -> tuple[str, dict[str, str]]:

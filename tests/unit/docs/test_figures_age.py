@@ -6,8 +6,10 @@ from dataclasses import replace
 import pytest
 
 from docs.research.run import targets
+from docs.research.scores import Score
+from docs.site import kept
 from docs.site import measured as module
-from docs.site.measured import FIGURES, ROOT, code_sha256, figures, main, meaning
+from docs.site.measured import FIGURES, ROOT, code_sha256, figures, main, meaning, records_sha256
 from docs.site.pages import filled, written_pages
 from rocking.errors import ConfigurationError
 from rocking.reports.printing import MEASURED
@@ -133,3 +135,41 @@ def test_a_page_prints_a_figure_within_its_line():
     assert figure.script in figure.origin and figure.commit in figure.origin
     with pytest.raises(ConfigurationError, match="measured figure is 'nothing'"):
         filled("<!-- measured: nothing -->", "page")
+
+
+def test_a_page_prints_a_score_as_the_target_left_it(monkeypatch, tmp_path):
+    """Each form by a row that is known; what names no row, or no form, is refused with what there is."""
+    rows = "s,none,m,0.0,0.0,0.031,20,18,95\ns,some,m,0.0288,0.0144,0.0464,50,20,278\ns,ratio,m,0.971,0.9,1.02,9,8,7\n"
+    (tmp_path / "made.csv").write_text(",".join(Score.table.column_names) + "\n" + rows, encoding="utf-8")
+    monkeypatch.setattr(kept, "SCORES", tmp_path)
+    kept.scores_of.cache_clear()
+    for form, part, found in (
+        ("n%", "none", "0 of 95, below 3.1 %"),
+        ("n%", "some", "8 of 278, 2.9 % (1.4–4.6)"),
+        ("%", "some", "3 % (1–5)"),
+        (".2", "ratio", "0.97 (0.90–1.02)"),
+        ("sites", "none", "20 sites of 18 earthquakes; 95 cases"),
+    ):
+        assert filled(f"<!-- score {form}: made; s; {part}; m -->!", "page") == f"{found}!"
+    for form, content in (
+        ("%", "made; s; none; other"),
+        ("?", "made; s; none; m"),
+        ("%", "other; s; none; m"),
+    ):
+        with pytest.raises(ConfigurationError, match=r"must be one|must have one"):
+            filled(f"<!-- score {form}: {content} -->", "page")
+    kept.scores_of.cache_clear()
+
+
+def test_every_score_on_a_page_is_kept_and_its_target_has_a_figure_that_says_when():
+    scripts = {figure.script.rpartition("snakemake ")[2] for figure in figures().values()}
+    for page in written_pages():
+        for form, content in re.findall(r"<!-- score (\S+): (.*?) -->", page.read_text(encoding="utf-8")):
+            assert kept.told(form, content), page.name
+            assert content.partition(";")[0] in scripts, f"{page.name}: {content}"
+
+
+def test_a_figure_is_older_where_its_list_of_records_has_changed():
+    figure = replace(next(iter(figures().values())), records_sha256=records_sha256("near_fault"))
+    figure = replace(figure, code_sha256=code_sha256(figure.files.split()))
+    assert not figure.is_older and replace(figure, records_sha256="0" * 16).is_older
