@@ -150,7 +150,10 @@ class Strengthening(Drawn):
     Examples
     --------
     >>> step = 0.01 * np.arange(600)
-    >>> pulses = [rocking.Pulse(3.0, omega, 0.5) for omega in np.linspace(4.0, 8.0, 30)]
+    >>> pulses = [
+    ...     rocking.Pulse(amplitude=3.0, circular_frequency=omega, start_time=0.5)
+    ...     for omega in np.linspace(4.0, 8.0, 30)
+    ... ]
     >>> records = [rocking.Accelerogram(pulse.acceleration(step), 0.01) for pulse in pulses]
     >>> parapet = rocking.Block.of_size(breadth=0.25, height=2.0)
     >>> names = [f"earthquake {place}" for place, _ in enumerate(records)]
@@ -377,7 +380,10 @@ def strengthen(
     Examples
     --------
     >>> times = 0.01 * np.arange(600)
-    >>> pulses = [rocking.Pulse(3.0, omega, 0.5) for omega in np.linspace(4.0, 8.0, 6)]
+    >>> pulses = [
+    ...     rocking.Pulse(amplitude=3.0, circular_frequency=omega, start_time=0.5)
+    ...     for omega in np.linspace(4.0, 8.0, 6)
+    ... ]
     >>> records = [rocking.Accelerogram(pulse.acceleration(times), 0.01) for pulse in pulses]
     >>> names = [f"earthquake {place}" for place, _ in enumerate(records)]
     >>> few = rocking.strengthen(records, rocking.Block(2.0, 0.2), "breadth", between=(1.0, 3.0), events=names)

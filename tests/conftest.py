@@ -164,7 +164,7 @@ def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
     """Documents without figures, for a test that asks what they say: to draw takes most of its time."""
     from rocking.reports.pages import Picture
 
-    nothing = Picture('<svg xmlns="http://www.w3.org/2000/svg" width="1" height="1"/>', "none")
+    nothing = Picture(svg='<svg xmlns="http://www.w3.org/2000/svg" width="1" height="1"/>', alt="none")
     for module in ("record", "summary"):
         monkeypatch.setattr(f"rocking.reports.{module}.pictures", lambda *_: ())
     monkeypatch.setattr("rocking.reports.record.drawn_by_hand", lambda *_: nothing)

@@ -24,7 +24,7 @@ def answers() -> dict[str, float]:
     block = rocking.Block.of_size(breadth=0.6, height=3.0)
     one_sided = rocking.Block.of_size(0.6, 3.0, restitution=0.7, one_sided=True)
     pulse, record, vertical = map(motion, ("pulse", "record", "vertical"))
-    still = rocking.Pulse(1e-9, 60.0, 0.0)
+    still = rocking.Pulse(amplitude=1e-9, circular_frequency=60.0, start_time=0.0)
 
     def largest(
         structure: rocking.Block, shaking: rocking.Accelerogram, up: rocking.Accelerogram | None = None

@@ -123,8 +123,10 @@ def _largest_row() -> EquationRow:
 def _pulse_rows() -> list[EquationRow]:
     rows = []
     for amplitude, frequency in ((3.0, 2.5), (10.0, 6.0), (1.5, 4.0)):
-        block = EquivalentBlock(1.0, 1.0, 1.0, 0.9)  # λ = 1 g and p = 1 rad/s: the pulse carries a and ω
-        pulse = Pulse(amplitude * GRAVITY, frequency)
+        block = EquivalentBlock(
+            frequency_parameter=1.0, critical_rotation=1.0, acceleration_scale=1.0, restitution=0.9
+        )  # λ = 1 g and p = 1 rad/s: the pulse carries a and ω
+        pulse = Pulse(amplitude=amplitude * GRAVITY, circular_frequency=frequency)
         numbers = (
             printed_maximum(block, pulse),
             predict_maximum(block, pulse).rotation_ratio,

@@ -125,7 +125,18 @@ class Member:
             guided = place in self.bodies.guided
             inertia = mass * float(gyrations[place])
             bottom, top = (left, right), (left_above, right_above)
-            courses.append(Course(bottom, top, low, high - low, mass, centre, inertia, guided=guided))
+            courses.append(
+                Course(
+                    bottom=bottom,
+                    top=top,
+                    base=low,
+                    height=high - low,
+                    mass=mass,
+                    centre=centre,
+                    inertia=inertia,
+                    guided=guided,
+                )
+            )
         return Stack(tuple(courses))
 
     @cached_property

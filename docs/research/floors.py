@@ -68,7 +68,9 @@ def floor_trials(component: sites.SiteRecord) -> Iterator[FloorTrial]:
     for period in (0.0, *PERIODS.tolist()):
         if 0 < period < 2 * ground.time_step:
             continue
-        floor = Support((Mode(period, DAMPING, PARTICIPATION),)).motion(ground)
+        floor = Support((Mode(period=period, damping_ratio=DAMPING, participation=PARTICIPATION),)).motion(
+            ground
+        )
         dominant = extract_pulses(floor).dominant
         for structure, body in BODIES.items():
             block = body.mechanism().equivalent_block()

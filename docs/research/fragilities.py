@@ -123,7 +123,11 @@ def _by_sines(block: EquivalentBlock, sines: Sequence[Sequence[Pulse]], factors:
     """The largest rotation ratio under any sine of each record, (r, k, 1), at `factors` (r, k); 0 without any."""
     ratios = np.zeros((*factors.shape, 1))
     for place, (own, scales) in enumerate(zip(sines, factors, strict=True)):
-        scaled = [Pulse(p.amplitude * f, p.circular_frequency, p.start_time) for p in own for f in scales]
+        scaled = [
+            Pulse(amplitude=p.amplitude * f, circular_frequency=p.circular_frequency, start_time=p.start_time)
+            for p in own
+            for f in scales
+        ]
         if scaled:
             ratios[place, :, 0] = predict_maxima([block], scaled)[0].reshape(-1, scales.size).max(axis=0)
     return ratios

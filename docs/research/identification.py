@@ -101,7 +101,7 @@ def two_sided_block(
     """Return the block that lifts at λ of each side; φ_cr = atan λ, as of a rigid body on two contact lines."""
     positive, negative = (
         EquivalentBlock(
-            frequency_parameter,
+            frequency_parameter=frequency_parameter,
             critical_rotation=float(np.arctan(each)),
             acceleration_scale=float(np.arctan(each)) / each,
             restitution=restitution,

@@ -69,7 +69,16 @@ def fitted(record: Accelerogram, cycles: float, phase: float) -> Fitted | None:
         place = int(np.argmax(np.abs(windows.imag)))
         sine = float(windows.imag[place])
         if best is None or sine**2 / norm > best[0]:
-            best = sine**2 / norm, Pulse(sine / norm, omega, float(times[place]), cycles, phase)
+            best = (
+                sine**2 / norm,
+                Pulse(
+                    amplitude=sine / norm,
+                    circular_frequency=omega,
+                    start_time=float(times[place]),
+                    cycles=cycles,
+                    phase=phase,
+                ),
+            )
     return None if best is None else Fitted(best[1], best[0] / float(np.square(samples).sum()))
 
 

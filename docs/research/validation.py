@@ -30,7 +30,7 @@ TABLE_PROCESSING = Processing(baseline="linear", low_pass=30.0, time_step=0.01)
 """What the measured motions of the table go through: the sensor's offset, of up to 0.02 g, is a seventh of λ."""
 VELOCITY_PROCESSING = Processing(baseline="linear", high_pass=0.1, low_pass=30.0, time_step=0.01)
 """What they go through before they are integrated to a velocity."""
-NO_PULSE = Pulse(1e-9, 1.0, 0.0)
+NO_PULSE = Pulse(amplitude=1e-9, circular_frequency=1.0, start_time=0.0)
 """Overturns nothing: stands for the pulse of a motion that has none."""
 IDENTIFIED = "identified population"
 PRIOR = BlockPrior((0.03, 0.2), (2.5, 9.0), side_ratio=1.6, restitution=(0.6, 0.99), size=4096)

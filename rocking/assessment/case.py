@@ -81,7 +81,7 @@ class Prediction:
         return self.pulse.circular_frequency / self.side.frequency_parameter
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Variation:
     """A case with another crack or another processing of the record: its rotation ratios under record and pulse.
 
@@ -432,7 +432,7 @@ class PeriodResult:
         shares = [each.contact for each in both if each.contact is not None]
         falls = sum(each.falls for each in shares)
         runs = sum(each.runs for each in shares)
-        return ContactShare(falls, runs, shares[0].reason) if runs else None
+        return ContactShare(falls=falls, runs=runs, reason=shares[0].reason) if runs else None
 
     @property
     def verdict(self) -> Verdict:

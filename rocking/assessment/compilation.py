@@ -116,7 +116,7 @@ def compile_blocks() -> None:
     """Compile what is exact of equivalent blocks, under a record and under a sine pulse, and contact dynamics."""
     record = _record()
     block = Block(2.0, 0.2).mechanism().equivalent_block()
-    pulse = Pulse(3.0, 6.0)
+    pulse = Pulse(amplitude=3.0, circular_frequency=6.0)
     integrate(block, record)
     integrate_members(block, record, Members([1.0]))
     integrate_batch([block, block], record)

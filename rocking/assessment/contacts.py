@@ -211,7 +211,7 @@ MANY_COURSES = 12
 """Courses of the second stack of a tapering member that does not say how many it has."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ContactShare:
     """The number of stacks of courses, or of chains of stones, that fall, of those that contact dynamics followed.
 
@@ -318,7 +318,7 @@ def _share_of(
                     break
     except RockingError as error:
         return ContactShare(reason=str(error))
-    return ContactShare(falls, followed)
+    return ContactShare(falls=falls, runs=followed)
 
 
 def expected_seconds(

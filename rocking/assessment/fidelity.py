@@ -66,7 +66,7 @@ class Tier(StrEnum):
         return (*own, *STRUCTURE)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Estimate:
     """Share of the members that overturn, estimated from a tier, and its 90 % interval."""
 
@@ -112,7 +112,8 @@ class TierFit:
         error = np.sqrt(max(design @ self.covariance @ design, 0.0))
         ends = design @ self.coefficients + NORMAL_95 * error * np.array([0.0, -1.0, 1.0])
         most = np.array([1 - self.lapse, 1 - self.lapse, 1.0])  # the upper end decides what stands
-        return Estimate(*(most / (1 + np.exp(-ends))).tolist())
+        share, low, high = (most / (1 + np.exp(-ends))).tolist()
+        return Estimate(share=share, low=low, high=high)
 
 
 @lru_cache(maxsize=1)
@@ -214,7 +215,7 @@ def cheapest_answer(
     """
     if stays_at_rest(mechanism, record, vertical):
         reason = "the ground never reaches the uplift acceleration"
-        still = Response(0.0, Outcome.NO_UPLIFT)
+        still = Response(rotation_ratio=0.0, outcome=Outcome.NO_UPLIFT)
         return MethodAnswer(Method.NOTHING_TO_INTEGRATE, Outcome.NO_UPLIFT, reason, still)
     tiers = {Tier.PEAK_VELOCITY: (Method.PEAK_VELOCITY, "p PGV/(gλ)")}
     if ensemble_follows:

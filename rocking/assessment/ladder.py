@@ -80,7 +80,7 @@ def reserve(
     else:
         lowest = settings.reserve / 100
     if not lowest < settings.reserve:
-        return Reserve(math.nan, math.nan, math.nan, settings.reserve)
+        return Reserve(low=math.nan, median=math.nan, high=math.nan, limit=settings.reserve)
     ladder = _Ladder(mechanism, motions, settings, lowest, np.zeros(len(CAUSES)) if shift is None else shift)
     coarse = np.arange(ladder.falls.size) % COARSE == 0
     coarse[-1] = True
@@ -90,7 +90,7 @@ def reserve(
             if not ladder.follow(ladder.worth_following(stage)):
                 break
     low, median, high = ladder.crossings()
-    return Reserve(low, median, high, settings.reserve)
+    return Reserve(low=low, median=median, high=high, limit=settings.reserve)
 
 
 class _Ladder:

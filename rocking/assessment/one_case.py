@@ -327,7 +327,15 @@ def other_cracks(
         if pulse and mechanism.can_overturn:
             block = mechanism.equivalent_block(settings.acceleration_scale)
             predicted = predict_maximum(block, pulse).rotation_ratio
-        variations.append(Variation(ratio, predicted, each.description, each.position, counts=each.counts))
+        variations.append(
+            Variation(
+                integrated_rotation_ratio=ratio,
+                predicted_rotation_ratio=predicted,
+                crack=each.description,
+                position=each.position,
+                counts=each.counts,
+            )
+        )
     return variations
 
 
@@ -349,7 +357,7 @@ def other_processings(
         if math.isnan(ratio):
             ratio = _rotation_ratio(structure, record, settings, vertical)
         if not math.isnan(ratio):
-            variations.append(Variation(ratio, processing=processing))
+            variations.append(Variation(integrated_rotation_ratio=ratio, processing=processing))
     return variations
 
 

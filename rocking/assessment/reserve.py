@@ -13,7 +13,7 @@ SHARES = (0.05, 0.5, 0.95)
 """Shares of the members that overturn at the low, the median and the high factor."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Reserve:
     """The factors on a record at which 5, 50 and 95 % of the members overturn, with the mechanism that governs.
 
@@ -32,9 +32,9 @@ class Reserve:
 
     Examples
     --------
-    >>> print(rocking.Reserve(0.8, 1.1, np.nan, limit=3.0))
+    >>> print(rocking.Reserve(low=0.8, median=1.1, high=np.nan, limit=3.0))
     5 % of members fall at 0.8 ×, half at 1.1 × this record, fewer than 95 % up to 3 ×
-    >>> print(rocking.Reserve(np.nan, np.nan, np.nan, limit=3.0))
+    >>> print(rocking.Reserve(low=np.nan, median=np.nan, high=np.nan, limit=3.0))
     fewer than 5 % of members fall up to 3 × this record
     """
 
@@ -56,7 +56,7 @@ class Reserve:
             else:
                 factors.append(factor if math.isnan(factor) else max(factor, 1.0))
         low, median, high = factors
-        return Reserve(low, median, high, self.limit)
+        return Reserve(low=low, median=median, high=high, limit=self.limit)
 
     @property
     def in_figures(self) -> str:

@@ -23,7 +23,7 @@ _JUST_BEFORE = 1 - 1e-12
 """Share of the rotation at which a tie breaks up to which it surely holds."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class LimitState:
     """A limit state of collapse: its displacement over d_0, the factor of its secant period, and the damping.
 
@@ -38,13 +38,17 @@ class LimitState:
 
 
 LIMIT_STATES = {
-    "SLV": LimitState("SLV", 0.4, 1.68 * math.pi, 0.08, ends_with_ties=True),
-    "SLC": LimitState("SLC", 0.6, 1.56 * math.pi, 0.10, ends_with_ties=False),
+    "SLV": LimitState(
+        name="SLV", displacement_share=0.4, period_factor=1.68 * math.pi, damping=0.08, ends_with_ties=True
+    ),
+    "SLC": LimitState(
+        name="SLC", displacement_share=0.6, period_factor=1.56 * math.pi, damping=0.10, ends_with_ties=False
+    ),
 }
 """C8.7.1.2.1.6 and C8.7.1.2.1.8; the limit state of damage, SLD, has the linear check alone."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class LimitPoint:
     """The place of a limit state on the capacity curve: d [m], a [m/s²], the secant period [s], and the reason."""
 
@@ -146,10 +150,17 @@ class CodeCapacity:
             limits[self.support_loss * self.static.displacement_factor] = Remark(CheckKind.LIMIT_LOAD_FALLS)
         displacement = min(limits)
         if math.isinf(displacement):
-            return LimitPoint(displacement, math.nan, math.nan, Remark(CheckKind.LIMIT_NOWHERE))
+            return LimitPoint(
+                displacement=displacement,
+                acceleration=math.nan,
+                period=math.nan,
+                reason=Remark(CheckKind.LIMIT_NOWHERE),
+            )
         rotation = self.static.rotation_at(displacement / self.static.displacement_factor)
         acceleration = float(self.acceleration(rotation))
         period = math.nan
         if displacement > 0:
             period = state.period_factor * math.sqrt(displacement / acceleration)
-        return LimitPoint(displacement, acceleration, period, limits[displacement])
+        return LimitPoint(
+            displacement=displacement, acceleration=acceleration, period=period, reason=limits[displacement]
+        )

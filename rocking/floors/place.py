@@ -121,7 +121,7 @@ def swinging(period: float) -> Support:
     >>> swinging(0.2).modes[0].damping_ratio
     0.1
     """
-    return Support((Mode(period, YIELDING_DAMPING, 1.0),))
+    return Support((Mode(period=period, damping_ratio=YIELDING_DAMPING, participation=1.0),))
 
 
 def place_from_config(mapping: Mapping[str, Any]) -> Place:

@@ -40,7 +40,7 @@ _LARGEST_DAMPING = 0.999
 """Above it the two exponentials of a mode are no longer told apart; critical damping itself is refused."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Mode:
     """One mode of what carries the structure, as it is felt where the structure stands.
 
@@ -133,7 +133,7 @@ class Support:
     Examples
     --------
     >>> (record,) = rocking.read("records/synthetic_strong_pulse.AT2")
-    >>> floor = rocking.Support((rocking.Mode(0.3, 0.05, 1.3),)).motion(record)
+    >>> floor = rocking.Support((rocking.Mode(period=0.3, damping_ratio=0.05, participation=1.3),)).motion(record)
     >>> round(floor.peak_acceleration / record.peak_acceleration, 2)
     1.23
     """

@@ -61,7 +61,7 @@ _RIDGE = 1e-9
 """Penalty on standardised slopes per case: keeps those finite that no case contradicts."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Fragility(Drawn):
     """P(rotation ratio > threshold | intensity) of one structure; the threshold inf is overturning.
 
@@ -285,7 +285,7 @@ def _probit(
     return coefficients / scale, covariance / np.outer(scale, scale)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Explanation:
     """How well levels of an intensity measure, and a figure of the record beside them, explain which records overturn.
 
@@ -319,7 +319,7 @@ def explanation(
     efficiency = float(1 / steepness) if steepness > 0 else math.nan
     freedom = sample.earthquakes - 3
     if freedom < 1 or np.ptp(figures) == 0:
-        return Explanation(efficiency)
+        return Explanation(efficiency=efficiency)
     scaled = (figures - figures.mean()) / figures.std()
     beside = np.broadcast_to(scaled[:, None], log_levels.shape)
     (_, level, figure), covariance = _probit([log_levels, beside], exceedance, sample)
@@ -445,7 +445,10 @@ def fragility(
 
     Examples
     --------
-    >>> pulses = [rocking.Pulse(1.0, frequency, 0.5) for frequency in (4.0, 6.0, 9.0)]
+    >>> pulses = [
+    ...     rocking.Pulse(amplitude=1.0, circular_frequency=frequency, start_time=0.5)
+    ...     for frequency in (4.0, 6.0, 9.0)
+    ... ]
     >>> times = np.arange(400) * 0.01
     >>> records = [rocking.Accelerogram(pulse.acceleration(times), 0.01) for pulse in pulses]
     >>> rocking.fragility(records, rocking.Block(2.0, 0.2), levels=[0.2, 0.4, 0.8, 1.6]).probability.tolist()

@@ -292,7 +292,7 @@ def _measure(of: _OfOpenQuake) -> tuple[str, float]:
         raise ConfigurationError(f"{of.path}: {error}") from None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class AnnualRate:
     """The annual rate of exceedance with its 90 % interval, and the most that it may lack, 1/year.
 
@@ -319,7 +319,8 @@ class AnnualRate:
 
     Examples
     --------
-    >>> f"{rocking.AnnualRate(2e-3, 1e-3, 4e-3, 0.0).probability(50)[0]:.3f}"
+    >>> rate = rocking.AnnualRate(value=2e-3, low=1e-3, high=4e-3, remainder=0.0)
+    >>> f"{rate.probability(50)[0]:.3f}"
     '0.095'
     """
 

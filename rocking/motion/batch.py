@@ -212,7 +212,12 @@ def rocking_spectrum(
             f"must stay below {LARGEST_GROWTH / step:g}.",
         )
     # The block of λ under the record responds as the one of λ = 1 under the record over λ.
-    blocks = [EquivalentBlock(p, 1.0, 1.0, restitution) for p in frequencies.tolist()]
+    blocks = [
+        EquivalentBlock(
+            frequency_parameter=p, critical_rotation=1.0, acceleration_scale=1.0, restitution=restitution
+        )
+        for p in frequencies.tolist()
+    ]
     ratios = integrate_batch(blocks, accelerogram, 1 / multipliers, workers=workers).view(RockingSpectrum)
     ratios.frequency_parameters = frequencies
     ratios.uplift_multipliers = multipliers

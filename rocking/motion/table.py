@@ -246,7 +246,7 @@ rounded as they are, and nothing is left of it where the point stands still, as 
 _GAUSS, _WEIGHTS = np.polynomial.legendre.leggauss(40)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class SideTable:
     """One side, in two zones of equal pieces: an inner one up to 2 φ_cr, and an outer one up to the end.
 
@@ -310,7 +310,12 @@ def linear_side(block: EquivalentBlock) -> SideTable:
         longest_step=1 / block.frequency_parameter,
         near=(*_near_rest(critical * _NEAR, near), 0.0),
     )
-    return SideTable(kernel, block.restitution, block.critical_rotation, block.rotation_map)
+    return SideTable(
+        kernel=kernel,
+        restitution=block.restitution,
+        critical_rotation=block.critical_rotation,
+        rotation_map=block.rotation_map,
+    )
 
 
 def _kinked_side(side: Side) -> SideTable:
@@ -346,7 +351,9 @@ def _kinked_side(side: Side) -> SideTable:
         longest_step=1 / np.sqrt(GRAVITY * max(np.abs(slopes).max(), gravity[0] / critical)),
         near=(*_near_rest(reach, near), 0.0),
     )
-    return SideTable(kernel, side.restitution, critical, None)
+    return SideTable(
+        kernel=kernel, restitution=side.restitution, critical_rotation=critical, rotation_map=None
+    )
 
 
 def _kernel(
@@ -445,7 +452,12 @@ def _tabulated(side: Side, arc: Arc, inverse: RotationMap, last: float, apart: b
             sum(_slope_near_rest(side, tie, arc, critical * _NEAR) for tie in ties),
         ),
     )
-    return SideTable(kernel, side.restitution, side.critical_rotation, inverse)
+    return SideTable(
+        kernel=kernel,
+        restitution=side.restitution,
+        critical_rotation=side.critical_rotation,
+        rotation_map=inverse,
+    )
 
 
 def _ties(side: Side, arc: Arc, powers: np.ndarray) -> Ties:

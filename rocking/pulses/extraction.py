@@ -266,9 +266,18 @@ class PulseSearch:
         lowest, highest = (turn * limit for limit in self.band)
         reach = REFINEMENT_REACH * math.log(2) / self.settings.frequencies_per_octave
         angle, start, sine, norm = refine(samples, onset, turn * frequency, lowest, highest, reach)
-        pulse = Pulse(sine / norm, angle / self.time_step, start * self.time_step)
+        pulse = Pulse(
+            amplitude=sine / norm,
+            circular_frequency=angle / self.time_step,
+            start_time=start * self.time_step,
+        )
         gain = sine * sine / norm * self.time_step
-        return PulseEvidence(pulse, gain, gain / energy, envelope_phase(samples, round(start), angle))
+        return PulseEvidence(
+            pulse=pulse,
+            gain=gain,
+            explained_energy=gain / energy,
+            phase=envelope_phase(samples, round(start), angle),
+        )
 
     def near(self, pulse: Pulse, samples: np.ndarray) -> PulseEvidence:
         """Return the best pulse in `samples` within half a period of onset and half an octave of `pulse`.

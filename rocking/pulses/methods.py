@@ -27,7 +27,7 @@ def sine_of_velocity_pulse(accelerogram: Accelerogram) -> PulseEvidence:
     )
     velocity_period, centre = largest_velocity_pulse(accelerogram)
     period = velocity_period / PERIOD_OF_SINE
-    there = Pulse(1.0, 2 * math.pi / period, centre - period / 2)
+    there = Pulse(amplitude=1.0, circular_frequency=2 * math.pi / period, start_time=centre - period / 2)
     return PulseSearch.of(accelerogram, settings).near(there, accelerogram.acceleration)
 
 

@@ -25,7 +25,7 @@ MOST_CYCLES = 1000.0
 """Cycles of a pulse; no ground and no floor moves so long at one period."""
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class Pulse(Drawn):
     """A sine of so many cycles, zero outside: amplitude · sin(circular_frequency · (t − start_time) + phase).
 
@@ -109,7 +109,7 @@ class Pulse(Drawn):
         return np.where(inside, self.amplitude * np.sin(phase + self.phase), 0.0)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class PulseSettings:
     """The range of the search for pulses in a record, and the number that is reported.
 
@@ -166,7 +166,7 @@ class PulseSettings:
             )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Worth:
     """What the closed form under a record's best sine is worth, where that explains so much of the record's energy.
 
@@ -185,11 +185,11 @@ DOMINATES, LEADS = 0.5, 0.3
 """Shares of a record's energy from which on its best sine is said to dominate it, or to lead: of the falls under such
 records the closed form finds nine in ten, or three in four, and of those under others about half or less."""
 WORTHS = (
-    Worth(DOMINATES, 0.83, 0.90, "One sine dominates"),
-    Worth(LEADS, 0.74, 0.76, "One sine leads"),
-    Worth(0.2, 0.65, 0.59, "No sine dominates"),
-    Worth(0.1, 0.59, 0.52, "No sine dominates"),
-    Worth(0.0, 0.50, 0.32, "No sine dominates"),
+    Worth(energy=DOMINATES, same_outcome_share=0.83, falls_found=0.90, words="One sine dominates"),
+    Worth(energy=LEADS, same_outcome_share=0.74, falls_found=0.76, words="One sine leads"),
+    Worth(energy=0.2, same_outcome_share=0.65, falls_found=0.59, words="No sine dominates"),
+    Worth(energy=0.1, same_outcome_share=0.59, falls_found=0.52, words="No sine dominates"),
+    Worth(energy=0.0, same_outcome_share=0.50, falls_found=0.32, words="No sine dominates"),
 )
 """Measured by docs/research/worth.py: a row of docs/measured/figures.csv says on what, and when."""
 
@@ -204,7 +204,7 @@ def worth_of(explained_energy: float) -> Worth:
     return next(worth for worth in WORTHS if explained_energy >= worth.energy)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class PulseEvidence:
     """One pulse and what the record says for it.
 

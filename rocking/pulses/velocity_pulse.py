@@ -48,7 +48,7 @@ PERIOD_OF_SCALE = SUPPORT / 5
 """T_p over the scale in s: the period of the largest Fourier amplitude of db4 (Baker 2007)."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class VelocityPulse:
     """The velocity pulse of two horizontal components.
 

@@ -331,7 +331,7 @@ _NO_DIRECTION = re.compile(
 _FLATTEST = np.sin(np.radians(30.0))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class RotD:
     """Peak accelerations over all directions (Boore 2010), m/s²: median and largest, and the azimuth of the largest.
 
@@ -435,7 +435,9 @@ def rotd(first: Accelerogram, second: Accelerogram, step: float = 1.0) -> RotD:
         a, b = (np.sin(two - axis) / base * a + np.sin(axis - one) / base * b for axis in axes)
     angles = np.arange(0.0, 180.0, step)
     peaks = np.array([np.abs(a * np.cos(t) + b * np.sin(t)).max() for t in np.radians(angles)])
-    return RotD(float(np.median(peaks)), float(peaks.max()), float(angles[peaks.argmax()]))
+    return RotD(
+        rotd50=float(np.median(peaks)), rotd100=float(peaks.max()), azimuth=float(angles[peaks.argmax()])
+    )
 
 
 def paired(first: Accelerogram, second: Accelerogram) -> tuple[np.ndarray, np.ndarray]:

@@ -18,7 +18,7 @@ SIGNIFICANT_SHARES = 0.05, 0.95
 """Shares of the Arias intensity at which the significant duration D5–95 begins and ends."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class RecordMeasures:
     """The measures of a record.
 

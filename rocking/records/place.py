@@ -10,7 +10,7 @@ _RADIUS = 6371.0088
 """Mean radius of the earth, km (IUGG)."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Place:
     """A place. latitude: degrees north, -90 to 90. longitude: degrees east, -180 to 180."""
 
@@ -41,7 +41,7 @@ def place_of(latitude: float | None, longitude: float | None, of: str = "station
         given, missing = names.values() if longitude is None else reversed(names.values())
         return Remark.of(RecordKind.PLACE_HALF, given=given, missing=missing)
     if abs(latitude) <= 90 and abs(longitude) <= 180:
-        return Place(latitude, longitude)
+        return Place(latitude=latitude, longitude=longitude)
     swapped = abs(latitude) <= 180 and abs(longitude) <= 90
     kind = RecordKind.PLACE_SWAPPED if swapped else RecordKind.PLACE_IMPOSSIBLE
     return Remark.of(

@@ -18,7 +18,7 @@ _EPSILON = 0.2
 _ETA = 0.05
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class SyntheticRecord:
     """The parameters of a synthetic record; raises RecordError when a value is out of range.
 
@@ -89,7 +89,16 @@ def noise(recipe: SyntheticRecord, samples: int) -> np.ndarray:
     return series * float(recipe.noise_peak / np.abs(series).max())
 
 
-SHIPPED = SyntheticRecord("synthetic_strong_pulse", 1, 0.55 * GRAVITY, 1.0, 4.0, 0.15 * GRAVITY, 20.0, 0.005)
+SHIPPED = SyntheticRecord(
+    name="synthetic_strong_pulse",
+    seed=1,
+    pulse_amplitude=0.55 * GRAVITY,
+    pulse_period=1.0,
+    pulse_start=4.0,
+    noise_peak=0.15 * GRAVITY,
+    duration=20.0,
+    time_step=0.005,
+)
 """The recipe of the synthetic accelerogram of the shipped example."""
 
 

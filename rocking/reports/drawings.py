@@ -78,7 +78,7 @@ _BESIDE_SHAKING = 0.15
 def drawn_by_hand(shapes: Sequence[str], width: float, height: float, alt: str) -> Picture:
     """Return a picture of shapes of SVG in mm, as the templates take it."""
     head = f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:g}mm" height="{height:g}mm"'
-    return Picture(f'{head} viewBox="0 0 {width:g} {height:g}">{"".join(shapes)}</svg>', alt)
+    return Picture(svg=f'{head} viewBox="0 0 {width:g} {height:g}">{"".join(shapes)}</svg>', alt=alt)
 
 
 def svg_path(points: np.ndarray, height: float, look: str, closed: bool = False) -> str:

@@ -46,7 +46,8 @@ def matrix(made: Sequence[Conclusion], records: Sequence[RecordRow], pulses: Seq
         legend=() if in_words else tuple(chip(word) for word in ORDER if word in present),
         upright=not has_room,
         heads=tuple(
-            MatrixHead(name, _head(name, records, pulses, in_words) if has_room else "") for name in columns
+            MatrixHead(name=name, below=_head(name, records, pulses, in_words) if has_room else "")
+            for name in columns
         ),
         rows=tuple(
             MatrixRow(
@@ -72,7 +73,7 @@ def _head(record: str, records: Sequence[RecordRow], pulses: Sequence[PulseRow],
 
 def _cell(conclusion: Conclusion | None, records: int) -> Chip:
     if conclusion is None:
-        return Chip("", "", "#ffffff", "#000000", False)
+        return Chip(word="", share="", fill="#ffffff", ink="#000000", hatched=False)
     decision = conclusion.verdict.decision
     untold = decision.word is Verdict.CANNOT_BE_TOLD
     if records > MOST_IN_WORDS:

@@ -31,7 +31,7 @@ class PageSettings:
 # What several pages hold ---------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Picture:
     """A figure as SVG, and its alternative text."""
 
@@ -69,7 +69,7 @@ class CaptionedTable:
     caption: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Chip:
     """A word on its colour, with a share beside it; hatched: within a dashed edge."""
 
@@ -88,7 +88,7 @@ class Notice:
     strong: bool = True
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Fact:
     """What the settings say of the study: a label and its text."""
 
@@ -178,7 +178,7 @@ class PlainPage(Page):
 # The report of a record ----------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Peak:
     """A measure of the motion."""
 
@@ -186,7 +186,7 @@ class Peak:
     name: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Sine:
     """The dominant sine: its share of the energy, and what follows from it."""
 
@@ -194,7 +194,7 @@ class Sine:
     clause: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Marks:
     """Where the marks of a row stand on its scale, mm: closed form, block, whole motion, and the line of members."""
 
@@ -204,7 +204,7 @@ class Marks:
     line: tuple[float, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Row:
     """The row of a structure on page one. below: its sizes, and λ with where it stands. alone: its reserve is that of
     the mechanism alone."""
@@ -219,7 +219,7 @@ class Row:
     remark: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Others:
     """The structures of one word that have no row."""
 
@@ -374,7 +374,7 @@ class RecordPage(Page):
 # The report over all records -----------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class MatrixHead:
     """A record above a column of the matrix."""
 
@@ -402,7 +402,7 @@ class Matrix:
     left_out: int = 0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class MapCell:
     """Sign and share of one case on the colour of its word."""
 

@@ -146,7 +146,7 @@ def chip(verdict: Verdict, share: str = "", text: str = "") -> Chip:
     """Return a verdict on its colour with a share beside it, as the templates set it. text: in another language."""
     _, fill, ink, hatch = LOOKS[verdict]
     word = f"{'? ' * bool(hatch)}{text or verdict}"
-    return Chip(word, share, fill, ink, bool(hatch))
+    return Chip(word=word, share=share, fill=fill, ink=ink, hatched=bool(hatch))
 
 
 def cell_text(decision: "Decision | None") -> str:
@@ -165,7 +165,7 @@ def band_text(result: Banded, to: str) -> str:
 
 def facts_of(settings: PageSettings) -> tuple[Fact, ...]:
     """Return what the settings say of the study: who, what and when."""
-    return tuple(Fact(label, text) for label, text in settings.about.items())
+    return tuple(Fact(label=label, text=text) for label, text in settings.about.items())
 
 
 def footer_of(settings: PageSettings) -> Footer:

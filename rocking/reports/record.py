@@ -355,13 +355,13 @@ def page_one(report: RecordReport) -> PageOne:
     return PageOne(
         trace=(ground_strip(motion),) if motion else (),
         peaks=_peaks(report),
-        sine=Sine(percents(pulse.explained_energy) if pulse else "", clause),
+        sine=Sine(share=percents(pulse.explained_energy) if pulse else "", clause=clause),
         rows=tuple(
             structure_row(each, report.structures.get(each.verdict.structure), report.friction)
             for each in drawn
         ),
         others=tuple(
-            Others(str(word), listed(names, _MOST_NAMED))
+            Others(word=str(word), names=listed(names, _MOST_NAMED))
             for word in ORDER
             if (names := [each.verdict.structure for each in others if each.verdict.decision.word is word])
         ),
@@ -530,8 +530,8 @@ def _peaks(report: RecordReport) -> tuple[Peak, ...]:
     if row is None:
         return ()
     return (
-        Peak(f"{number(row.peak_acceleration_m_s2 / GRAVITY, 2)} g", "PGA"),
-        Peak(printing.quantity(row.peak_velocity_m_s, "m/s"), "PGV"),
+        Peak(value=f"{number(row.peak_acceleration_m_s2 / GRAVITY, 2)} g", name="PGA"),
+        Peak(value=printing.quantity(row.peak_velocity_m_s, "m/s"), name="PGV"),
     )
 
 

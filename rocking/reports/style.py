@@ -103,7 +103,7 @@ def svg(figure: Figure) -> str:
 
 def picture(figure: Figure, alt: str) -> Picture:
     """Return a figure as the templates take it."""
-    return Picture(svg(figure), alt)
+    return Picture(svg=svg(figure), alt=alt)
 
 
 def pictures(draw: Callable[..., Figure], things: Sequence[Any], alt: str, *more: Any) -> tuple[Picture, ...]:

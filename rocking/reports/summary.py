@@ -328,7 +328,7 @@ def _cell(verdict_row: VerdictRow | None) -> MapCell:
     text = printing.cell_text(decision)
     if verdict_row and verdict_row.support_period_s:  # of a support the period that is worst
         text += f" at\u00a0{verdict_row.support_period_s:.2g}\u00a0s"
-    return MapCell(text, fill, ink)
+    return MapCell(text=text, fill=fill, ink=ink)
 
 
 def structure_table(verdicts: Sequence[VerdictRow]) -> Table:

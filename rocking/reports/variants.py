@@ -76,7 +76,7 @@ def _cell(
 ) -> VariantCell:
     conclusion = variant.conclusion
     shapes = sketch(structure, rotation, _WIDTH, _HEIGHT, scale)
-    word = Chip(words("not judged"), "", "#ffffff", "#000000", False)
+    word = Chip(word=words("not judged"), share="", fill="#ffffff", ink="#000000", hatched=False)
     reserve = ""
     if conclusion is not None:
         decision = conclusion.verdict.decision

@@ -68,7 +68,7 @@ _SENTENCES = {
 }
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class Maximum:
     """Largest rotation of an equivalent block under a pulse.
 
@@ -95,7 +95,9 @@ class Maximum:
     Examples
     --------
     >>> from rocking import EquivalentBlock, Pulse, predict_maximum
-    >>> block = EquivalentBlock(2.0, critical_rotation=0.2, acceleration_scale=1.0, restitution=0.9)
+    >>> block = EquivalentBlock(
+    ...     frequency_parameter=2.0, critical_rotation=0.2, acceleration_scale=1.0, restitution=0.9
+    ... )
     >>> predict_maximum(block, Pulse(amplitude=4.0, circular_frequency=12.0)).impacts
     1
     """
@@ -172,7 +174,14 @@ def predict_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> Maximum:
     sides = sides_under(equivalent_block, pulse)
     course = sine_pulse.kernel.course(*sides, *pulse.phases)
     if course.unresolved:
-        return Maximum(math.nan, Outcome.FAILED, Regime.UNRESOLVED, course.impacts, 0, math.nan)
+        return Maximum(
+            rotation_ratio=math.nan,
+            outcome=Outcome.FAILED,
+            regime=Regime.UNRESOLVED,
+            impacts=course.impacts,
+            peak_side=0,
+            overturning_margin=math.nan,
+        )
 
     first_side = 1 if pulse.amplitude < 0 else -1
     peaks = []
@@ -182,7 +191,7 @@ def predict_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> Maximum:
             own = equivalent_block.sides[0 if side > 0 else -1]
             peaks.append(_Peak(side, own.rotation_ratio(x), impacts))
     if not peaks:
-        return Maximum(0.0, Outcome.NO_UPLIFT, Regime.NO_UPLIFT)
+        return Maximum(rotation_ratio=0.0, outcome=Outcome.NO_UPLIFT, regime=Regime.NO_UPLIFT)
 
     # Of the two sides the one whose peak came first counts, unless the other's is larger.
     earliest = min(peaks, key=lambda peak: peak.impacts)
@@ -304,8 +313,12 @@ def predict_maxima(blocks: Sequence[EquivalentBlock], pulses: Sequence[Pulse]) -
     Examples
     --------
     >>> from rocking import EquivalentBlock, Pulse, predict_maxima
-    >>> block = EquivalentBlock(2.0, critical_rotation=0.2, acceleration_scale=1.0, restitution=0.9)
-    >>> predict_maxima([block], [Pulse(1.0, 9.0), Pulse(9.0, 3.0)]).tolist()
+    >>> block = EquivalentBlock(
+    ...     frequency_parameter=2.0, critical_rotation=0.2, acceleration_scale=1.0, restitution=0.9
+    ... )
+    >>> weak = Pulse(amplitude=1.0, circular_frequency=9.0)
+    >>> strong = Pulse(amplitude=9.0, circular_frequency=3.0)
+    >>> predict_maxima([block], [weak, strong]).tolist()
     [[0.0, inf]]
     """
     peaks = _followed(blocks, pulses).peaks
@@ -340,8 +353,12 @@ def overturning_margins(blocks: Sequence[EquivalentBlock], pulses: Sequence[Puls
     Examples
     --------
     >>> from rocking import EquivalentBlock, Pulse, overturning_margins
-    >>> block = EquivalentBlock(2.0, critical_rotation=0.2, acceleration_scale=1.0, restitution=0.9)
-    >>> (overturning_margins([block], [Pulse(3.0, 9.0), Pulse(9.0, 3.0)]) < 0).tolist()
+    >>> block = EquivalentBlock(
+    ...     frequency_parameter=2.0, critical_rotation=0.2, acceleration_scale=1.0, restitution=0.9
+    ... )
+    >>> weak = Pulse(amplitude=3.0, circular_frequency=9.0)
+    >>> strong = Pulse(amplitude=9.0, circular_frequency=3.0)
+    >>> (overturning_margins([block], [weak, strong]) < 0).tolist()
     [[False, True]]
     """
     return _followed(blocks, pulses).margins
@@ -378,7 +395,9 @@ def overturning_amplitudes(
     Examples
     --------
     >>> from rocking import EquivalentBlock, overturning_amplitudes
-    >>> block = EquivalentBlock(2.0, critical_rotation=0.2, acceleration_scale=1.0, restitution=0.9)
+    >>> block = EquivalentBlock(
+    ...     frequency_parameter=2.0, critical_rotation=0.2, acceleration_scale=1.0, restitution=0.9
+    ... )
     >>> overturning_amplitudes([block], [5.0, 10.0]).round(3).tolist()
     [[2.548, 5.92]]
     """
@@ -496,7 +515,9 @@ def printed_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> float:
     Examples
     --------
     >>> from rocking import EquivalentBlock, Pulse, predict_maximum, printed_maximum
-    >>> block = EquivalentBlock(2.0, critical_rotation=0.2, acceleration_scale=1.0, restitution=0.9)
+    >>> block = EquivalentBlock(
+    ...     frequency_parameter=2.0, critical_rotation=0.2, acceleration_scale=1.0, restitution=0.9
+    ... )
     >>> pulse = Pulse(amplitude=4.0, circular_frequency=12.0)
     >>> round(printed_maximum(block, pulse), 3), round(predict_maximum(block, pulse).rotation_ratio, 3)
     (0.329, 0.323)

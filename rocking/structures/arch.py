@@ -158,8 +158,13 @@ class Arch(Crackable):
         """The arch with a centreline radius of 1."""
         fill = None
         if self.fill_depth is not None:
-            fill = Fill(self.fill_depth / self.radius, self.fill_density_ratio)
-        return Ring(self.thickness / self.radius, self.embrace_angle, self.voussoirs, fill)
+            fill = Fill(depth=self.fill_depth / self.radius, density=self.fill_density_ratio)
+        return Ring(
+            thickness=self.thickness / self.radius,
+            embrace_angle=self.embrace_angle,
+            voussoirs=self.voussoirs,
+            fill=fill,
+        )
 
     @cached_property
     def onset(self) -> Onset:
@@ -491,7 +496,7 @@ class ArchOnPiers(Arch):
         height = self.pier_height / self.radius
         springing = complex(ring.contact_points(np.array(self.embrace_angle / 2), INTRADOS))
         mass = self.pier_density_ratio * width * height / ring.thickness
-        return replace(ring, piers=Piers(springing, width, height, mass))
+        return replace(ring, piers=Piers(springing=springing, width=width, height=height, mass=mass))
 
     def _static_onset(self) -> Onset:
         """λ of the mechanism that governs and its hinges (angles from the left springing; a foot is beyond it)."""

@@ -19,7 +19,7 @@ Loads = tuple[np.ndarray, np.ndarray]
 """Weight, ∫ x and ∫ y of what loads the ring (3, ...), and their derivatives with the section."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Fill:
     """Level fill over the whole arch. depth: above the extrados at the crown, over r. density: over the masonry's.
 
@@ -76,7 +76,7 @@ class Bars(NamedTuple):
     inertias: np.ndarray
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Piers:
     """Two equal rectangular piers. springing: inner corner of the right one's head. width, height: over r.
 
@@ -101,7 +101,7 @@ class Piers:
         return complex(self.corners.mean())
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Ring:
     """A circular ring of centreline radius 1: thickness t/r, embrace_angle β [rad], voussoirs (None: continuous).
 

@@ -274,7 +274,15 @@ class RigidBody(Crushable):
                 "it out."
             )
         face = (-self.left, self.right)
-        body = Course(face, face, 0.0, 2 * self.centre_height, 1.0, (0.0, self.centre_height), self.inertia)
+        body = Course(
+            bottom=face,
+            top=face,
+            base=0.0,
+            height=2 * self.centre_height,
+            mass=1.0,
+            centre=(0.0, self.centre_height),
+            inertia=self.inertia,
+        )
         return Stack((body,), self._behind((body,)))
 
     @property
@@ -492,7 +500,13 @@ class Spire(CrackedAtHeight):
         inertia = (second + across) / mass - centre**2
         bottom, top = ((-half, half) for half in half_widths)
         return Course(
-            bottom, top, low, high - low, float(mass), (0.0, float(low + centre)), float(mass * inertia)
+            bottom=bottom,
+            top=top,
+            base=low,
+            height=high - low,
+            mass=float(mass),
+            centre=(0.0, float(low + centre)),
+            inertia=float(mass * inertia),
         )
 
     def _slice(self, low: float, high: float, inset: float) -> np.ndarray:

@@ -196,7 +196,7 @@ Scale = Literal["rest", "linearised", "uplift", "mean"]
 """The kind of equivalent block: exact at rest, or linearised about φ_cr with a_sc, a_sc,alt = φ_cr/λ or their mean."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class EquivalentBlock:
     """The linear rocking block, x'' = p² (x − 1 − s ü_g/(gλ)), with x = φ/φ_cr (Eq. 10) or a measure of the rotation.
 
@@ -289,7 +289,7 @@ class EquivalentBlock:
         return self.rotation_map.rotation(x * self.critical_arc) / self.critical_rotation
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class BlockDefects:
     """The distance of the equation of the block exact at rest from the mechanism's, known without any ground motion.
 

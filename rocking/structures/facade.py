@@ -281,7 +281,7 @@ class Facade(Tied):
         """Whether it moves outwards only as it opens here, as something behind stops it."""
         if self.behind in (None, "nothing"):
             return False
-        return self.held_wall.other_way(self.opening or Opening(self.crack_position)) is None
+        return self.held_wall.other_way(self.opening or Opening(foot=self.crack_position)) is None
 
     @property
     def _sections(self) -> tuple[tuple[float, float, float, float], ...]:
@@ -438,7 +438,7 @@ class Facade(Tied):
         if opened is not None:
             return opened
         if self.compressive_strength is not None or self.narrows:
-            crack = Opening(self.crack_position, outwards=not mirrored)
+            crack = Opening(foot=self.crack_position, outwards=not mirrored)
             return self.held_wall.linkage(crack, crack, self._hung(mirrored))
         base = self._lowest_storey
         outwards = -1.0 if mirrored else 1.0

@@ -197,7 +197,7 @@ _SAME = 1e-9
 """Share of the height below which a movement is none, and two heights are one."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Opening:
     """One mechanism of a held wall: where it opens, and to which side it falls.
 
@@ -494,7 +494,7 @@ class HeldWall:
             for hold, hinge in spans:
                 stands_above = hold is not None and hold < self.height * (1 - _SAME)
                 for upright in (False, True) if stands_above else (False,):
-                    yield from self._ways(Opening(foot, hinge, hold, upright=upright))
+                    yield from self._ways(Opening(foot=foot, hinge=hinge, hold=hold, upright=upright))
         if self.ties_apart:
             yield from self._openings_between_ties(joints, feet)
 
@@ -510,7 +510,7 @@ class HeldWall:
         # A bonder holds its leaf all along, so that the triangle stands above the uppermost one.
         lowest = max((hold.height for hold in self.holds if hold.kind == "bonder"), default=0.0)
         yield from (
-            Opening(foot, hold=max(ties), between=True) for foot in feet if lowest <= foot < max(ties)
+            Opening(foot=foot, hold=max(ties), between=True) for foot in feet if lowest <= foot < max(ties)
         )
 
     def _ways(self, opening: Opening) -> Iterator[Opening]:
@@ -563,7 +563,7 @@ class HeldWall:
         if opening.is_triangle:
             stopped = self.backed or any(hold.inwards and hold.height > opening.foot for hold in self.holds)
             return None if stopped else back
-        whole = Opening(opening.foot, outwards=back.outwards)
+        whole = Opening(foot=opening.foot, outwards=back.outwards)
         stops = [hold.height for hold in self.holds if hold.both_ways]
         higher = [
             replace(back, hold=height, upright=False)

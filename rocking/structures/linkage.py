@@ -302,14 +302,17 @@ class Linkage(ABC):
         if not self.gravity(0.0) > 0:
             raise DoesNotStandError.saying(Remark(StructureKind.FALLS_AT_REST))
         critical = self._first_zero() if self.critical is None else self.critical
-        functions = self.inertia, self.inertia_slope, self.gravity, self.gravity_slope, self.ground
         return Side(
-            *functions,
-            self.end_rotation * _FOLLOWED if critical is None else critical,
-            self.end_rotation,
-            restitution,
-            self.ties,
-            self.untied_gravity,
+            inertia=self.inertia,
+            inertia_slope=self.inertia_slope,
+            gravity=self.gravity,
+            gravity_slope=self.gravity_slope,
+            ground=self.ground,
+            critical_rotation=self.end_rotation * _FOLLOWED if critical is None else critical,
+            end_rotation=self.end_rotation,
+            restitution=restitution,
+            ties=self.ties,
+            untied_gravity=self.untied_gravity,
             can_overturn=critical is not None,
         )
 
@@ -522,7 +525,7 @@ class Reaction(NamedTuple):
         )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Restraint:
     """A height at which a tie or what lies on its top keeps a wall from moving outwards; forces in N per metre.
 

@@ -42,7 +42,7 @@ CUTS = (0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.03, 0.1, 0.2, 0.4)
 _DEFECT_SAMPLES = 401
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Tie:
     """A tie that stays horizontal, being long: force `pretension` + `stiffness` · u up to `strength`.
 
@@ -139,7 +139,7 @@ class SideTie:
         return float(brentq(beyond, 0.0, end_rotation, xtol=1e-18, rtol=1e-15))
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Side:
     """One direction of rocking: I [m], I' [m/rad], G [-], G' [1/rad], B [-] as functions of φ on [0, end_rotation].
 
@@ -297,14 +297,19 @@ class Side:
         scales = {"rest": alternative, "linearised": linearised, "uplift": alternative, "mean": mean}
         if scale not in scales:
             raise StructureError(f"scale is {scale!r}, but must be one of {', '.join(scales)}.")
-        numbers = self.critical_rotation, scales[scale], self.restitution
+        block = EquivalentBlock(
+            frequency_parameter=self.frequency_parameter,
+            critical_rotation=self.critical_rotation,
+            acceleration_scale=scales[scale],
+            restitution=self.restitution,
+        )
         if scale != "rest":
-            return EquivalentBlock(self.frequency_parameter, *numbers)
+            return block
         # p² = g G(0)/(I(0) q_cr) in x = q/q_cr with the arc q (theory: section 9)
         arc, inverse = self.arc
         stiffness = GRAVITY * self.at("gravity", 0.0) / self.at("inertia", 0.0)
         frequency = float(np.sqrt(stiffness / arc.at(self.critical_rotation)))
-        return EquivalentBlock(frequency, *numbers, rotation_map=inverse)
+        return replace(block, frequency_parameter=frequency, rotation_map=inverse)
 
     @cached_property
     def block_defects(self) -> BlockDefects:
@@ -317,7 +322,7 @@ class Side:
         stretch = arc.stretch(rotation)
         restoring = self.gravity(rotation) / self.at("gravity", 0.0) / stretch - (1 - x)
         forcing = self.at("ground", self.critical_rotation) / self.at("ground", 0.0) / stretch[-1] - 1
-        return BlockDefects(float(np.abs(restoring).max()), float(forcing))
+        return BlockDefects(restoring=float(np.abs(restoring).max()), forcing=float(forcing))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -436,7 +441,8 @@ class Mechanism(Drawn):
         """The defects of the block exact at rest, of the worse side."""
         defects = [side.block_defects for side in self.sides]
         return BlockDefects(
-            max(each.restoring for each in defects), max((each.forcing for each in defects), key=abs)
+            restoring=max(each.restoring for each in defects),
+            forcing=max((each.forcing for each in defects), key=abs),
         )
 
     def angular_acceleration(
@@ -484,7 +490,7 @@ class Outcome(StrEnum):
 
     Examples
     --------
-    >>> rocking.integrate(rocking.Block(2.0, 0.2), rocking.Pulse(3.0, 8.0)).outcome
+    >>> rocking.integrate(rocking.Block(2.0, 0.2), rocking.Pulse(amplitude=3.0, circular_frequency=8.0)).outcome
     <Outcome.ROCKS: 'rocks'>
     """
 

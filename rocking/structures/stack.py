@@ -31,7 +31,7 @@ _GAP = 1e-9
 """Distance between two courses that counts as none, over the height of the stack."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Course:
     """One rigid body of a stack.
 
@@ -80,7 +80,7 @@ class Course:
         return float(np.arctan2(max(lever, 0.0), self.centre[1] - self.base))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Stop:
     """What stands still behind a point: it pushes to the right once the point has moved to the left, and never pulls.
 
@@ -100,7 +100,7 @@ class Stop:
         lost = -np.log(np.clip(restitution, _LEAST_RETURNED, 1.0))
         ratio = float(lost / np.hypot(np.pi, lost))
         stiffness = mass * (_STOP_STEPS / _STEP) ** 2
-        return cls(stiffness, 2 * ratio * math.sqrt(stiffness * (thrown or mass)))
+        return cls(stiffness=stiffness, damping=2 * ratio * math.sqrt(stiffness * (thrown or mass)))
 
 
 @dataclass(frozen=True)
@@ -310,13 +310,13 @@ def joined(courses: Sequence[Course]) -> Course:
     inertia = inertias.sum() + masses @ ((places - centre) ** 2).sum(axis=1)
     height = last.base + last.height - first.base
     return Course(
-        first.bottom,
-        last.top,
-        first.base,
-        height,
-        float(masses.sum()),
-        tuple(centre.tolist()),
-        float(inertia),
+        bottom=first.bottom,
+        top=last.top,
+        base=first.base,
+        height=height,
+        mass=float(masses.sum()),
+        centre=tuple(centre.tolist()),
+        inertia=float(inertia),
     )
 
 
@@ -326,7 +326,16 @@ def slab(left: float, right: float, base: float, load: float, **how: bool) -> Co
     mass = load / GRAVITY
     inertia = mass * ((right - left) ** 2 + height**2) / 12
     middle = ((left + right) / 2, base + height / 2)
-    return Course((left, right), (left, right), base, height, mass, middle, inertia, **how)
+    return Course(
+        bottom=(left, right),
+        top=(left, right),
+        base=base,
+        height=height,
+        mass=mass,
+        centre=middle,
+        inertia=inertia,
+        **how,
+    )
 
 
 def course_at(courses: Sequence[Course], height: float) -> int:
@@ -364,7 +373,17 @@ def courses_between(
         mass, centre, inertia = _trapezium(lower, upper, high - low)
         place = (centre[0], low + centre[1])
         weight = density * depth
-        made.append(Course(lower, upper, low, high - low, weight * mass, place, weight * inertia))
+        made.append(
+            Course(
+                bottom=lower,
+                top=upper,
+                base=low,
+                height=high - low,
+                mass=weight * mass,
+                centre=place,
+                inertia=weight * inertia,
+            )
+        )
     return tuple(made)
 
 

@@ -447,7 +447,7 @@ class Tied(CrackedAtHeight, Leaved):
     @property
     def lets_go(self) -> bool:
         """Whether no tie without a strength has to stretch for it to move outwards as it opens."""
-        crack = Opening(self.crack_position) if self.opening is None else self.opening
+        crack = Opening(foot=self.crack_position) if self.opening is None else self.opening
         return math.isfinite(self.held_wall.multiplier(crack))
 
     def reactions(
@@ -502,15 +502,15 @@ class Tied(CrackedAtHeight, Leaved):
             of_ties = hold.outwards - friction if np.isfinite(friction) else 0.0
             found.append(
                 Restraint(
-                    hold.kind,
-                    hold.height,
-                    weakest.name,
-                    float(reaction.force[0]),
-                    friction,
-                    friction / reaction.pressing if reaction.pressing else 0.0,
-                    of_ties,
-                    sum(each.total for each in wall.storeys),
-                    wall.grip(hold.height) if hold.kind == "tie" else math.inf,
+                    kind=hold.kind,
+                    height=hold.height,
+                    holds=weakest.name,
+                    needed=float(reaction.force[0]),
+                    friction=friction,
+                    coefficient=friction / reaction.pressing if reaction.pressing else 0.0,
+                    ties=of_ties,
+                    weight=sum(each.total for each in wall.storeys),
+                    grip=wall.grip(hold.height) if hold.kind == "tie" else math.inf,
                 )
             )
         return tuple(found)
@@ -523,7 +523,7 @@ class Tied(CrackedAtHeight, Leaved):
     @property
     def _opens(self) -> Opening:
         """How it opens: as one of the family, or as it is described."""
-        return self.opening or self._described_opening or Opening(self.crack_position)
+        return self.opening or self._described_opening or Opening(foot=self.crack_position)
 
     @cached_property
     def tie_period(self) -> float:
@@ -690,7 +690,7 @@ class Tied(CrackedAtHeight, Leaved):
         for height in self.held_at:
             place = course_at(courses, height)
             stop = Stop.of_mass(courses[place].mass, self.mechanism().positive.restitution)
-            tie = Tie(stop.stiffness, 0.0, np.inf, 0.0)
+            tie = Tie(stiffness=stop.stiffness, pretension=0.0, strength=np.inf, plastic_elongation=0.0)
             held += [Held(place, (outer, height), tie=tie), Held(place, (inner, height), stop=stop)]
         return held
 
@@ -730,7 +730,12 @@ class Tied(CrackedAtHeight, Leaved):
     def _tie(self) -> Tie:
         """Each tie."""
         strength = np.inf if self.tie_strength is None else self.tie_strength
-        return Tie(self.tie_stiffness, self.tie_pretension, strength, self.tie_plastic_elongation)
+        return Tie(
+            stiffness=self.tie_stiffness,
+            pretension=self.tie_pretension,
+            strength=strength,
+            plastic_elongation=self.tie_plastic_elongation,
+        )
 
     def _check_ties(self) -> None:
         """Refuse ties that do not hang together."""

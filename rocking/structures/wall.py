@@ -442,7 +442,7 @@ class Wall(CrackedWall):
 
     @property
     def _opening(self) -> Opening:
-        return Opening(0.0, self.lower_height, self.height)
+        return Opening(foot=0.0, hinge=self.lower_height, hold=self.height)
 
     @property
     def does(self) -> str:
@@ -455,7 +455,15 @@ class Wall(CrackedWall):
         moment = wall.multiplier(self._opening) * lever + inner
         needed = moment / (self.height - self.lower_height)
         weight = 1.0 if self.unit_weight is None else self.unit_weight * self.thickness * self.height
-        taken = Restraint("top", self.height, wall.name(self._opening), needed, np.inf, np.inf, weight=weight)
+        taken = Restraint(
+            kind="top",
+            height=self.height,
+            holds=wall.name(self._opening),
+            needed=needed,
+            friction=np.inf,
+            coefficient=np.inf,
+            weight=weight,
+        )
         return (taken,)
 
     @classmethod
@@ -733,7 +741,7 @@ class LoadedWall(CrackedWall, Tied):
 
     @property
     def _described_opening(self) -> Opening:
-        return Opening(0.0, self.lower_height, self.height)
+        return Opening(foot=0.0, hinge=self.lower_height, hold=self.height)
 
     def opened(self, opening: Opening) -> Self:
         return replace(self, crack="known", opening=opening, **self.together)
@@ -794,7 +802,12 @@ class LoadedWall(CrackedWall, Tied):
             hung.append(self._load(bearing, self._part_at(self.height), self.top_load, stays))
         if self._friction >= LEAST_STIFFNESS * _GRIPS and slip * outwards > 0:
             # It resists from the first movement on, until the wall has left what lies on it.
-            slides = Tie(self._friction / _GRIPS, self._friction, self._friction, self.thickness)
+            slides = Tie(
+                stiffness=self._friction / _GRIPS,
+                pretension=self._friction,
+                strength=self._friction,
+                plastic_elongation=self.thickness,
+            )
             start = complex(outwards * half, self.height)
             hung.append(Hung("friction", start, self._part_at(self.height), tie=slides))
         for height in self.tie_heights:

@@ -56,13 +56,29 @@ BLOCK = Block(3.0, 0.2, restitution=0.9)
 def parts(folder: Path) -> dict[str, object]:
     """Each part by what it does."""
     path = folder / "bench.AT2"
-    path.write_text(at2_text(SyntheticRecord("bench", 1, 4.0, 1.0, 8.0, 2.0, 40.0, 0.005)))
+    path.write_text(
+        at2_text(
+            SyntheticRecord(
+                name="bench",
+                seed=1,
+                pulse_amplitude=4.0,
+                pulse_period=1.0,
+                pulse_start=8.0,
+                noise_peak=2.0,
+                duration=40.0,
+                time_step=0.005,
+            )
+        )
+    )
     record = shaking(40, 3.0)
     blocks = [Block(height, 0.2).mechanism().equivalent_block() for height in np.linspace(1, 5, 100)]
     spire, strong = Spire(width=3.0, height=15.0, wall_thickness=0.25).stack(), shaking(20, 3.5)
     draw = np.random.default_rng(1)
-    floor = Support((Mode(0.3, 0.05, 1.3),))
-    pulses = [Pulse(float(a), float(w)) for a, w in draw.uniform((0.5, 1), (12, 30), (10_000, 2))]
+    floor = Support((Mode(period=0.3, damping_ratio=0.05, participation=1.3),))
+    pulses = [
+        Pulse(amplitude=float(a), circular_frequency=float(w))
+        for a, w in draw.uniform((0.5, 1), (12, 30), (10_000, 2))
+    ]
     front = Facade((3.5, 3.0), (0.6, 0.5), 20e3, floor_loads=(12e3, 6e3))
     front.candidates()
     level = DesignSpectrum.ntc(1.2, 2.45, 0.33, "B")

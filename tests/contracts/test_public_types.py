@@ -103,7 +103,7 @@ def results() -> dict[str, object]:
     """One of each thing that a notebook shows."""
     arch = rocking.Arch(15.0, 2.25, math.radians(157.5), restitution=0.9)
     mechanism = arch.mechanism()
-    pulse = rocking.Pulse(0.67 * 9.80665, 2 * math.pi / 0.81, 2.05)
+    pulse = rocking.Pulse(amplitude=0.67 * 9.80665, circular_frequency=2 * math.pi / 0.81, start_time=2.05)
     record = rocking.Accelerogram(pulse.acceleration(np.arange(4000) * 0.005), 0.005, "NS", "Rinaldi")
     maximum = rocking.predict_maximum(mechanism.equivalent_block("uplift"), pulse)
     response = rocking.integrate(mechanism, record, history=True)

@@ -43,7 +43,9 @@ SPECTRA = st.builds(
 SUPPORTS = st.one_of(
     st.none(),
     st.builds(
-        lambda period, damping, share: Support((Mode(period, damping, share),)),
+        lambda period, damping, share: Support(
+            (Mode(period=period, damping_ratio=damping, participation=share),)
+        ),
         st.floats(0.05, 1.0),
         st.floats(0.02, 0.2),
         st.floats(0.3, 1.6),

@@ -86,8 +86,11 @@ def test_mirrored_records_give_mirrored_responses(name, seed):
         here, there = integrate(structure, record), integrate(structure, record.scaled(-1.0))
         assert (here.rotation_ratio, here.impacts) == (there.rotation_ratio, there.impacts)
         assert here.peak_side == -there.peak_side
-    pulse = Pulse(1.3 * g * mechanism.uplift_multiplier, 5.0)
-    here, there = integrate(mechanism, pulse), integrate(mechanism, Pulse(-pulse.amplitude, 5.0))
+    pulse = Pulse(amplitude=1.3 * g * mechanism.uplift_multiplier, circular_frequency=5.0)
+    here, there = (
+        integrate(mechanism, pulse),
+        integrate(mechanism, Pulse(amplitude=-pulse.amplitude, circular_frequency=5.0)),
+    )
     assert (here.rotation_ratio, here.peak_side) == (there.rotation_ratio, -there.peak_side)
 
 
@@ -108,7 +111,14 @@ def test_similar_structures_under_time_scaled_records(seed, scale):
 @given(seed=SEEDS, p=st.floats(0.5, 10), critical=st.floats(1e-3, 1.0), scale=st.floats(0.1, 3.0))
 def test_every_equivalent_block_is_the_universal_one(seed, p, critical, scale):
     """In x = φ/φ_cr, p t and ü_g/(g λ) only η remains."""
-    one, other = EquivalentBlock(1.0, 1.0, 1.0, 0.8), EquivalentBlock(p, critical, scale, 0.8)
+    one, other = (
+        EquivalentBlock(
+            frequency_parameter=1.0, critical_rotation=1.0, acceleration_scale=1.0, restitution=0.8
+        ),
+        EquivalentBlock(
+            frequency_parameter=p, critical_rotation=critical, acceleration_scale=scale, restitution=0.8
+        ),
+    )
     record = noise(seed, one, step=0.05)
     same = Accelerogram(record.acceleration * other.uplift_multiplier, record.time_step / p)
     here, there = integrate(one, record), integrate(other, same)

@@ -22,10 +22,24 @@ TOLERANCE = 1e-12
 AMPLITUDES = (0.95, 1.02, 1.1, 1.2, 1.35, 1.5, 1.7, 2.0, 2.4, 2.8, 3.2, 4.0, 5.0, 6.5, 8.0, 11.0, 15.0, 20.0)
 FREQUENCIES = (0.3, 0.6, 1.0, 1.6, 2.5, 4.0, 5.0, 6.0, 8.0, 11.0, 16.0, 30.0)
 RESTITUTIONS = (0.0, 0.4, 0.7, 0.9, 0.97)
-TWO_SIDES = EquivalentBlock(1.7, 0.30, 0.9, 0.85, other_side=EquivalentBlock(2.4, 0.18, 0.7, 0.95))
+TWO_SIDES = EquivalentBlock(
+    frequency_parameter=1.7,
+    critical_rotation=0.30,
+    acceleration_scale=0.9,
+    restitution=0.85,
+    other_side=EquivalentBlock(
+        frequency_parameter=2.4, critical_rotation=0.18, acceleration_scale=0.7, restitution=0.95
+    ),
+)
 UNLIKE = {
     "two sides": TWO_SIDES,
-    "one side": EquivalentBlock(2.2, 0.2, 1.1, 0.7, one_sided=True),
+    "one side": EquivalentBlock(
+        frequency_parameter=2.2,
+        critical_rotation=0.2,
+        acceleration_scale=1.1,
+        restitution=0.7,
+        one_sided=True,
+    ),
     "two sides, exact at rest": Mechanism(
         Wall(1.5, 1.5, 0.4).mechanism().positive,
         Arch(10.0, 2.5, math.radians(120), restitution=0.9).mechanism().positive,
@@ -34,12 +48,16 @@ UNLIKE = {
 
 
 def symmetric(restitution: float) -> EquivalentBlock:
-    return EquivalentBlock(2.0, 0.25, 0.8, restitution)
+    return EquivalentBlock(
+        frequency_parameter=2.0, critical_rotation=0.25, acceleration_scale=0.8, restitution=restitution
+    )
 
 
 def compared(block: EquivalentBlock, a: float, omega: float) -> Maximum:
     """The prediction under the pulse of amplitude ratio a and frequency ratio ω, held to the integration."""
-    pulse = Pulse(a * g * block.uplift_multiplier, omega * block.frequency_parameter)
+    pulse = Pulse(
+        amplitude=a * g * block.uplift_multiplier, circular_frequency=omega * block.frequency_parameter
+    )
     predicted = predict_maximum(block, pulse)
     followed = integrate(block, pulse, tolerance=TOLERANCE, history=True)
     where = f"{block} {pulse} {predicted} {followed}"
@@ -92,8 +110,20 @@ def test_other_blocks_agree_too_for_both_signs(name: str) -> None:
 
 def test_short_hop_on_a_side_with_a_small_critical_rotation_is_the_largest() -> None:
     """The pulse lifts only the large side, barely; what is a small hop there is a large share of the other's φ_cr."""
-    small = EquivalentBlock(6.0, 0.008, 0.008 / 8.0, 0.4)
-    predicted = compared(EquivalentBlock(2.0, 0.3, 1.0, 0.5, other_side=small), -1.02, 6.0)
+    small = EquivalentBlock(
+        frequency_parameter=6.0, critical_rotation=0.008, acceleration_scale=0.008 / 8.0, restitution=0.4
+    )
+    predicted = compared(
+        EquivalentBlock(
+            frequency_parameter=2.0,
+            critical_rotation=0.3,
+            acceleration_scale=1.0,
+            restitution=0.5,
+            other_side=small,
+        ),
+        -1.02,
+        6.0,
+    )
     assert (predicted.peak_side, predicted.impacts) == (-1, 1)
 
 
@@ -109,7 +139,10 @@ def test_the_block_exact_at_rest_stands_for_the_mechanism() -> None:
         block = mechanism.equivalent_block()
         for a in np.geomspace(1.1, 10, 6):
             for omega in np.geomspace(0.8, 10, 6):
-                pulse = Pulse(a * g * mechanism.uplift_multiplier, omega * block.frequency_parameter)
+                pulse = Pulse(
+                    amplitude=a * g * mechanism.uplift_multiplier,
+                    circular_frequency=omega * block.frequency_parameter,
+                )
                 predicted, truth = predict_maximum(block, pulse), integrate(mechanism, pulse)
                 agree.append(predicted.outcome is truth.outcome)
                 if predicted.outcome is truth.outcome is Outcome.ROCKS:

@@ -153,7 +153,7 @@ def test_energy_of_free_rocking_is_kept_until_the_impact(kind, form):
     structure = structure_from_config({"type": kind, **fields})
     side = structure.mechanism().positive
     start = 0.5 * side.critical_rotation
-    still = Pulse(1e-9, 20 * np.pi, 0.0)
+    still = Pulse(amplitude=1e-9, circular_frequency=20 * np.pi, start_time=0.0)
     found = integrate(structure, still, 1e-12, history=True, initial_rotation=start)
     flight = np.arange(np.argmax(found.rotation <= 0))
     phi, speed = found.rotation[flight], found.angular_velocity[flight]

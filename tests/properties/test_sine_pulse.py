@@ -14,14 +14,18 @@ from rocking.sine_pulse import Regime, predict_maximum, printed_maximum
 from rocking.structures import Outcome
 from rocking.structures.mechanism import EquivalentBlock
 
-BLOCK = EquivalentBlock(2.0, 0.25, 0.8, 0.9)
+BLOCK = EquivalentBlock(
+    frequency_parameter=2.0, critical_rotation=0.25, acceleration_scale=0.8, restitution=0.9
+)
 AMPLITUDES = st.floats(-1, 1.5).map(lambda power: 10**power)
 FREQUENCIES = st.floats(-0.7, 2).map(lambda power: 10**power)
 RESTITUTIONS = st.floats(0, 0.95)
 
 
 def on(block: EquivalentBlock, a: float, omega: float) -> Pulse:
-    return Pulse(a * g * block.uplift_multiplier, omega * block.frequency_parameter)
+    return Pulse(
+        amplitude=a * g * block.uplift_multiplier, circular_frequency=omega * block.frequency_parameter
+    )
 
 
 @given(AMPLITUDES, FREQUENCIES, RESTITUTIONS)
@@ -49,7 +53,9 @@ def test_only_the_two_ratios_and_restitution_matter(
 ) -> None:
     """In x = φ/φ_cr and p t every block is one problem. 1e-9: rounding of a and ω, magnified near overturning."""
     one = replace(BLOCK, restitution=eta)
-    two = EquivalentBlock(p, critical, scale, eta)
+    two = EquivalentBlock(
+        frequency_parameter=p, critical_rotation=critical, acceleration_scale=scale, restitution=eta
+    )
     first, second = predict_maximum(one, on(one, a, omega)), predict_maximum(two, on(two, a, omega))
     assume(abs(first.overturning_margin) > 1e-6 and abs(a - 1) > 1e-6)
     assert first.outcome is second.outcome

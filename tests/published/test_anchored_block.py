@@ -22,7 +22,7 @@ def anchored(strength: float, stretch: float) -> Mechanism:
     """strength: over the weight. The block's G is that of a weight of 1 at the semi-diagonal, divided by it."""
     unit, side = np.hypot(HALF_BREADTH, HALF_HEIGHT), FREE.positive
     tie = SideTie(
-        Tie(strength / stretch / unit, 0.0, strength / unit),
+        Tie(stiffness=strength / stretch / unit, pretension=0.0, strength=strength / unit),
         lambda phi: 4 * HALF_BREADTH * np.sin(phi / 2),
         lambda phi: 2 * HALF_BREADTH * np.cos(phi / 2),
     )
@@ -32,8 +32,9 @@ def anchored(strength: float, stretch: float) -> Mechanism:
 
     return Mechanism(
         Side(
-            side.inertia, side.inertia_slope, on_the_way_out, side.gravity_slope, side.ground, side.critical_rotation,
-            side.end_rotation, side.restitution, ties=(tie,), untied_gravity=side.gravity,
+            inertia=side.inertia, inertia_slope=side.inertia_slope, gravity=on_the_way_out,
+            gravity_slope=side.gravity_slope, ground=side.ground, critical_rotation=side.critical_rotation,
+            end_rotation=side.end_rotation, restitution=side.restitution, ties=(tie,), untied_gravity=side.gravity,
         )
     )  # fmt: skip
 
@@ -41,7 +42,7 @@ def anchored(strength: float, stretch: float) -> Mechanism:
 def least_overturning(mechanism: Mechanism, frequency: float) -> float:
     """Over gλ, to one part in a hundred."""
     scales = np.geomspace(1, 15, 270)
-    pulse = Pulse(GRAVITY * FREE.uplift_multiplier, frequency)
+    pulse = Pulse(amplitude=GRAVITY * FREE.uplift_multiplier, circular_frequency=frequency)
     ratios = integrate_members(mechanism, pulse, Members(scales)).rotation_ratio
     return float(scales[np.argmax(np.isinf(ratios))]) if np.isinf(ratios).any() else np.inf
 

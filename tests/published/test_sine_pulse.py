@@ -16,11 +16,15 @@ from tests.parts import callable_parts
 PARTS = callable_parts(kernel)
 flight, state = PARTS.flight, PARTS.state
 
-BLOCK = EquivalentBlock(2.0, 0.2, 0.8, 0.9)
+BLOCK = EquivalentBlock(
+    frequency_parameter=2.0, critical_rotation=0.2, acceleration_scale=0.8, restitution=0.9
+)
 
 
 def on_block(a: float, omega: float) -> Pulse:
-    return Pulse(a * g * BLOCK.uplift_multiplier, omega * BLOCK.frequency_parameter)
+    return Pulse(
+        amplitude=a * g * BLOCK.uplift_multiplier, circular_frequency=omega * BLOCK.frequency_parameter
+    )
 
 
 def predicted(a: float, omega: float) -> Maximum:

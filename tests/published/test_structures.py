@@ -48,7 +48,9 @@ def test_arch_table(row):
 @pytest.mark.slow  # the same number stands in a refusal of tests/unit/structures/test_refusals.py
 def test_minimum_thickness_of_the_semicircle():
     """Milankovitch 1907 (radial joints); Makris and Alexakis 2013: t/r = 0.107478."""
-    assert limiting_thickness(Ring(1.0, np.pi), TooThin) == pytest.approx(0.107478038, abs=0.5e-9)
+    assert limiting_thickness(Ring(thickness=1.0, embrace_angle=np.pi), TooThin) == pytest.approx(
+        0.107478038, abs=0.5e-9
+    )
 
 
 @pytest.mark.parametrize("ratio", [0.0, 0.5, 2.0, 20.0])

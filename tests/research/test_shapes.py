@@ -16,7 +16,9 @@ TIMES = np.arange(3000) * STEP
 def test_a_planted_pulse_is_found_by_its_shape_and_explains_all(shape):
     cycles, phase = SHAPES[shape]
     frequency = BAND[0] * 2 ** (60 / 24)  # on the grid
-    planted = Pulse(-2.0, 2 * math.pi * frequency, 6.0, cycles, phase)
+    planted = Pulse(
+        amplitude=-2.0, circular_frequency=2 * math.pi * frequency, start_time=6.0, cycles=cycles, phase=phase
+    )
     record = Accelerogram(planted.acceleration(TIMES), STEP)
     found = {name: fitted(record, *SHAPES[name]) for name in SHAPES}
     own = found[shape]

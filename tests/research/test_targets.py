@@ -40,8 +40,17 @@ ROOT = Path(__file__).parents[2]
 
 def _strong(number: int) -> bytes:
     """A record of a station of its own, whose pulse lifts and overturns."""
-    pulse = 2 + 0.3 * number, 0.5 + 0.15 * number
-    return at2_text(SyntheticRecord(f"made_{number}", number, *pulse, 1.0, 1.0, 6.0, 0.01)).encode()
+    made = SyntheticRecord(
+        name=f"made_{number}",
+        seed=number,
+        pulse_amplitude=2 + 0.3 * number,
+        pulse_period=0.5 + 0.15 * number,
+        pulse_start=1.0,
+        noise_peak=1.0,
+        duration=6.0,
+        time_step=0.01,
+    )
+    return at2_text(made).encode()
 
 
 @pytest.fixture(scope="module")

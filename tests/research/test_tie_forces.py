@@ -11,7 +11,7 @@ from rocking.structures.stack import Held
 
 def test_a_tie_pulls_by_how_far_its_point_goes_to_the_right_and_never_pushes():
     """A course whose centre goes 0.02 m to the right and which turns by 0.1 rad about it; the tie is 1 m above it."""
-    held = Held(0, (0.3, 2.0), tie=Tie(5e6, pretension=1e3))
+    held = Held(0, (0.3, 2.0), tie=Tie(stiffness=5e6, pretension=1e3))
 
     def response(right: float, turn: float) -> StackResponse:
         places = np.array([[[0.0, 0.0, 0.0]], [[right, 0.0, turn]]])

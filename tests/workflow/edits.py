@@ -34,7 +34,18 @@ JOBS = {
 
 
 def _waves(seed: int) -> bytes:
-    return at2_text(SyntheticRecord("made", seed, 1.0, 0.3, 1.0, 0.5, 2.0, 0.01)).encode()
+    return at2_text(
+        SyntheticRecord(
+            name="made",
+            seed=seed,
+            pulse_amplitude=1.0,
+            pulse_period=0.3,
+            pulse_start=1.0,
+            noise_peak=0.5,
+            duration=2.0,
+            time_step=0.01,
+        )
+    ).encode()
 
 
 def write_settings(**changed: object) -> None:

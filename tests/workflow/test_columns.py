@@ -68,7 +68,7 @@ def test_every_column_is_filled_somewhere(tmp_path: Path) -> None:
     spire = {name: study.scenes[name] for name in ("spire", "stocky")}
     _write_tables([pulse], Study(spire, contact), tmp_path / "contact")
     failing = on_the_ground({"facade": study.structures["facade"], "impossible": Impossible()})
-    too_stiff = Place("rack", (Support((Mode(1e-3, 0.05, 1.0),)),))
+    too_stiff = Place("rack", (Support((Mode(period=1e-3, damping_ratio=0.05, participation=1.0),)),))
     failing["instrument"] = replace(failing["facade"], name="instrument", place=too_stiff)
     _write_tables([records[1], replace(pulse, scale_factor=6.0)], Study(failing, alone), tmp_path / "auto")
     write_fragility(records[1:3], study, tmp_path / "fragility")

@@ -52,7 +52,9 @@ EXPOSURE = """<?xml version="1.0" encoding="UTF-8"?>
 @pytest.fixture(scope="module")
 def curve() -> Fragility:
     step = 0.01 * np.arange(600)
-    pulses = [Pulse(3.0, omega, 0.5) for omega in np.linspace(3.0, 9.0, 12)]
+    pulses = [
+        Pulse(amplitude=3.0, circular_frequency=omega, start_time=0.5) for omega in np.linspace(3.0, 9.0, 12)
+    ]
     records = [Accelerogram(pulse.acceleration(step), 0.01) for pulse in pulses]
     return fragility(records, Block(2.0, 0.2), stations=[f"S{k}" for k in range(12)])
 

@@ -27,7 +27,7 @@ def write_study(folder: Path, records: int, duration: float = 20.0, time_step: f
         amplitude, period = np.random.RandomState(number).uniform((0.1, 0.4), (0.6, 2.0))
         strengths = {"pulse_amplitude": amplitude * GRAVITY, "noise_peak": 0.2 * GRAVITY}
         times = {"pulse_start": 0.2 * duration, "duration": duration, "time_step": time_step}
-        recipe = SyntheticRecord(name, number, pulse_period=period, **strengths, **times)
+        recipe = SyntheticRecord(name=name, seed=number, pulse_period=period, **strengths, **times)
         content = at2_text(recipe).encode()
         (folder / "records" / f"{name}.AT2").write_bytes(content)
         rows.append((name, f"{name}.AT2", "g", hashlib.sha256(content).hexdigest()))

@@ -76,7 +76,10 @@ def pulse_cases(count: int = PULSES) -> Iterator[CodeCase]:
     for k in range(count):
         name, mechanism = mechanisms[k % len(mechanisms)]
         amplitude = mechanism.uplift_multiplier * GRAVITY * _log_uniform(draw, 1.1, 4)
-        pulse = Pulse(amplitude, mechanism.positive.frequency_parameter * _log_uniform(draw, 2, 12))
+        pulse = Pulse(
+            amplitude=amplitude,
+            circular_frequency=mechanism.positive.frequency_parameter * _log_uniform(draw, 2, 12),
+        )
         step = pulse.period / PER_PERIOD
         samples = pulse.acceleration(np.arange(PER_PERIOD) * step)
         motion = Accelerogram(np.concatenate([samples, np.zeros(3)]), step)

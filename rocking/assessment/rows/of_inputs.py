@@ -40,7 +40,7 @@ CAPACITY_POINTS = 21
 # What shakes ----------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Identity:
     """Names of a component of a record and of the input behind it, which stand in each row about it."""
 
@@ -317,7 +317,11 @@ class PulseRow(ComponentRow[FoundPulse]):
     @property
     def pulse(self) -> Pulse:
         """The pulse itself."""
-        return Pulse(self.amplitude_m_s2, self.circular_frequency_rad_s, self.start_time_s)
+        return Pulse(
+            amplitude=self.amplitude_m_s2,
+            circular_frequency=self.circular_frequency_rad_s,
+            start_time=self.start_time_s,
+        )
 
 
 # What stands ----------------------------------------------------------------------------------------------

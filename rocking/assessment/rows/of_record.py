@@ -653,7 +653,7 @@ class AnyCaseRow(RowOf[P]):
     support_period_s: float | None = of_any_case(SUPPORT_PERIOD, lambda of: of.support_period)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class HistoryStep(OfCase):
     """One step of a response that keeps its history."""
 
@@ -691,8 +691,17 @@ def history_rows(
             response.angular_velocity.tolist(),
             strict=True,
         )
-        for step in steps:
-            yield HistoryRow.of(HistoryStep(record, component, structure, *step, support_period=period))
+        for time, rotation, angular_velocity in steps:
+            step = HistoryStep(
+                record,
+                component,
+                structure,
+                support_period=period,
+                time=time,
+                rotation=rotation,
+                angular_velocity=angular_velocity,
+            )
+            yield HistoryRow.of(step)
 
 
 @dataclass(frozen=True)
@@ -859,7 +868,13 @@ def rows_of_record(
     """
     record = result.record
     identities = [
-        Identity(record, each.component, each.source.sha256, settings_sha256) for each in result.accelerograms
+        Identity(
+            record=record,
+            component=each.component,
+            record_sha256=each.source.sha256,
+            settings_sha256=settings_sha256,
+        )
+        for each in result.accelerograms
     ]
     by_component = dict(zip(result.names, identities, strict=True))
     comparison: list[ComparisonRow] = []

@@ -164,7 +164,7 @@ def agreement_rows(
         yield AgreementRow.of(CountedCases(structure, cases, names))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class BlockUnderRecord:
     """One equivalent block under one component of a whole record."""
 
@@ -209,11 +209,21 @@ def spectrum_rows(
     for accelerogram in accelerograms:
         ratios = rocking_spectrum(accelerogram, frequency_parameters, uplift_multipliers, restitution)
         blocks = product(frequency_parameters.tolist(), uplift_multipliers.tolist())
-        for block, rotation_ratio in zip(blocks, np.ravel(ratios).tolist(), strict=True):
-            yield SpectrumRow.of(BlockUnderRecord(accelerogram, *block, restitution, rotation_ratio))
+        for (frequency_parameter, uplift_multiplier), rotation_ratio in zip(
+            blocks, np.ravel(ratios).tolist(), strict=True
+        ):
+            yield SpectrumRow.of(
+                BlockUnderRecord(
+                    accelerogram=accelerogram,
+                    frequency_parameter=frequency_parameter,
+                    uplift_multiplier=uplift_multiplier,
+                    restitution=restitution,
+                    rotation_ratio=rotation_ratio,
+                )
+            )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class CountedFalls:
     """How many structures are expected to fall under one record, or on average under several.
 
@@ -277,7 +287,13 @@ def falls_under(
     untold = sum(math.isnan(row.overturning_share) and not row.decision.word.stays_up for row in worst)
     still = all(row.rotation_ratio == 0 for row in worst)
     return ExpectedFallsRow.of(
-        CountedFalls(worst[0].record, len(worst), float(np.nansum(shares)), untold, still=int(still))
+        CountedFalls(
+            record=worst[0].record,
+            structures=len(worst),
+            expected_falls=float(np.nansum(shares)),
+            without_share=untold,
+            still=int(still),
+        )
     )
 
 

@@ -27,7 +27,7 @@ class SignWords:
     table_records: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Sure:
     """How sure a conclusion is: a figure, and what it is the figure of."""
 

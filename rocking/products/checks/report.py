@@ -132,7 +132,7 @@ def structures_data(
         return StructuresPage(
             title=words("title"),
             language=settings.language,
-            about=tuple(Fact(words(label), text) for label, text in settings.about.items()),
+            about=tuple(Fact(label=words(label), text=text) for label, text in settings.about.items()),
             footer=Footer(
                 made=f"{words('foot')} {stamp(settings)}",
                 page=words("page", page="{page}", pages="{pages}"),
@@ -382,7 +382,7 @@ def _sure(page: CheckedStructure, dynamic: DynamicCheck | None, words: Sentences
         lines.append((share, words("sure share", low=low, high=high, **of_it)))
     if page.reserves:
         lines.append(_reserve(page, words))
-    return tuple(Sure(*line) for line in lines)
+    return tuple(Sure(value=value, text=text) for value, text in lines)
 
 
 def _reserve(page: CheckedStructure, words: Sentences) -> tuple[str, str]:

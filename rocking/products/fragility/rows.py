@@ -35,7 +35,7 @@ ROTATION_RATIOS = (0.1, 0.3, 0.5, math.inf)
 _MEASURE = f"Intensity measure: {MEASURES_IN_WORDS}"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ScaledRecord(Placed):
     """One record scaled to one level. place, step: of record and level in the analysis."""
 
@@ -118,7 +118,14 @@ def ida_rows(
     """Yield a row for each record and level that it reaches within the largest factor."""
     for place, record in enumerate(records):
         for step, _ in enumerate(analysis.levels):
-            scaled = ScaledRecord(structure, record, analysis, place, step, support_period=support_period)
+            scaled = ScaledRecord(
+                structure=structure,
+                record=record,
+                analysis=analysis,
+                place=place,
+                step=step,
+                support_period=support_period,
+            )
             if not np.isnan(scaled.rotation_ratios).all():
                 yield IdaRow.of(scaled)
 

@@ -125,7 +125,9 @@ def _answers(
     for method, run in _runs(mechanism, record, sines, settings).items():
         rotation_ratio, cpu_s = _timed(run, 0 if method is TradeMethod.ENSEMBLE else REPEATS)
         record_s = searched_s if method in _BY_SINES else 0.0
-        answer = TimedAnswer(rotation_ratio, reference, cpu_s, record_s)
+        answer = TimedAnswer(
+            rotation_ratio=rotation_ratio, reference=reference, cpu=cpu_s, preparation=record_s
+        )
         yield method, answer
         if method is TradeMethod.ONE_SINE and sines[0].explained_energy >= DOMINATES:
             yield TradeMethod.DOMINANT_SINE, answer

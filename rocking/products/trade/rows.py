@@ -33,7 +33,7 @@ class TradeMethod(StrEnum):
     """The mechanism with its uncertain inputs; its rotation is the median of the members."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class TimedAnswer:
     """The answer of one method to one record beside the reference: largest rotations over the critical one, and times.
 

@@ -335,7 +335,7 @@ class AskedError(UndeclaredError):
         self.question = question
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class LayoutAnswer:
     """One answer: its text, who gave it, the line it stands on and the file that it was drawn from."""
 
@@ -461,7 +461,10 @@ def _answers(
 ) -> list[tuple[Signature, LayoutAnswer]]:
     """Return the answers in rows, without what is still open."""
     return [
-        (Signature.of_row(row), LayoutAnswer(row["answer"].strip(), whose, line, row.get("file") or ""))
+        (
+            Signature.of_row(row),
+            LayoutAnswer(text=row["answer"].strip(), whose=whose, line=line, file=row.get("file") or ""),
+        )
         for line, row in rows
         if row["answer"].strip() and OPEN not in row["answer"]
     ]

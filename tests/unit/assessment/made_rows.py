@@ -63,7 +63,7 @@ def filled(row_class: type[R], **values: Any) -> R:
 def case(component: str, ratio: float, structure: str = "pier", side: int = 0, falls: int | None = None):
     """A case by the rotation ratio as recorded. falls: members that overturn, of 64; None: without an ensemble."""
     outcome = Outcome.at(ratio)
-    response = Response(ratio, outcome, peak_side=side)
+    response = Response(rotation_ratio=ratio, outcome=outcome, peak_side=side)
     return CaseResult(
         structure=structure,
         component=component,
@@ -114,7 +114,14 @@ def decided(decision: Decision, reserve: Reserve | None = None, **values: Any) -
 
 def verdicts(stations: Sequence[PeriodResult], record: str = "a") -> list[VerdictRow]:
     """Their rows."""
-    return [VerdictRow.of(OfStructure(Identity(record, each.component, "", ""), each)) for each in stations]
+    return [
+        VerdictRow.of(
+            OfStructure(
+                Identity(record=record, component=each.component, record_sha256="", settings_sha256=""), each
+            )
+        )
+        for each in stations
+    ]
 
 
 def failure(component: str, structure: str = "pier", message: str = "No.", record: str = "a") -> FailureRow:

@@ -12,7 +12,9 @@ from rocking.structures.linkage import UnknownContacts
 from rocking.structures.unknown_geometry import as_structure
 
 BLOCK = rocking.Block(2.0, 0.2)
-SHAKEN = Accelerogram(Pulse(3.0, 5.0, 0.5).acceleration(np.arange(600) * 0.01), 0.01)
+SHAKEN = Accelerogram(
+    Pulse(amplitude=3.0, circular_frequency=5.0, start_time=0.5).acceleration(np.arange(600) * 0.01), 0.01
+)
 
 
 def test_its_members_are_those_of_its_structure():

@@ -35,12 +35,16 @@ from rocking.sine_pulse import predict_maximum
 from rocking.structures import Block, Facade, Outcome
 
 STEP = 0.01
-PULSE = Pulse(3.0, 2 * np.pi / 0.8, 2.0)
+PULSE = Pulse(amplitude=3.0, circular_frequency=2 * np.pi / 0.8, start_time=2.0)
 RECORD = Accelerogram(PULSE.acceleration(np.arange(1000) * STEP), STEP, component="H1")
 BLOCK = Block(2.0, 0.2)
 SETTINGS = AssessmentSettings()
-IDENTITY = Identity("made", RECORD.component, RECORD.source.sha256, "")
-MOTION = Pulse(3.0, math.pi, 10.0).acceleration(np.arange(3000) * STEP)
+IDENTITY = Identity(
+    record="made", component=RECORD.component, record_sha256=RECORD.source.sha256, settings_sha256=""
+)
+MOTION = Pulse(amplitude=3.0, circular_frequency=math.pi, start_time=10.0).acceleration(
+    np.arange(3000) * STEP
+)
 
 
 def assessed(record: Accelerogram, settings: AssessmentSettings = SETTINGS, vertical=None) -> CaseResult:
@@ -173,7 +177,12 @@ def test_choice_by_demand_never_asks_less_than_choice_by_energy():
 
 def test_a_pulse_method_that_finds_nothing_costs_no_integration():
     # 1.1 s of record hold a sine of 0.5 s, but no wavelet of T_p = 0.24 s, which is 1.19 s long
-    short = Accelerogram(Pulse(3.0, 4 * np.pi, 0.3).acceleration(np.arange(110) * STEP), STEP)
+    short = Accelerogram(
+        Pulse(amplitude=3.0, circular_frequency=4 * np.pi, start_time=0.3).acceleration(
+            np.arange(110) * STEP
+        ),
+        STEP,
+    )
     settings = AssessmentSettings(pulse=PredictingPulse(choice="velocity"))
     component = component_of(short, settings.pulse)
     assert component.failure and component.analysis is not None
@@ -224,7 +233,7 @@ def row_of(record: Accelerogram, motion: HorizontalMotion, dominant: Pulse | Non
     """The row of a record whose dominant pulse is `dominant`."""
     analysis = None
     if dominant is not None:
-        evidence = PulseEvidence(dominant, 1.0, 0.5, 0.0)
+        evidence = PulseEvidence(pulse=dominant, gain=1.0, explained_energy=0.5, phase=0.0)
         analysis = PulseAnalysis(record, (evidence,), (), (), (0.1, 5.0))
     return RecordRow.of(ReadComponent(IDENTITY, Component(record, vertical, motion, analysis, ()), ""))
 
@@ -240,10 +249,12 @@ def test_a_pair_has_one_motion_and_its_axis_from_north():
     assert one.velocity_pulse_azimuth == pytest.approx(math.degrees(0.3))
     assert one.velocity_pulse.orientation == pytest.approx(0.3)
     assert one.rotd.rotd100 == pytest.approx(3.0, rel=1e-3)
-    written = row_of(north, one, Pulse(1.0, math.pi))
+    written = row_of(north, one, Pulse(amplitude=1.0, circular_frequency=math.pi))
     assert written.rotd50_peak_acceleration_m_s2 == one.rotd.rotd50
     assert written.rotd100_peak_acceleration_m_s2 == one.rotd.rotd100
-    assert written.pulse_periods_unlike is one.velocity_pulse.is_unlike(Pulse(1.0, math.pi))
+    assert written.pulse_periods_unlike is one.velocity_pulse.is_unlike(
+        Pulse(amplitude=1.0, circular_frequency=math.pi)
+    )
     assert written.pulse_period_ratio == pytest.approx(2.0 / one.velocity_pulse.period)
     alone = row_of(north, horizontal_motions([north])[0], None, vertical=component(0.1, ""))
     assert math.isnan(alone.rotd100_peak_acceleration_m_s2) and math.isnan(alone.pulse_period_ratio)
@@ -267,11 +278,23 @@ def test_a_still_or_short_record_has_no_velocity_pulse():
     for short in (Accelerogram(np.zeros(3000), STEP), Accelerogram(np.ones(50), STEP)):
         (motion,) = horizontal_motions([short])
         assert motion.velocity_pulse is None and motion.velocity_pulse_azimuth is None
-        assert row_of(short, motion, Pulse(1.0, 1.0)).pulse_periods_unlike is None
+        assert (
+            row_of(short, motion, Pulse(amplitude=1.0, circular_frequency=1.0)).pulse_periods_unlike is None
+        )
 
 
 def test_periods_more_than_a_factor_2_apart_are_unlike():
     (motion,) = horizontal_motions([component(1.0, "N")])
     period = motion.velocity_pulse.period
-    assert motion.velocity_pulse.is_unlike(Pulse(1.0, 2 * math.pi / (0.49 * period))) is True
-    assert motion.velocity_pulse.is_unlike(Pulse(1.0, 2 * math.pi / (0.51 * period))) is False
+    assert (
+        motion.velocity_pulse.is_unlike(
+            Pulse(amplitude=1.0, circular_frequency=2 * math.pi / (0.49 * period))
+        )
+        is True
+    )
+    assert (
+        motion.velocity_pulse.is_unlike(
+            Pulse(amplitude=1.0, circular_frequency=2 * math.pi / (0.51 * period))
+        )
+        is False
+    )

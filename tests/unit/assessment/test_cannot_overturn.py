@@ -23,7 +23,13 @@ SPECTRUM = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
 
 
 def record(amplitude: float) -> Accelerogram:
-    return Accelerogram(Pulse(amplitude, 6.0, 0.2).acceleration(np.arange(600) * 0.01), 0.01, station="made")
+    return Accelerogram(
+        Pulse(amplitude=amplitude, circular_frequency=6.0, start_time=0.2).acceleration(
+            np.arange(600) * 0.01
+        ),
+        0.01,
+        station="made",
+    )
 
 
 def test_it_is_the_verdict_where_the_structure_stands_and_nothing_can_let_it_fall():

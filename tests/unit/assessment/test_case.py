@@ -78,7 +78,9 @@ def test_what_an_estimate_says_does_not_lift_has_not_turned_and_what_it_says_fal
 
 
 def test_a_crack_that_overturns_in_one_run_is_the_worse_of_the_two():
-    fallen = replace(case("EW", 0.2), variations=(Variation(math.inf, crack="crack at 3 m"),))
+    fallen = replace(
+        case("EW", 0.2), variations=(Variation(integrated_rotation_ratio=math.inf, crack="crack at 3 m"),)
+    )
     block = station(fallen)
     wall = Wall.hinged_at(6.0, 3.0, 0.4)
     result = replace(block, scene=replace(block.scene, structure=wall))
@@ -89,14 +91,22 @@ def test_a_crack_that_overturns_in_one_run_is_the_worse_of_the_two():
 
 
 def test_a_crack_that_stands_too_changes_neither_the_verdict_nor_the_crack():
-    standing = replace(case("EW", 0.2), variations=(Variation(0.25, crack="crack at 3 m"),))
+    standing = replace(
+        case("EW", 0.2), variations=(Variation(integrated_rotation_ratio=0.25, crack="crack at 3 m"),)
+    )
     result = station(standing)
     assert result.verdict == "probably stands"
     assert (result.crack, result.decision.share) == ("", 0.0)
 
 
 def test_a_fall_under_another_processing_is_no_fall_of_a_crack():
-    fallen = replace(case("EW", 0.3), variations=(Variation(math.inf), Variation(0.4, crack="crack at 3 m")))
+    fallen = replace(
+        case("EW", 0.3),
+        variations=(
+            Variation(integrated_rotation_ratio=math.inf),
+            Variation(integrated_rotation_ratio=0.4, crack="crack at 3 m"),
+        ),
+    )
     assert station(fallen).crack == ""
 
 

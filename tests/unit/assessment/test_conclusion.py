@@ -102,7 +102,7 @@ def test_of_equal_shares_the_one_of_less_reserve_is_worse():
     rows = [
         decided(
             Decision(Verdict.STANDS, 0.0, (0.0, 0.0), ""),
-            Reserve(low, math.nan, math.nan, 3.0),
+            Reserve(low=low, median=math.nan, high=math.nan, limit=3.0),
             structure=name,
         )
         for name, low in (("none", math.nan), ("more", 2.0), ("less", 1.5))
@@ -136,9 +136,9 @@ def test_one_sentence_says_it_of_all(words, sentence):
 def test_a_reserve_never_contradicts_the_share_at_the_record_itself(share):
     """What overturns there has a factor of 1 at most, what does not one of 1 at least, or none."""
     for found in (
-        Reserve(0.8, 1.1, 2.6, 3.0),
-        Reserve(1.2, math.nan, math.nan, 3.0),
-        Reserve(0.2, 0.3, 0.4, 3.0),
+        Reserve(low=0.8, median=1.1, high=2.6, limit=3.0),
+        Reserve(low=1.2, median=math.nan, high=math.nan, limit=3.0),
+        Reserve(low=0.2, median=0.3, high=0.4, limit=3.0),
     ):
         held = found.held_to(share)
         for reached, factor, before in zip(

@@ -89,7 +89,9 @@ def test_walls_whose_contacts_open_and_whose_blocks_fall_do_not_stand(name, real
     assert followed.stacks.runs <= RUNS
     assert f"{followed.stacks.falls} of {followed.stacks.runs} stacks of courses fall" in followed.why
     assert followed.falls_in_stacks_alone
-    assert followed.with_reserve(Reserve(1.8, 2.2, 2.6, 3.0)).reserve is None, "it is none of what falls"
+    assert followed.with_reserve(Reserve(low=1.8, median=2.2, high=2.6, limit=3.0)).reserve is None, (
+        "it is none of what falls"
+    )
 
 
 def test_a_spire_that_lifts_never_stands_by_its_mechanisms_alone():
@@ -112,7 +114,7 @@ def test_few_runs_of_contact_dynamics_let_a_spire_probably_stand_and_many_let_it
     assert probably.verdict is Verdict.PROBABLY_STANDS
     assert (probably.stacks.falls, probably.stacks.runs) == (0, 18)
     assert [each.kind for each in probably.decision.tells] == [AssessmentKind.CONTACT_DYNAMICS]
-    assert probably.with_reserve(Reserve(1.8, 2.2, 2.6, 3.0)).reserve.low == 1.8
+    assert probably.with_reserve(Reserve(low=1.8, median=2.2, high=2.6, limit=3.0)).reserve.low == 1.8
     stands = rocking.assess(motion, SPIRE, settings=CONTACT)
     assert stands.verdict is Verdict.STANDS
     assert (stands.stacks.falls, stands.stacks.runs) == (0, 64)
@@ -128,7 +130,8 @@ def test_contact_dynamics_is_asked_where_it_cannot_be_told_and_of_a_held_wall_th
     """
     without_reserve = EnsembleSettings(reserve=0)
     monkeypatch.setattr(
-        "rocking.assessment.one_case.contact_share", lambda *arguments: ContactShare(0, arguments[-1])
+        "rocking.assessment.one_case.contact_share",
+        lambda *arguments: ContactShare(falls=0, runs=arguments[-1]),
     )
     wall = rocking.Facade(
         (3.2,),
@@ -151,7 +154,7 @@ def test_contact_dynamics_is_asked_where_it_cannot_be_told_and_of_a_held_wall_th
         )
         words.append(without_stacks(few).word)
         far = words[-1] is Verdict.PROBABLY_STANDS
-        assert (few.stacks, many.stacks) == (None, ContactShare(0, MOST_RUNS) if far else None)
+        assert (few.stacks, many.stacks) == (None, ContactShare(falls=0, runs=MOST_RUNS) if far else None)
     assert words == [
         Verdict.STANDS,
         Verdict.PROBABLY_STANDS,
@@ -422,7 +425,7 @@ def test_an_arch_that_needs_more_friction_stands_as_its_voussoirs_do():
     assert case.check.slides(0.505)
     assert more.verdict is Verdict.STANDS and np.isnan(more.friction_needed)
     assert less.verdict is Verdict.PROBABLY_STANDS
-    assert less.stacks == ContactShare(0, 18), "as voussoirs, which say what their friction does"
+    assert less.stacks == ContactShare(falls=0, runs=18), "as voussoirs, which say what their friction does"
     assert np.isnan(less.friction_needed)
     assert AssessmentKind.FRICTION_SHORT not in [each.kind for each in less.decision.doubts]
     assert arch.stands_on_friction == 0.5
@@ -443,7 +446,7 @@ def test_a_stack_is_followed_on_the_friction_that_its_courses_have():
     assert few.friction_needed == many.friction_needed > 0.35
     assert few.verdict is Verdict.PROBABLY_STANDS
     assert few.stacks is not None and few.stacks.runs <= RUNS
-    assert many.stacks == ContactShare(0, MOST_RUNS)
+    assert many.stacks == ContactShare(falls=0, runs=MOST_RUNS)
     assert many.verdict is Verdict.STANDS
     assert AssessmentKind.FRICTION_SHORT not in [each.kind for each in many.decision.doubts]
 
@@ -464,8 +467,8 @@ def test_an_arch_on_piers_stands_by_its_stones_alone():
     piers = ArchOnPiers(4.0, 0.7, np.radians(150), 7, pier_width=1.6, pier_height=3.0)
     arch = Arch(4.0, 0.7, np.radians(150), 7)
     motion = sine(1.2 * piers.static_multiplier * GRAVITY, 0.2)
-    assert words_of(piers, motion) == ("probably stands", ContactShare(0, 18))
-    assert words_of(piers, motion, fidelity="contact") == ("stands", ContactShare(0, 64))
+    assert words_of(piers, motion) == ("probably stands", ContactShare(falls=0, runs=18))
+    assert words_of(piers, motion, fidelity="contact") == ("stands", ContactShare(falls=0, runs=64))
     auto = AssessmentSettings(fidelity="auto")
     case = compute_case(CaseInputs(motion=Motion((motion,)), structure=piers, settings=auto))
     assert case.contact is None

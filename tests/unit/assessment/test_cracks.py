@@ -37,7 +37,7 @@ WALL = Wall.hinged_at(6.0, 3.0, 0.4)
 LOW_WALL = Wall(2.0, 2.0, 0.3)
 ROUGH = AssessmentSettings(friction_coefficient=5.0)
 """Joints that nothing lets slide, so that something else limits a word."""
-PULSE = Pulse(2.5, 2 * np.pi / 0.9, 3.0)
+PULSE = Pulse(amplitude=2.5, circular_frequency=2 * np.pi / 0.9, start_time=3.0)
 SINE = Accelerogram(PULSE.acceleration(np.arange(2000) * STEP), STEP)
 
 

@@ -20,7 +20,14 @@ from tests.unit.assessment.made_rows import broken, case, station, verdicts
 
 def under(shares: list[float], structures: int) -> list[ExpectedFallsRow]:
     return [
-        ExpectedFallsRow.of(CountedFalls(f"record {number}", structures, share * structures, 0.0))
+        ExpectedFallsRow.of(
+            CountedFalls(
+                record=f"record {number}",
+                structures=structures,
+                expected_falls=share * structures,
+                without_share=0.0,
+            )
+        )
         for number, share in enumerate(shares)
     ]
 
@@ -102,12 +109,27 @@ def test_the_interval_holds_the_mean_of_records_that_are_drawn(records, median) 
 
 
 def test_a_class_is_told_in_one_sentence() -> None:
+    of_all = {
+        "expected_falls_low": 33.2,
+        "expected_falls_high": 50.4,
+        "stations": 7,
+        "earthquakes": 2,
+        "still": 3,
+    }
     rows = [
-        ExpectedFallsRow.of(CountedFalls(name, 300, falls, untold, *interval))
+        ExpectedFallsRow.of(
+            CountedFalls(
+                record=name,
+                structures=300,
+                expected_falls=falls,
+                without_share=untold,
+                **interval,
+            )
+        )
         for name, falls, untold, interval in (
-            ("a", 30.0, 12.0, ()),
-            ("b", 52.0, 11.0, ()),
-            ("", 41.0, 11.5, (33.2, 50.4, 7, 2, 3)),
+            ("a", 30.0, 12.0, {}),
+            ("b", 52.0, 11.0, {}),
+            ("", 41.0, 11.5, of_all),
         )
     ]
     assert falls_in_words(rows) == (

@@ -34,7 +34,7 @@ TIMES = np.arange(400) * STEP
 BLOCK = Block(2.0, 0.2)
 MECHANISM = BLOCK.mechanism()
 EQUIVALENT = MECHANISM.equivalent_block("rest")
-PULSE = Pulse(3.0, 2 * np.pi / 0.8, 2.0)
+PULSE = Pulse(amplitude=3.0, circular_frequency=2 * np.pi / 0.8, start_time=2.0)
 
 
 def record(peak: float) -> Accelerogram:
@@ -203,8 +203,12 @@ def test_the_block_is_tried_evenly_on_both_sides_of_the_motion_as_given():
 
 def test_the_velocity_counts_against_the_side_that_lifts_first():
     """Of unlike sides the weaker one: p PGV/(gλ) with the smaller λ, in whatever order they stand."""
-    strong = EquivalentBlock(2.0, 0.2, 0.5, 0.9)
-    weak = EquivalentBlock(2.0, 0.1, 0.5, 0.9)
+    strong = EquivalentBlock(
+        frequency_parameter=2.0, critical_rotation=0.2, acceleration_scale=0.5, restitution=0.9
+    )
+    weak = EquivalentBlock(
+        frequency_parameter=2.0, critical_rotation=0.1, acceleration_scale=0.5, restitution=0.9
+    )
     assert (strong.uplift_multiplier, weak.uplift_multiplier) == (0.4, 0.2)
     for block in (replace(strong, other_side=weak), replace(weak, other_side=strong)):
         assert fidelity.per_velocity(block) == pytest.approx(2.0 / (9.80665 * 0.2), rel=1e-12)

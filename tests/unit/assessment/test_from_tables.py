@@ -37,7 +37,9 @@ def cells(path: Path) -> list[dict[str, str]]:
 def folder(request, tmp_path_factory) -> Path:
     """Tables of a pulse of 0.45 g and 0.45 s, by each kind of equivalent block."""
     folder = tmp_path_factory.mktemp(request.param)
-    motion = Pulse(0.45 * g, 2 * math.pi / 0.45, 1.0).acceleration(np.arange(1000) * STEP)
+    motion = Pulse(amplitude=0.45 * g, circular_frequency=2 * math.pi / 0.45, start_time=1.0).acceleration(
+        np.arange(1000) * STEP
+    )
     settings = AssessmentSettings(acceleration_scale=request.param, ensemble=EnsembleSettings(members=0))
     result = Assessor(settings).assess("made", [Accelerogram(motion, STEP)], on_the_ground(STRUCTURES))
     write_tables(rows_of_record(result).tables, folder)
@@ -118,7 +120,9 @@ def test_the_equation_is_printed_in_and_out_of_its_regime(a, omega, holds, print
     """Against the equation by hand, at the points where theory.md tells what is wrong with it."""
     wall = Wall.of_size(3.2, 0.25, hinge_height=1.6, restitution=0.9).mechanism()
     side = wall.positive
-    pulse = Pulse(a * g * side.uplift_multiplier, omega * side.frequency_parameter)
+    pulse = Pulse(
+        amplitude=a * g * side.uplift_multiplier, circular_frequency=omega * side.frequency_parameter
+    )
     told = predict_as_printed(wall, pulse)
     assert told.rotation_ratio == pytest.approx(equation_15(a, omega, 0.9), rel=1e-9)
     assert told.rotation_ratio == pytest.approx(printed, abs=0.006)

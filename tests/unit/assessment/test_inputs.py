@@ -24,7 +24,7 @@ OTHERS = {
         "motion": PAIR,
         "structure": Block(2.0, 0.21),
         "settings": AssessmentSettings(ensemble=EnsembleSettings(risk=0.04)),
-        "pulse": Pulse(1.0, 2.0, 3.0),
+        "pulse": Pulse(amplitude=1.0, circular_frequency=2.0, start_time=3.0),
         "alone": False,
         "bounces": False,
         "crack_heights": 1,

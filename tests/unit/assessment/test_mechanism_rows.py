@@ -16,7 +16,7 @@ SETTINGS = AssessmentSettings(ensemble=EnsembleSettings(members=16, reserve=0))
 
 
 def rows_under(amplitude, **structures) -> list[MechanismRow]:
-    pulse = rocking.Pulse(amplitude, 6.0, 0.5)
+    pulse = rocking.Pulse(amplitude=amplitude, circular_frequency=6.0, start_time=0.5)
     record = rocking.Accelerogram(pulse.acceleration(np.arange(500) * 0.01), 0.01)
     result = Assessor(SETTINGS).assess("r", [record], on_the_ground(structures))
     return list(rows_of_record(result).mechanisms)
@@ -62,7 +62,7 @@ def test_largest_force_of_an_elastic_tie_is_its_stretch():
         tie_heights=(2.0,), tie_stiffness=3e5, tie_strength=1e9,
     )  # fmt: skip
     turns = next(each for each in rows_under(5.0, wall=wall) if each.mechanism == wall.does)
-    pulse = rocking.Pulse(5.0, 6.0, 0.5)
+    pulse = rocking.Pulse(amplitude=5.0, circular_frequency=6.0, start_time=0.5)
     record = rocking.Accelerogram(pulse.acceleration(np.arange(500) * 0.01), 0.01)
     response = rocking.integrate(wall, record)
     largest = response.rotation_ratio * wall.mechanism().critical_rotation

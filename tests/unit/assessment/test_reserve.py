@@ -133,7 +133,9 @@ def test_up_to_the_limit_and_no_farther():
     assert str(found) == "fewer than 5 % of members fall up to 1 × this record"
     farther = reserve(BLOCK.mechanism(), motions, EnsembleSettings(reserve=30.0))
     assert 1.0 < farther.low < farther.median <= 30.0
-    assert str(Reserve(0.8, math.nan, math.nan, 3.0)).endswith("fewer than half up to 3 × this record")
+    assert str(Reserve(low=0.8, median=math.nan, high=math.nan, limit=3.0)).endswith(
+        "fewer than half up to 3 × this record"
+    )
 
 
 def test_still_ground_has_none():
@@ -224,4 +226,4 @@ def test_rungs_are_followed_about_what_falls_below_the_median_or_stands_above_it
     ],
 )
 def test_the_reserve_in_figures(low, median, figures):
-    assert Reserve(low, median, math.nan, 3.0).in_figures == figures
+    assert Reserve(low=low, median=median, high=math.nan, limit=3.0).in_figures == figures

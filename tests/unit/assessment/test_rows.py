@@ -12,7 +12,9 @@ from rocking.structures import Block
 
 def test_the_counts_and_quantiles_of_rows_are_those_of_the_members():
     """A block that a part of its members overturns; the members are counted anew."""
-    motion = Pulse(3.5, 2 * np.pi / 0.8, 2.0).acceleration(np.arange(1000) * 0.01)
+    motion = Pulse(amplitude=3.5, circular_frequency=2 * np.pi / 0.8, start_time=2.0).acceleration(
+        np.arange(1000) * 0.01
+    )
     record = Accelerogram(motion, 0.01, component="H1")
     result = Assessor().assess("made", [record], on_the_ground({"block": Block(2.0, 0.2)}))
     (case,) = result.periods[0].cases.values()

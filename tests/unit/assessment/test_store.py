@@ -26,7 +26,12 @@ from rocking.tables import cell
 
 TIMES = np.arange(0, 6, 0.01)
 PAIR = [
-    Accelerogram(Pulse(amplitude, 7.0, 1.0).acceleration(TIMES), 0.01, name, azimuth=azimuth)
+    Accelerogram(
+        Pulse(amplitude=amplitude, circular_frequency=7.0, start_time=1.0).acceleration(TIMES),
+        0.01,
+        name,
+        azimuth=azimuth,
+    )
     for amplitude, name, azimuth in ((3.0, "N", 0.0), (4.0, "E", 90.0))
 ]
 STRUCTURES = {

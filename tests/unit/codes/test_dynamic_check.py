@@ -151,7 +151,11 @@ def test_a_rigid_support_changes_nothing_and_a_resonant_one_does(records):
     block = Block.of_size(0.8, 3.0)
     ground, rigid, resonant = (
         rocking.check(block, SPECTRUM, support=support, records=records).dynamic
-        for support in (None, Support((Mode(0.0, 0.05, 1.0),)), Support((Mode(0.5, 0.05, 1.6),)))
+        for support in (
+            None,
+            Support((Mode(period=0.0, damping_ratio=0.05, participation=1.0),)),
+            Support((Mode(period=0.5, damping_ratio=0.05, participation=1.6),)),
+        )
     )
     assert rigid.demand == pytest.approx(ground.demand, rel=1e-9)
     assert resonant.demand > 1.2 * ground.demand

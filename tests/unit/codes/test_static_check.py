@@ -437,7 +437,11 @@ def test_what_cannot_be_checked_is_refused_in_a_sentence():
     with pytest.raises(StructureError, match="a Mechanism, which has no capacity curve"):
         kinematic_check(block.mechanism(), SPECTRUM)
     with refused(RecordError, "damping_ratio of the support", 0.0):
-        kinematic_check(block, SPECTRUM, CodeTerms(support=Support((Mode(0.3, 0.0, 1.0),))))
+        kinematic_check(
+            block,
+            SPECTRUM,
+            CodeTerms(support=Support((Mode(period=0.3, damping_ratio=0.0, participation=1.0),))),
+        )
     with pytest.raises(ConfigurationError, match=r"spectrum is a float, but must be a DesignSpectrum, as"):
         rocking.check(block, 2.0)
     with pytest.raises(ConfigurationError, match=r"records is a dict, but must be sets of records, as"):

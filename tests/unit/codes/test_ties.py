@@ -74,7 +74,7 @@ def test_bulge_of_one_storey_by_hand():
         (3.6,), (0.35,), 18e3, floor_loads=(10e3,), eccentricity=0.05, behind="cross_walls", restitution=0.7,
         tie_heights=(3.6,), tie_stiffness=2e7, tie_strength=30e3,
     )  # fmt: skip
-    static = wall.opened(Opening(0.0, 2.4, 3.6)).static_capacity()
+    static = wall.opened(Opening(foot=0.0, hinge=2.4, hold=3.6)).static_capacity()
     assert static.onset_multiplier == pytest.approx(13.938 / 27.216, rel=BY_HAND)
     assert static.participating_mass_ratio == pytest.approx(1.0, rel=BY_HAND)
     assert static.mass_ratio_of_all == pytest.approx(22.68 / 32.68, rel=BY_HAND)

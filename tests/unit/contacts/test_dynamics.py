@@ -78,7 +78,9 @@ def test_bodies_turn_as_their_mechanism_where_all_joints_close_at_once(structure
     """Its error is of first order: uplift and impact come within a step, and exp(p t) ≤ 5 from there on."""
     mechanism = structure.mechanism()
     amplitude = 1.8 * mechanism.uplift_multiplier * GRAVITY
-    motion = sampled(Pulse(amplitude, 5 * mechanism.positive.frequency_parameter))
+    motion = sampled(
+        Pulse(amplitude=amplitude, circular_frequency=5 * mechanism.positive.frequency_parameter)
+    )
     exact = integrate(structure, motion, history=True)
     largest, fastest = np.abs(exact.rotation).max(), np.abs(exact.angular_velocity).max()
     errors = []
@@ -169,7 +171,7 @@ def test_courses_that_stay_together_are_the_body_between_their_outer_faces():
 
 
 def test_a_mirrored_motion_turns_it_the_other_way():
-    motion = sampled(Pulse(8.0, 5.0))
+    motion = sampled(Pulse(amplitude=8.0, circular_frequency=5.0))
     stack = Spire(width=3.0, height=15.0).stack()
     one, other = (follow_stack(stack, motion.scaled(sign), 1e-3, history=True) for sign in (1, -1))
     # roundings differ and grow from impact to impact: within the pulse they stay far below 1e-6
@@ -178,7 +180,10 @@ def test_a_mirrored_motion_turns_it_the_other_way():
 
 
 def test_still_ground_ahead_of_a_motion_changes_neither_its_course_nor_its_end():
-    stack, motion = Spire(width=3.0, height=15.0).stack(), sampled(Pulse(4.0, 5.0))
+    stack, motion = (
+        Spire(width=3.0, height=15.0).stack(),
+        sampled(Pulse(amplitude=4.0, circular_frequency=5.0)),
+    )
     count = round(5.0 / motion.time_step)
     later = Accelerogram(np.append(np.zeros(count), motion.acceleration), motion.time_step)
     step = motion.time_step / 16
@@ -215,7 +220,7 @@ def test_a_body_at_rest_slides_from_the_push_that_friction_bears(share):
 def test_between_two_pulses_a_stack_rests_and_the_second_finds_it_as_the_first_did():
     """Drums that settle exactly come to the second pulse as if it were the first."""
     stack = LoadedWall.of_size(3.2, 0.25, 18e3, top_load=8e3, top_slab="flat").stack(4)
-    pulse = sampled(Pulse(8.0, 15.0))
+    pulse = sampled(Pulse(amplitude=8.0, circular_frequency=15.0))
     count = pulse.acceleration.size
     pause = np.zeros(round(20.0 / pulse.time_step))
     twice = Accelerogram(
@@ -310,4 +315,4 @@ def test_what_is_no_stack_is_refused_in_one_sentence(make, words):
 
 def test_a_step_that_is_too_long_is_refused_in_one_sentence():
     with refused(MotionError, "step", 0.02):
-        follow_stack(Spire(3.0, 15.0).stack(), sampled(Pulse(3.0, 5.0)), 0.02)
+        follow_stack(Spire(3.0, 15.0).stack(), sampled(Pulse(amplitude=3.0, circular_frequency=5.0)), 0.02)

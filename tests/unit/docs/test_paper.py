@@ -74,7 +74,10 @@ def test_the_governing_crack_goes_down_the_spire_as_the_sine_grows_longer():
     blocks = [each.structure.mechanism().equivalent_block("rest") for each in cracks]
     for place in (20, 40, 72):
         period, least = envelope.x[place], envelope.y[place] * GRAVITY
-        pulses = [Pulse(factor * least, 2 * np.pi / period) for factor in (0.999, 1.001)]
+        pulses = [
+            Pulse(amplitude=factor * least, circular_frequency=2 * np.pi / period)
+            for factor in (0.999, 1.001)
+        ]
         below, above = ([integrate(block, pulse).outcome for block in blocks] for pulse in pulses)
         assert Outcome.OVERTURNS not in below
         assert Outcome.OVERTURNS in above
@@ -181,7 +184,9 @@ def test_no_legend_hides_a_line(figures):
 def test_equation_15_is_fed_the_blocks_of_its_paper():
     """Eqs. 15 and 16 written out, with the p, a_sc and a_sc,alt of their row."""
     times = np.arange(1000) * 0.005
-    motion = Pulse(0.45 * GRAVITY, 2 * math.pi / 0.45, 1.0).acceleration(times)
+    motion = Pulse(
+        amplitude=0.45 * GRAVITY, circular_frequency=2 * math.pi / 0.45, start_time=1.0
+    ).acceleration(times)
     for row in prediction_rows(Accelerogram(motion, 0.005)):
         for scale, printed in (
             (row.acceleration_scale_linearised, row.printed_rotation_ratio),

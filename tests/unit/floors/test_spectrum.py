@@ -13,7 +13,7 @@ from rocking.records.design_spectrum import damping_factor
 from rocking.records.measures import response_spectrum
 from tests.refusals import refused
 
-ONE = Support((Mode(0.3, 0.05, 1.3),))
+ONE = Support((Mode(period=0.3, damping_ratio=0.05, participation=1.3),))
 
 
 def flat(period, damping_ratio):
@@ -39,7 +39,7 @@ def test_the_structure_spends_too():
 
 
 def test_modes_add_as_squares_and_the_ground_is_the_least():
-    other = Support((Mode(0.1, 0.05, -0.6),))
+    other = Support((Mode(period=0.1, damping_ratio=0.05, participation=-0.6),))
     both = Support(ONE.modes + other.modes)
     periods = np.array([0.03, 0.05, 0.1])
     squares = sum(floor_spectrum(each, periods, 0.05, flat) ** 2 for each in (ONE, other))
@@ -49,7 +49,9 @@ def test_modes_add_as_squares_and_the_ground_is_the_least():
 
 def test_damping_that_has_no_value():
     with refused(RecordError, "damping_ratio of the support", 0.0):
-        floor_spectrum(Support((Mode(0.3, 0.0, 1.0),)), np.array([0.3]), 0.05, flat)
+        floor_spectrum(
+            Support((Mode(period=0.3, damping_ratio=0.0, participation=1.0),)), np.array([0.3]), 0.05, flat
+        )
 
 
 @pytest.mark.real_records

@@ -63,10 +63,13 @@ def by_solver(support, record, after, finer):
 @pytest.mark.parametrize(
     "modes",
     [
-        [Mode(0.3, 0.05, 1.3)],
-        [Mode(0.05, 0.0, 1.0)],
-        [Mode(1.2, 0.6, -0.4)],
-        [Mode(0.9, 0.03, 1.6), Mode(0.15, 0.05, -0.7)],  # a tower
+        [Mode(period=0.3, damping_ratio=0.05, participation=1.3)],
+        [Mode(period=0.05, damping_ratio=0.0, participation=1.0)],
+        [Mode(period=1.2, damping_ratio=0.6, participation=-0.4)],
+        [
+            Mode(period=0.9, damping_ratio=0.03, participation=1.6),
+            Mode(period=0.15, damping_ratio=0.05, participation=-0.7),
+        ],  # a tower
     ],
 )
 def test_against_a_general_solver(modes):
@@ -79,7 +82,13 @@ def test_against_a_general_solver(modes):
     assert floor.acceleration[: expected.size] == pytest.approx(expected, abs=1e-9)
 
 
-@pytest.mark.parametrize("mode", [Mode(0.0, 0.05, 1.3), Mode(0.3, 0.05, 0.0)])
+@pytest.mark.parametrize(
+    "mode",
+    [
+        Mode(period=0.0, damping_ratio=0.05, participation=1.3),
+        Mode(period=0.3, damping_ratio=0.05, participation=0.0),
+    ],
+)
 def test_a_rigid_or_a_still_mode_gives_the_ground(mode):
     record, block = smooth(3), Block(semi_diagonal=0.5, slenderness=0.25)
     floor = Support((mode,)).motion(record)
@@ -93,14 +102,14 @@ def test_a_stiffer_support_comes_nearer_to_the_ground():
     record = smooth(3)
     jumps = np.abs(np.diff(record.acceleration, n=2, prepend=0.0, append=0.0)).sum() / STEP
     for period in (0.2, 0.1, 0.05, 0.025):
-        floor = Support((Mode(period, 0.1, 1.0),)).motion(record)
+        floor = Support((Mode(period=period, damping_ratio=0.1, participation=1.0),)).motion(record)
         finer = round(STEP / floor.time_step)
         beyond = np.abs(floor.acceleration[: record.acceleration.size * finer : finer] - record.acceleration)
         assert beyond.max() <= jumps * period / (2 * math.pi)
 
 
 def test_lines_between_samples_hold_the_motion():
-    support, record = Support((Mode(0.1, 0.05, 1.3),)), smooth(5)
+    support, record = Support((Mode(period=0.1, damping_ratio=0.05, participation=1.3),)), smooth(5)
     floor = support.motion(record)
     finer = round(STEP / floor.time_step)
     exact = by_solver(support, record, 2, 4 * finer)
@@ -116,21 +125,21 @@ def test_lines_between_samples_hold_the_motion():
 def test_it_rings_on_until_that_cannot_matter():
     record = noise()
     for damping in (0.02, 0.1):
-        floor = Support((Mode(0.5, damping, 1.3),)).motion(record)
+        floor = Support((Mode(period=0.5, damping_ratio=damping, participation=1.3),)).motion(record)
         last = round(0.5 / floor.time_step)
         # of one period the largest is within a cycle's decay of the envelope
         assert np.abs(floor.acceleration[-last:]).max() <= 1.2 * RINGING * floor.peak_acceleration * math.exp(
             2 * math.pi * damping
         )
         assert not floor.warnings
-    undamped = Support((Mode(0.5, 0.0, 1.3),)).motion(record)
+    undamped = Support((Mode(period=0.5, damping_ratio=0.0, participation=1.3),)).motion(record)
     assert undamped.warnings[-1].kind is FloorKind.STILL_RINGING
 
 
 def test_components_share_their_samples_and_the_vertical_passes():
     first, second = noise(1), noise(2)
     vertical = Accelerogram(noise(4).acceleration, STEP, vertical=True)
-    support = Support((Mode(0.2, 0.05, 1.3),))
+    support = Support((Mode(period=0.2, damping_ratio=0.05, participation=1.3),))
     floors = support.motions((first, second, vertical))
     assert len({(each.acceleration.size, each.time_step) for each in floors}) == 1
     finer = round(STEP / floors[2].time_step)
@@ -150,7 +159,7 @@ def test_components_share_their_samples_and_the_vertical_passes():
 
 
 def test_its_history_names_the_support():
-    floor = Support((Mode(0.3, 0.05, 1.3),)).motion(noise())
+    floor = Support((Mode(period=0.3, damping_ratio=0.05, participation=1.3),)).motion(noise())
     assert "T_b = 0.3 s, damping 0.05, Γψ = 1.3" in floor.processing[-1]
     assert floor.component == "HNE"
 
@@ -172,7 +181,9 @@ def test_rotation_of_the_coupled_system(bodies, seconds):
     rows, ours = [], []
     for (size, slenderness), period, factor in product(bodies, periods, factors):
         block = Block(semi_diagonal=size, slenderness=slenderness)
-        floor = Support((Mode(period, 0.05, 1.0),)).motion(record.scaled(factor))
+        floor = Support((Mode(period=period, damping_ratio=0.05, participation=1.0),)).motion(
+            record.scaled(factor)
+        )
         low, ratio, high = (
             integrate(block, floor.scaled(each)).rotation_ratio for each in (0.999, 1.0, 1.001)
         )
@@ -201,7 +212,7 @@ def test_rotation_of_the_coupled_system(bodies, seconds):
 )
 def test_modes_that_cannot_be(mode, sentence):
     with pytest.raises(RecordError) as raised:
-        Mode(*mode)
+        Mode(period=mode[0], damping_ratio=mode[1], participation=mode[2])
     assert str(raised.value).startswith(sentence)
 
 
@@ -209,6 +220,8 @@ def test_supports_that_cannot_be():
     with refused(RecordError, "modes", ()):
         Support(())
     with refused(RecordError, "period", 0.015):
-        Support((Mode(0.015, 0.05, 1.0),)).motion(noise())
+        Support((Mode(period=0.015, damping_ratio=0.05, participation=1.0),)).motion(noise())
     with refused(RecordError, "records"):
-        Support((Mode(0.3, 0.05, 1.0),)).motions((noise(), noise(2, size=100)))
+        Support((Mode(period=0.3, damping_ratio=0.05, participation=1.0),)).motions(
+            (noise(), noise(2, size=100))
+        )

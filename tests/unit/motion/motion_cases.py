@@ -43,7 +43,9 @@ def random_case(rng: np.random.Generator) -> tuple[Mechanism, Accelerogram | Pul
     lift = g * max(side.uplift_multiplier for side in mechanism.sides)
     if rng.random() < 0.2:
         frequency = mechanism.positive.frequency_parameter * 10 ** rng.uniform(-1, 1.5)
-        return mechanism, Pulse(lift * rng.uniform(1.05, 6) * rng.choice([-1, 1]), frequency)
+        return mechanism, Pulse(
+            amplitude=lift * rng.uniform(1.05, 6) * rng.choice([-1, 1]), circular_frequency=frequency
+        )
     step = rng.choice([0.005, 0.01, 0.02, 0.05, 0.2])
     count, width = int(rng.integers(50, 600)), int(rng.integers(3, 40))
     return mechanism, noise(int(rng.integers(2**31)), count, step, lift * rng.uniform(1.05, 5), width)

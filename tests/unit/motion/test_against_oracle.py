@@ -83,7 +83,7 @@ def test_exact_and_stepped_response_of_one_equivalent_block(name):
 def test_a_pulse_equals_the_limit_of_its_samples():
     """Linear interpolation of a sine errs by (ω Δt)²/12: twice the samples, a quarter of the difference."""
     mechanism = MECHANISMS["arch"]
-    pulse = Pulse(lifting(mechanism, 1.3), 6.0)
+    pulse = Pulse(amplitude=lifting(mechanism, 1.3), circular_frequency=6.0)
     exact = integrate(mechanism, pulse, 1e-12).rotation_ratio
     assert 0 < exact < np.inf
 

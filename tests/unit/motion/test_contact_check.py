@@ -14,7 +14,12 @@ from rocking.records import Accelerogram
 from rocking.structures import Block, Frame
 
 STEP = 0.005
-RECORD = Accelerogram(Pulse(3.0, 2 * np.pi / 0.8, 1.0).acceleration(np.arange(2000) * STEP), STEP)
+RECORD = Accelerogram(
+    Pulse(amplitude=3.0, circular_frequency=2 * np.pi / 0.8, start_time=1.0).acceleration(
+        np.arange(2000) * STEP
+    ),
+    STEP,
+)
 
 
 def _check(structure, record=RECORD):

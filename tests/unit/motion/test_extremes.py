@@ -15,7 +15,10 @@ from tests.refusals import refused
 SHAPE = np.convolve(np.random.default_rng(0).normal(size=400), np.hanning(15), "same")
 SHAPE = SHAPE / np.abs(SHAPE).max()
 
-BLOCK, LINEAR = Block(1.0, 0.2).mechanism(), EquivalentBlock(2.7, 0.2, 1.0, 0.9)
+BLOCK, LINEAR = (
+    Block(1.0, 0.2).mechanism(),
+    EquivalentBlock(frequency_parameter=2.7, critical_rotation=0.2, acceleration_scale=1.0, restitution=0.9),
+)
 BOTH = pytest.mark.parametrize("structure", [BLOCK, LINEAR], ids=["block", "linear"])
 
 
@@ -29,7 +32,12 @@ def shaken(structure, strength, tolerance=1e-8):
 def test_slenderness_down_to_one_in_ten_thousand():
     """A slender block approaches its linear block as α → 0 with an error of order α²."""
     mechanism = Block(1.0, 1e-4, restitution=0.8).mechanism()
-    block = EquivalentBlock(mechanism.positive.frequency_parameter, 1e-4, 1e-4 / np.tan(1e-4), 0.8)
+    block = EquivalentBlock(
+        frequency_parameter=mechanism.positive.frequency_parameter,
+        critical_rotation=1e-4,
+        acceleration_scale=1e-4 / np.tan(1e-4),
+        restitution=0.8,
+    )
     nonlinear, linear = shaken(mechanism, 1.4), shaken(block, 1.4)
     assert 0 < linear.rotation_ratio < np.inf
     assert nonlinear.rotation_ratio == pytest.approx(linear.rotation_ratio, rel=1e-6)  # α² = 1e-8, amplified
@@ -38,7 +46,10 @@ def test_slenderness_down_to_one_in_ten_thousand():
 @BOTH
 def test_amplitude_at_the_uplift_acceleration(structure):
     level = g * structure.uplift_multiplier
-    for motion in (lambda a: Pulse(a, 6.0), lambda a: Accelerogram(a * SHAPE, 0.01)):
+    for motion in (
+        lambda a: Pulse(amplitude=a, circular_frequency=6.0),
+        lambda a: Accelerogram(a * SHAPE, 0.01),
+    ):
         below, above = (integrate(structure, motion(level * (1 + d))) for d in (-1e-12, 1e-12))
         assert below.outcome is Outcome.NO_UPLIFT
         assert below.rotation_ratio == 0

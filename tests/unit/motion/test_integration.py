@@ -34,7 +34,7 @@ STILL, SLOW = Accelerogram(np.zeros(299), 0.01), Accelerogram(np.zeros(300), 0.0
     [
         (BLOCK, RECORD, {"vertical": STILL}, "vertical"),
         (BLOCK, RECORD, {"vertical": SLOW}, "vertical"),
-        (BLOCK, Pulse(3.0, 6.0), {"vertical": STILL}, "vertical"),
+        (BLOCK, Pulse(amplitude=3.0, circular_frequency=6.0), {"vertical": STILL}, "vertical"),
         (BLOCK, RECORD, {"vertical": [0.0]}, "vertical"),
         (BLOCK, RECORD, {"initial_rotation": np.nan}, "initial_rotation"),
         (BLOCK, RECORD, {"initial_velocity": np.nan}, "initial_velocity"),
@@ -114,7 +114,7 @@ def test_fragile_verdicts_are_marked():
     """Half a percent on either side of the threshold found by bisection; two percent away it is not fragile."""
 
     def scaled(factor):
-        return Pulse(factor * g, 6.0)
+        return Pulse(amplitude=factor * g, circular_frequency=6.0)
 
     threshold = bisected(0.3, 5.0, lambda a: integrate(BLOCK, scaled(a)).outcome is Outcome.OVERTURNS)
     for factor, fragile in ((0.98, False), (0.995, True), (1.005, True)):
@@ -136,7 +136,7 @@ def test_a_tie_that_has_yielded_gives_back_no_more_than_its_elastic_energy(veloc
     side = TIED.mechanism().positive
     stretched = max(tie.rotation(tie.tie.yield_stretch, side.end_rotation) for tie in side.ties) * 1.05
     start, arrivals = {"initial_rotation": stretched, "initial_velocity": velocity}, []
-    for still in (Accelerogram(np.zeros(5000), 0.0005), Pulse(1e-9, 6.0)):
+    for still in (Accelerogram(np.zeros(5000), 0.0005), Pulse(amplitude=1e-9, circular_frequency=6.0)):
         told = integrate(TIED, still, 1e-11, history=True, **start)
         arrivals.append(told.angular_velocity[(told.rotation == 0) & (told.angular_velocity != 0)][0])
     assert arrivals[0] == pytest.approx(arrivals[1], rel=1e-8)

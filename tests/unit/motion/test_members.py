@@ -156,7 +156,12 @@ def test_spectrum_equals_the_responses():
     nudged = [SHAKING.scaled(1 + sign * 16 * np.finfo(float).eps) for sign in (-1, 1)]
     for i, p in enumerate(frequencies):
         for j, multiplier in enumerate(multipliers):
-            block = EquivalentBlock(p, 0.7, 0.7 / multiplier, 0.85)
+            block = EquivalentBlock(
+                frequency_parameter=p,
+                critical_rotation=0.7,
+                acceleration_scale=0.7 / multiplier,
+                restitution=0.85,
+            )
             alone = integrate(block, SHAKING).rotation_ratio
             around = [integrate(block, record).rotation_ratio for record in nudged]
             spread = max(abs(each - alone) for each in around) if np.isfinite(alone) else 0.0

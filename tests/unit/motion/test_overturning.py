@@ -16,7 +16,9 @@ def overturns(structure, motion, tolerance=1e-10):
     return integrate(structure, motion, tolerance).outcome is Outcome.OVERTURNS
 
 
-UNIT = EquivalentBlock(2.0, 0.2, 1.0, 0.9)
+UNIT = EquivalentBlock(
+    frequency_parameter=2.0, critical_rotation=0.2, acceleration_scale=1.0, restitution=0.9
+)
 
 
 STANDING = Block(3 * g / 16, 0.2, restitution=0.9).mechanism()
@@ -43,7 +45,9 @@ def test_cosine_pulse_on_the_nonlinear_block():
 def test_beyond_the_critical_rotation_is_not_overturning(structure):
     """A later push in the right direction brings it back: the peak exceeds φ_cr and the structure stands."""
     ratios = [
-        integrate(structure, Pulse(a * g * structure.uplift_multiplier, 10.0), 1e-9).rotation_ratio
+        integrate(
+            structure, Pulse(amplitude=a * g * structure.uplift_multiplier, circular_frequency=10.0), 1e-9
+        ).rotation_ratio
         for a in np.linspace(1.5, 7.5, 601)
     ]
     assert any(1 < ratio < np.inf for ratio in ratios)

@@ -27,7 +27,7 @@ def _record(seed: int, peak: float = 4.0) -> Accelerogram:
 
 
 def _floor(record: Accelerogram, period: float = 0.2) -> Accelerogram:
-    return floors.Support((floors.Mode(period, 0.05, 1.3),)).motion(record)
+    return floors.Support((floors.Mode(period=period, damping_ratio=0.05, participation=1.3),)).motion(record)
 
 
 def _sampled_by_lines(
@@ -68,11 +68,15 @@ def test_the_response_is_that_of_lines_a_hundred_times_as_fine(structure, tolera
     for seed in (2, 3):
         record = _record(seed, 3.0)
         up = replace(_record(7, 1.0), vertical=True)
-        pair = floors.Support((floors.Mode(0.2, 0.05, 1.3),)).motions((record, up))
+        pair = floors.Support((floors.Mode(period=0.2, damping_ratio=0.05, participation=1.3),)).motions(
+            (record, up)
+        )
         with monkeypatch.context() as finer:
             finer.setattr(floors, "INTERPOLATION_ERROR", 1e-7)
             finer.setattr(floors, "SHORTEST_STEP", 1e-6)
-            dense = floors.Support((floors.Mode(0.2, 0.05, 1.3),)).motions((record, up))
+            dense = floors.Support((floors.Mode(period=0.2, damping_ratio=0.05, participation=1.3),)).motions(
+                (record, up)
+            )
         lines = replace(dense[0], smooth_steps=1)
         for vertical, exact_vertical in ((None, None), (pair[1], dense[1])):
             found = integrate(structure, pair[0], tolerance, vertical=vertical)

@@ -69,7 +69,16 @@ def test_functions_with_a_kink_are_refused():
         return 0.2 - rotation + 0.05 * np.abs(rotation - 0.1)
 
     ones = np.ones_like
-    side = Side(ones, np.zeros_like, gravity, lambda r: -ones(r), ones, 0.2, 1.0, 0.9)
+    side = Side(
+        inertia=ones,
+        inertia_slope=np.zeros_like,
+        gravity=gravity,
+        gravity_slope=lambda r: -ones(r),
+        ground=ones,
+        critical_rotation=0.2,
+        end_rotation=1.0,
+        restitution=0.9,
+    )
     with refused(MotionError, "mechanism"):
         table_of(Mechanism(side))
 

@@ -22,7 +22,10 @@ TIMES = np.arange(2000) * STEP
 @pytest.fixture(scope="module")
 def record():
     rng = np.random.default_rng(11)
-    first, second = Pulse(2.0, 2 * np.pi / 1.3, 6.2), Pulse(-1.5, 2 * np.pi / 0.7, 11)
+    first, second = (
+        Pulse(amplitude=2.0, circular_frequency=2 * np.pi / 1.3, start_time=6.2),
+        Pulse(amplitude=-1.5, circular_frequency=2 * np.pi / 0.7, start_time=11),
+    )
     pulses = first.acceleration(TIMES) + second.acceleration(TIMES)
     return Accelerogram(pulses + 0.3 * rng.standard_normal(TIMES.size), STEP)
 
@@ -84,7 +87,7 @@ def test_a_record_that_does_not_move_is_refused():
 
 
 def test_a_record_shorter_than_the_longest_period_says_so():
-    pulse = Pulse(1.0, 2 * np.pi / 0.8, 0.9)
+    pulse = Pulse(amplitude=1.0, circular_frequency=2 * np.pi / 0.8, start_time=0.9)
     found = extract_pulses(Accelerogram(pulse.acceleration(TIMES[:300]), STEP))
     assert Remark(PulseKind.PULSE_RECORD_SHORT) in found.flags
     assert found.band[0] == pytest.approx(1 / 2.99)
@@ -93,7 +96,11 @@ def test_a_record_shorter_than_the_longest_period_says_so():
 
 def test_a_record_too_coarse_for_the_upper_frequency_says_so():
     times = np.arange(400) * 0.1
-    found = extract_pulses(Accelerogram(Pulse(1.0, 2 * np.pi / 2.5, 9.03).acceleration(times), 0.1))
+    found = extract_pulses(
+        Accelerogram(
+            Pulse(amplitude=1.0, circular_frequency=2 * np.pi / 2.5, start_time=9.03).acceleration(times), 0.1
+        )
+    )
     assert Remark(PulseKind.PULSE_SAMPLING_COARSE) in found.flags
     assert found.band[1] == pytest.approx(1.25)  # eight samples in a cycle
     assert found.dominant.period == pytest.approx(2.5, rel=1e-6)
@@ -147,9 +154,9 @@ def test_any_record_gives_a_pulse_within_it_or_a_sentence(samples, step):
 def test_a_motion_sampled_far_too_finely_has_the_pulses_of_the_motion():
     step = 0.0002
     times = np.arange(100_001) * step
-    waves = Pulse(3.0, 5.0, start_time=6.0).acceleration(times) + 0.4 * np.sin(31.0 * times) * np.exp(
-        -times / 5
-    )
+    waves = Pulse(amplitude=3.0, circular_frequency=5.0, start_time=6.0).acceleration(times) + 0.4 * np.sin(
+        31.0 * times
+    ) * np.exp(-times / 5)
     fine = extract_pulses(Accelerogram(waves, step))
     plain = extract_pulses(Accelerogram(waves[::10], 10 * step))
     assert fine.dominant.period == pytest.approx(plain.dominant.period, rel=1e-3)

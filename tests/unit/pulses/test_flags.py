@@ -117,7 +117,12 @@ def test_a_filled_gap_is_told_and_padding_is_not():
 @pytest.mark.parametrize("period", [1.0, 1.2])
 def test_a_twin_lies_half_a_cycle_from_the_middle_of_the_pulse(distance, twin, period):
     # an eighth of a cycle to either side of the half, whatever the twin's own period
-    pulse = Pulse(1, 2 * np.pi, 3.0)
-    before, after = (Pulse(-1, 2 * np.pi / period, 3.5 + side * distance - period / 2) for side in (-1, 1))
+    pulse = Pulse(amplitude=1, circular_frequency=2 * np.pi, start_time=3.0)
+    before, after = (
+        Pulse(
+            amplitude=-1, circular_frequency=2 * np.pi / period, start_time=3.5 + side * distance - period / 2
+        )
+        for side in (-1, 1)
+    )
     assert oscillates(pulse, [before, after]) is twin
     assert not oscillates(pulse, [before]) and not oscillates(pulse, [after])

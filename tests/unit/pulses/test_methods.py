@@ -12,7 +12,10 @@ from rocking.records.accelerogram import Accelerogram
 from tests.refusals import refused
 
 TIMES = np.arange(3000) * 0.01
-SHORT, LONG = Pulse(3, 2 * np.pi / 0.6, 5), Pulse(1, 2 * np.pi / 3, 15)
+SHORT, LONG = (
+    Pulse(amplitude=3, circular_frequency=2 * np.pi / 0.6, start_time=5),
+    Pulse(amplitude=1, circular_frequency=2 * np.pi / 3, start_time=15),
+)
 ANALYSIS = extract_pulses(Accelerogram(SHORT.acceleration(TIMES) + LONG.acceleration(TIMES), 0.01))
 
 
@@ -46,7 +49,9 @@ def test_by_velocity_the_sine_of_largest_velocity_is_found():
 @pytest.mark.parametrize(("shift", "amplitude"), [(0.6, -1.4), (-1.2, -1.4), (1.4, -1.5), (-2.0, 1.5)])
 def test_by_velocity_no_sine_far_from_the_velocity_pulse_is_taken(shift, amplitude):
     """Beside a sine of more energy: T_g is T_p/1.93 within half an octave, T_p that of the largest wavelet."""
-    samples = LONG.acceleration(TIMES) + Pulse(amplitude, 2 * np.pi / 1.8, 15 + shift).acceleration(TIMES)
+    samples = LONG.acceleration(TIMES) + Pulse(
+        amplitude=amplitude, circular_frequency=2 * np.pi / 1.8, start_time=15 + shift
+    ).acceleration(TIMES)
     record = Accelerogram(samples, 0.01)
     velocity_period, centre = largest_velocity_pulse(record)
     expected = velocity_period / 1.93
@@ -58,7 +63,7 @@ def test_by_velocity_no_sine_far_from_the_velocity_pulse_is_taken(shift, amplitu
 
 
 def test_one_cycle_and_nothing_outside():
-    pulse = Pulse(-2.0, math.pi, 1.0)
+    pulse = Pulse(amplitude=-2.0, circular_frequency=math.pi, start_time=1.0)
     times = np.array([0.99, 1.0, 1.5, 2.0, 2.5, 3.0, 3.01])
     assert pulse.acceleration(times) == pytest.approx([0, 0, -2, 0, 2, 0, 0], abs=1e-15)
     assert (pulse.period, pulse.end_time) == (2.0, 3.0)
@@ -66,8 +71,12 @@ def test_one_cycle_and_nothing_outside():
 
 @pytest.mark.parametrize(
     ("values", "field"),
-    [((math.nan, 1, 0), "amplitude"), ((1, 0, 0), "circular_frequency"), ((1, 1, math.inf), "start_time")],
+    [
+        ({"amplitude": math.nan}, "amplitude"),
+        ({"circular_frequency": 0}, "circular_frequency"),
+        ({"start_time": math.inf}, "start_time"),
+    ],
 )
 def test_impossible_pulses_are_refused(values, field):
     with refused(PulseError, field):
-        Pulse(*values)
+        Pulse(**{"amplitude": 1, "circular_frequency": 1, **values})

@@ -82,13 +82,16 @@ def test_what_the_pulse_leaves_counts_as_a_share_of_the_peak(amplitude):
 
 
 def test_the_period_is_not_that_of_the_acceleration_pulse():
-    motion = Pulse(3.0, math.pi, 10.0).acceleration(TIMES)
+    motion = Pulse(amplitude=3.0, circular_frequency=math.pi, start_time=10.0).acceleration(TIMES)
     found = velocity_pulse(Accelerogram(motion, STEP), Accelerogram(0 * motion, STEP))
     assert found == velocity_pulse(Accelerogram(motion, STEP))
     # T_p / T_g of a pure sine, computed with the same two methods by other code: 1.93
     assert found.period / 2.0 == pytest.approx(1.93, rel=0.01)
-    assert not found.is_unlike(Pulse(3.0, math.pi, 10.0))
-    assert all(found.is_unlike(Pulse(3.0, factor * math.pi, 10.0)) for factor in (1.1, 0.12))
+    assert not found.is_unlike(Pulse(amplitude=3.0, circular_frequency=math.pi, start_time=10.0))
+    assert all(
+        found.is_unlike(Pulse(amplitude=3.0, circular_frequency=factor * math.pi, start_time=10.0))
+        for factor in (1.1, 0.12)
+    )
 
 
 @pytest.mark.parametrize("component", [0.2, 0.5, 0.8, 1.0])

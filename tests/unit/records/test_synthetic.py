@@ -31,7 +31,18 @@ def test_the_pulse_is_one_cycle_of_a_sine() -> None:
 
 
 def test_noise_is_seeded_and_shaped() -> None:
-    recipe = SyntheticRecord("n", 7, 0.0, 1.0, 0.0, 2.0, 40.0, 0.005, corner_frequency=0.5, kappa=0.04)
+    recipe = SyntheticRecord(
+        name="n",
+        seed=7,
+        pulse_amplitude=0.0,
+        pulse_period=1.0,
+        pulse_start=0.0,
+        noise_peak=2.0,
+        duration=40.0,
+        time_step=0.005,
+        corner_frequency=0.5,
+        kappa=0.04,
+    )
     series = noise(recipe, 8000)
     assert np.array_equal(series, noise(recipe, 8000))
     assert not np.array_equal(series, noise(replace(recipe, seed=8), 8000))

@@ -66,9 +66,9 @@ def shaken(component: str = "EW", scale_factor: float = 1.0, **identity) -> Acce
     """One sine pulse of 0.5 g in noise that dies away; 20 s at 100 Hz."""
     times = np.arange(2000) * 0.01
     noise = np.random.default_rng(len(component)).normal(size=times.size) * np.exp(-(((times - 5) / 3) ** 2))
-    samples = Pulse(5.0, 2 * np.pi / 0.9, 3.0).acceleration(times) + np.convolve(
-        noise, np.ones(5) / 5, "same"
-    )
+    samples = Pulse(amplitude=5.0, circular_frequency=2 * np.pi / 0.9, start_time=3.0).acceleration(
+        times
+    ) + np.convolve(noise, np.ones(5) / 5, "same")
     source = Source(identity.pop("path", "one.at2"), "peer", "ab" * 32, "g")
     return Accelerogram(samples, 0.01, component, source=source, scale_factor=scale_factor, **identity)
 

@@ -114,7 +114,7 @@ def test_a_wall_is_drawn_as_fallen_by_the_rotation_of_the_side_it_falls_to():
 
 
 def test_the_map_of_energy_is_darkest_where_the_pulse_begins_and_marks_it_there():
-    pulse = Pulse(4.0, 2 * np.pi / 0.9, 5.0)
+    pulse = Pulse(amplitude=4.0, circular_frequency=2 * np.pi / 0.9, start_time=5.0)
     record = Accelerogram(pulse.acceleration(np.arange(3000) * 0.01), 0.01)
     energy = pulses_figure([Trace(record, [pulse])]).axes[1]
     (picture,) = energy.images

@@ -45,7 +45,7 @@ def made_rows():
     return [
         decided(
             Decision(word, share, (share, share), ""),
-            Reserve(low, math.nan, math.nan, 3.0),
+            Reserve(low=low, median=math.nan, high=math.nan, limit=3.0),
             record=record,
             structure=structure,
             rotation_ratio=0.5,

@@ -22,7 +22,7 @@ from tests.refusals import refused
 from tests.unit.assessment.made_rows import filled
 
 TIMES = np.arange(3000) * 0.01
-PULSE = rocking.Pulse(4.0, 2 * np.pi / 0.9, 5.0)
+PULSE = rocking.Pulse(amplitude=4.0, circular_frequency=2 * np.pi / 0.9, start_time=5.0)
 RECORD = rocking.Accelerogram(PULSE.acceleration(TIMES), 0.01, "NS", "$x^$", "event")
 BLOCK = rocking.Block.of_size(0.6, 3.0)
 WHOLE = rocking.integrate(BLOCK, RECORD.scaled(0.55), history=True)
@@ -251,8 +251,11 @@ def test_the_map_of_energy_spans_the_onsets_and_periods_that_it_shows():
 
 def test_ranks_of_pulses_that_lie_together_stand_in_one_text():
     axes = Figure().subplots()
-    together = [rocking.Pulse(4.0, 2 * np.pi / 0.9, start) for start in (3.0, 3.1)]
-    apart = rocking.Pulse(4.0, 2 * np.pi / 0.9, 7.0)
+    together = [
+        rocking.Pulse(amplitude=4.0, circular_frequency=2 * np.pi / 0.9, start_time=start)
+        for start in (3.0, 3.1)
+    ]
+    apart = rocking.Pulse(amplitude=4.0, circular_frequency=2 * np.pi / 0.9, start_time=7.0)
     onsets, periods = np.linspace(2.0, 9.0, 8), np.geomspace(5.0, 0.2, 6)
     pulses = [together[0], apart, together[1]]
     draw_energy_map(axes, onsets, periods, np.ones((8, 6)), pulses, (2.0, 9.0))

@@ -155,7 +155,10 @@ def test_an_italian_page_has_no_english_sentence():
             stations=3,
             verdicts={Verdict.PROBABLY_STANDS: 2, Verdict.CANNOT_BE_TOLD: 1},
             doubts=(AssessmentKind.CONTACTS_OPEN,),
-            reserves=(Reserve(0.8, 1.1, 1.2, 3.0), Reserve(0.9, 1.1, 1.2, 3.0)),
+            reserves=(
+                Reserve(low=0.8, median=1.1, high=1.2, limit=3.0),
+                Reserve(low=0.9, median=1.1, high=1.2, limit=3.0),
+            ),
             reserve_doubts=(AssessmentKind.CONTACTS_OPEN,),
         )
         for each in (tied, Block.of_size(0.4, 3.0))

@@ -59,7 +59,7 @@ def test_the_reserve_stands_on_a_scale_of_its_own_for_each_period(report):
     (structure,) = panel.structures
     factors = [math.nan, *np.linspace(0.4, 2.0, len(structure.periods) - 1)]
     stations = [
-        each.with_reserve(Reserve(0.3, factor, math.nan, 3.0))
+        each.with_reserve(Reserve(low=0.3, median=factor, high=math.nan, limit=3.0))
         for each, factor in zip(structure.periods, factors, strict=True)
     ]
     factors = [each.reserve.median for each in stations]  # held to the share at the record itself

@@ -35,7 +35,7 @@ def made():
         made_rows.station(
             replace(
                 made_rows.case("N", math.inf if falls > 32 else 0.5, name, falls=falls),
-                reserve=Reserve(low, 2 * low, math.nan, 3.0),
+                reserve=Reserve(low=low, median=2 * low, high=math.nan, limit=3.0),
             )
         )
         for name, falls, low in (("wall", 48, 0.5), ("wall: thicker", 16, 0.9))

@@ -53,11 +53,13 @@ def test_pulse_end_energy_keeps_eleven_digits() -> None:
 
 @pytest.mark.parametrize("eta", [0.0, 0.3, 0.9, 1.0])
 def test_printed_maximum_is_equation_15_or_nan(eta: float) -> None:
-    block = EquivalentBlock(2.0, 0.25, 0.8, eta)
+    block = EquivalentBlock(
+        frequency_parameter=2.0, critical_rotation=0.25, acceleration_scale=0.8, restitution=eta
+    )
     refused = 0
     for omega in np.geomspace(0.1, 1e4, 23):
         for a in 1 + np.geomspace(1e-3, 30, 19):
-            pulse = Pulse(a * g * block.uplift_multiplier, omega * 2.0)
+            pulse = Pulse(amplitude=a * g * block.uplift_multiplier, circular_frequency=omega * 2.0)
             # what the block and the pulse as stored say a and ω are
             ratio = pulse.amplitude / (g * block.uplift_multiplier)
             _, energy, _ = exact(pulse.circular_frequency / 2.0, ratio)
@@ -73,7 +75,7 @@ def test_printed_maximum_is_equation_15_or_nan(eta: float) -> None:
                 # 1e-10: the division that gives a back loses a digit, and √ loses it again beside a zero radicand
                 assert value == pytest.approx(float(truth), rel=1e-10, abs=0 if eta else 1e-300), (omega, a)
     assert refused > 0 or eta < 0.9
-    assert printed_maximum(block, Pulse(0.1, 3.0)) == 0.0
+    assert printed_maximum(block, Pulse(amplitude=0.1, circular_frequency=3.0)) == 0.0
 
 
 def precise_flight(omega: mp.mpf, a: mp.mpf):

@@ -28,12 +28,14 @@ SHAPES = {
 
 def block_of(eta: float) -> EquivalentBlock:
     """p = 1 and gλ = 1, so that a pulse is its ratios."""
-    return EquivalentBlock(1.0, 1.0 / g, 1.0, eta)
+    return EquivalentBlock(
+        frequency_parameter=1.0, critical_rotation=1.0 / g, acceleration_scale=1.0, restitution=eta
+    )
 
 
 def pulse_of(shape: str, a: float, omega: float) -> Pulse:
     phase, cycles = SHAPES[shape]
-    return Pulse(a, omega, cycles=cycles, phase=phase)
+    return Pulse(amplitude=a, circular_frequency=omega, cycles=cycles, phase=phase)
 
 
 @pytest.mark.parametrize("shape", SHAPES)
@@ -60,7 +62,16 @@ def test_every_shape_turns_the_block_as_scipy_integrates_it(shape):
 
 
 def test_many_at_a_call_are_each_as_alone():
-    blocks = [block_of(0.9), EquivalentBlock(2.2, 0.2, 1.1, 0.7, one_sided=True)]
+    blocks = [
+        block_of(0.9),
+        EquivalentBlock(
+            frequency_parameter=2.2,
+            critical_rotation=0.2,
+            acceleration_scale=1.1,
+            restitution=0.7,
+            one_sided=True,
+        ),
+    ]
     pulses = [pulse_of(shape, a, omega) for shape in SHAPES for a in (-2.5, 2.5) for omega in (1.0, 4.0)]
     ratios = predict_maxima(blocks, pulses)
     for i, block in enumerate(blocks):
@@ -85,7 +96,8 @@ def test_more_cycles_of_what_lifts_turn_no_less_far():
     for a in (1.3, 2.0, 3.0):
         for omega in (2.0, 4.0, 8.0):
             counts = [
-                predict_maximum(block, Pulse(a, omega, cycles=n)).rotation_ratio for n in (1, 2, 3, 8, 40)
+                predict_maximum(block, Pulse(amplitude=a, circular_frequency=omega, cycles=n)).rotation_ratio
+                for n in (1, 2, 3, 8, 40)
             ]
             assert counts[-1] == pytest.approx(counts[-2], rel=1e-9), "η = 0: each cycle begins at rest"
 
@@ -101,7 +113,7 @@ def test_what_is_written_for_a_full_sine_refuses_another():
     for wrong in ({"cycles": 0.0}, {"cycles": 2e3}, {"phase": -0.1}, {"phase": 7.0}):
         ((field, value),) = wrong.items()
         with refused(PulseError, field, value):
-            Pulse(1.0, 1.0, **wrong)
+            Pulse(amplitude=1.0, circular_frequency=1.0, **wrong)
 
 
 @pytest.mark.parametrize("shape", SHAPES)

@@ -45,7 +45,10 @@ STEP = 0.01
 def _records(count: int, amplitude: float = 3.0) -> list[Accelerogram]:
     """Single sine pulses of as many stations; longer ones overturn broader bodies."""
     times = STEP * np.arange(500)
-    pulses = [rocking.Pulse(amplitude, omega, 0.5) for omega in np.linspace(4.0, 8.0, count)]
+    pulses = [
+        rocking.Pulse(amplitude=amplitude, circular_frequency=omega, start_time=0.5)
+        for omega in np.linspace(4.0, 8.0, count)
+    ]
     return [
         Accelerogram(each.acceleration(times), STEP, station="one", event=f"EQ {k}")
         for k, each in enumerate(pulses)

@@ -24,7 +24,7 @@ OFTEN = CASES[:2] + CASES[2::3]
     [pytest.param(*case, marks=() if case in OFTEN else pytest.mark.slow) for case in CASES],
 )
 def test_static_and_kinematic_multipliers_agree(thickness, embrace, voussoirs):
-    ring = Ring(thickness, np.radians(embrace), voussoirs)
+    ring = Ring(thickness=thickness, embrace_angle=np.radians(embrace), voussoirs=voussoirs)
     static, kinematic = static_onset(ring), kinematic_onset(ring)
     assert static.multiplier == pytest.approx(kinematic.multiplier, abs=1e-9)
     # A multiplier is flat in the hinges at its minimum, so they are known to the root of its rounding only.
@@ -34,7 +34,8 @@ def test_static_and_kinematic_multipliers_agree(thickness, embrace, voussoirs):
 def test_multiplier_and_embrace_angle_share_one_invariant():
     """With A inside the ring, atan λ + β/2 depends on t/r only."""
     values = [
-        np.arctan(static_onset(Ring(0.15, b)).multiplier) + b / 2 for b in np.radians((158, 165, 172, 180))
+        np.arctan(static_onset(Ring(thickness=0.15, embrace_angle=b)).multiplier) + b / 2
+        for b in np.radians((158, 165, 172, 180))
     ]
     np.testing.assert_allclose(values, values[0], rtol=1e-12)
 
@@ -42,7 +43,7 @@ def test_multiplier_and_embrace_angle_share_one_invariant():
 @pytest.mark.parametrize("embrace, bound", [(180.0, 0.293914827), (157.5, 0.156568144)])
 def test_hinge_a_reaches_the_springing(embrace, bound):
     """The bounds are where λ is stationary in A at the springing, solved with thirty digits by virtual work alone."""
-    rings = [Ring(bound + d, np.radians(embrace)) for d in (-1e-5, 1e-5)]
+    rings = [Ring(thickness=bound + d, embrace_angle=np.radians(embrace)) for d in (-1e-5, 1e-5)]
     for route in (static_onset, kinematic_onset):
         before, after = (route(ring).hinges[0] for ring in rings)
         assert 1e-5 < before < 4e-5
@@ -77,10 +78,13 @@ def test_momentum_balance_against_a_sum_over_many_small_masses():
 @pytest.mark.slow
 def test_bounds_of_thickness_are_sharp():
     embrace = np.radians(120)
-    least, most = (limiting_thickness(Ring(1.0, embrace), failure) for failure in (TooThin, NoMechanism))
+    least, most = (
+        limiting_thickness(Ring(thickness=1.0, embrace_angle=embrace), failure)
+        for failure in (TooThin, NoMechanism)
+    )
     with pytest.raises(TooThin):
-        static_onset(Ring(least * (1 - 1e-9), embrace))
+        static_onset(Ring(thickness=least * (1 - 1e-9), embrace_angle=embrace))
     with pytest.raises(NoMechanism):
-        static_onset(Ring(most * (1 + 1e-9), embrace))
-    assert static_onset(Ring(least * (1 + 1e-9), embrace)).multiplier > 0
-    assert static_onset(Ring(most * (1 - 1e-6), embrace)).multiplier > 0
+        static_onset(Ring(thickness=most * (1 + 1e-9), embrace_angle=embrace))
+    assert static_onset(Ring(thickness=least * (1 + 1e-9), embrace_angle=embrace)).multiplier > 0
+    assert static_onset(Ring(thickness=most * (1 - 1e-6), embrace_angle=embrace)).multiplier > 0

@@ -75,7 +75,7 @@ def _largest_displacement(curve: CapacityCurve, pulse: Pulse, end: float) -> flo
 )
 def test_a_curve_with_kinks_is_followed_as_its_equation_of_motion(amplitude, circular_frequency, one_sided):
     curve = _curve(one_sided)
-    pulse = Pulse(-amplitude, circular_frequency)
+    pulse = Pulse(amplitude=-amplitude, circular_frequency=circular_frequency)
     response = integrate(curve, pulse, 1e-10)
     oracle = _largest_displacement(curve, pulse, pulse.end_time + 3.0)
     assert response.rotation_ratio * 0.44 == pytest.approx(oracle, rel=1e-8)
@@ -118,7 +118,7 @@ def test_any_curve_has_a_mechanism_that_overturns_where_it_comes_down_to_zero():
         # p² = −g G'/I of the segment that ends at zero
         assert side.frequency_parameter == pytest.approx(np.sqrt(-GRAVITY * slope), rel=1e-9)
         assert side.uplift_multiplier == multipliers[0]
-        assert integrate(curve.mechanism(), Pulse(1.0, 6.0)).rotation_ratio >= 0
+        assert integrate(curve.mechanism(), Pulse(amplitude=1.0, circular_frequency=6.0)).rotation_ratio >= 0
 
 
 def test_the_curve_that_ended_every_record_of_its_study_is_followed():
@@ -159,7 +159,9 @@ def test_the_curve_of_a_mechanism_is_followed_much_as_the_mechanism(structure):
     assert curve.mechanism().uplift_multiplier == pytest.approx(own.uplift_multiplier)
     for factor, frequency in ((1.2, 4.0), (1.5, 6.0), (1.8, 9.0)):
         circular_frequency = frequency * own.equivalent_block().frequency_parameter
-        pulse = Pulse(factor * GRAVITY * own.uplift_multiplier, circular_frequency)
+        pulse = Pulse(
+            amplitude=factor * GRAVITY * own.uplift_multiplier, circular_frequency=circular_frequency
+        )
         ratio = integrate(structure, pulse).rotation_ratio
         # What it leaves out is how the inertia changes with the rotation.
         assert 0.01 < ratio < 1

@@ -46,7 +46,9 @@ def test_each_crack_has_its_own_balance_where_no_restitution_is_given():
 def least_overturning(mechanism, period):
     """Amplitude in g of the weakest single sine of that period that overturns, to one part in fifty."""
     scales = np.geomspace(0.2, 6.0, 170)
-    ratios = integrate_members(mechanism, Pulse(GRAVITY, 2 * np.pi / period), Members(scales)).rotation_ratio
+    ratios = integrate_members(
+        mechanism, Pulse(amplitude=GRAVITY, circular_frequency=2 * np.pi / period), Members(scales)
+    ).rotation_ratio
     return scales[np.argmax(np.isinf(ratios))] if np.isinf(ratios).any() else np.inf
 
 

@@ -111,7 +111,7 @@ def test_loaded_wall_is_that_of_the_worked_example(slab, soft, hard):
     values = {"top_load": 40e3, "top_slab": slab, "restitution": 0.5, "crack": "known"}
     stiff = LoadedWall(2.4, 1.2, 0.35, 18e3, **values)
     wall = LoadedWall(2.4, 1.2, 0.35, 18e3, **values, compressive_strength=FC)
-    restoring, pushed = wall.held_wall.virtual_work(Opening(0.0, 2.4, 3.6).kinks)
+    restoring, pushed = wall.held_wall.virtual_work(Opening(foot=0.0, hinge=2.4, hold=3.6).kinks)
     assert restoring == pytest.approx(soft[0], rel=1e-7)
     assert pushed == close(27216.0)
     assert wall.mechanism().uplift_multiplier == pytest.approx(soft[1], abs=5e-7)

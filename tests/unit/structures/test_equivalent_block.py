@@ -17,14 +17,20 @@ TWO_SIDES = Mechanism(WALL.mechanism().positive, STRUCTURES["unequal wall"].mech
 
 
 def test_a_linear_mechanism_is_its_own_block():
-    plain = EquivalentBlock(2.3, 0.17, 0.17 / 0.21, 0.9)
+    plain = EquivalentBlock(
+        frequency_parameter=2.3, critical_rotation=0.17, acceleration_scale=0.17 / 0.21, restitution=0.9
+    )
     block = Mechanism(straight(plain)).equivalent_block()
     assert block.frequency_parameter == pytest.approx(2.3, rel=1e-12)
     assert block.uplift_multiplier == pytest.approx(0.21, rel=1e-12)
     assert block.critical_arc == pytest.approx(0.17, rel=1e-12)
     x = np.linspace(0, 4.9, 50)
     assert block.rotation_ratios(x) == pytest.approx(x, rel=1e-12, abs=0)
-    for pulse in (Pulse(4.0, 6.0), Pulse(7.0, 14.0), Pulse(-5.0, 9.0)):
+    for pulse in (
+        Pulse(amplitude=4.0, circular_frequency=6.0),
+        Pulse(amplitude=7.0, circular_frequency=14.0),
+        Pulse(amplitude=-5.0, circular_frequency=9.0),
+    ):
         found, expected = predict_maximum(block, pulse), predict_maximum(plain, pulse)
         assert found.rotation_ratio == pytest.approx(expected.rotation_ratio, rel=1e-12)
         for name in ("regime", "impacts", "peak_side"):
@@ -48,7 +54,16 @@ def test_defects_of_the_table():
         assert defects.restoring == pytest.approx(restoring, abs=5.001e-4)
         assert defects.forcing == pytest.approx(forcing, abs=0.006)
     assert TWO_SIDES.block_defects == STRUCTURES["unequal wall"].mechanism().block_defects
-    assert Mechanism(straight(EquivalentBlock(2.0, 0.1, 0.5, 0.9))).block_defects.restoring < 1e-14
+    assert (
+        Mechanism(
+            straight(
+                EquivalentBlock(
+                    frequency_parameter=2.0, critical_rotation=0.1, acceleration_scale=0.5, restitution=0.9
+                )
+            )
+        ).block_defects.restoring
+        < 1e-14
+    )
 
 
 def crests(structure, start):

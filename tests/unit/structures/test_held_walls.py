@@ -219,14 +219,14 @@ def test_tie_of_two_storeys_is_that_of_hand(strength, about_foot, governs):
 def test_bulge_of_one_storey_is_that_of_hand():
     """Section 12.7, example 2: the hinge at 2.40 m 13.938/27.216, free at 2.705582 m .496042."""
     wall = replace(ONE_STOREY, tie_strength=30e3)
-    at_hinge = wall.held_wall.multiplier(Opening(0.0, 2.4, 3.6))
+    at_hinge = wall.held_wall.multiplier(Opening(foot=0.0, hinge=2.4, hold=3.6))
     assert at_hinge == pytest.approx(13.938 / 27.216, rel=1e-9)
     bulge = named(wall)["bulges between foot and tie"]
     assert bulge.uplift_multiplier == pytest.approx(0.496042, abs=5e-7)
     assert bulge.position == pytest.approx(2.705582, abs=1e-5)
     assert bulge.uplift_multiplier == pytest.approx(bulge.multiplier, rel=1e-12)
     for strength, expected in ((6e3, 0.362113), (9.201252e3, 0.512125), (30e3, 1.486762)):
-        past = replace(wall, tie_strength=strength).held_wall.multiplier(Opening(0.0))
+        past = replace(wall, tie_strength=strength).held_wall.multiplier(Opening(foot=0.0))
         assert past == pytest.approx(expected, abs=5e-7)
 
 
@@ -254,14 +254,14 @@ THREE = Facade(
     tie_stiffness=3e5,
 )
 OPENINGS = {
-    "bulge past a tie, the top turning back": (THREE, Opening(0.0, 3.9, 6.4)),
-    "bulge past a tie, the top upright": (THREE, Opening(0.0, 3.9, 6.4, upright=True)),
-    "kick back": (THREE, Opening(4.0, 5.2, 6.4, forwards=False)),
-    "loads held": (replace(THREE, loads_held=True), Opening(0.5, 3.9, 6.4)),
-    "flat slab": (replace(THREE, top_slab="flat"), Opening(0.5, 3.9, 6.4)),
+    "bulge past a tie, the top turning back": (THREE, Opening(foot=0.0, hinge=3.9, hold=6.4)),
+    "bulge past a tie, the top upright": (THREE, Opening(foot=0.0, hinge=3.9, hold=6.4, upright=True)),
+    "kick back": (THREE, Opening(foot=4.0, hinge=5.2, hold=6.4, forwards=False)),
+    "loads held": (replace(THREE, loads_held=True), Opening(foot=0.5, hinge=3.9, hold=6.4)),
+    "flat slab": (replace(THREE, top_slab="flat"), Opening(foot=0.5, hinge=3.9, hold=6.4)),
     "flat slab on what stays upright": (
         replace(THREE, top_slab="flat"),
-        Opening(0.5, 3.9, 6.4, upright=True),
+        Opening(foot=0.5, hinge=3.9, hold=6.4, upright=True),
     ),
 }
 
@@ -286,7 +286,7 @@ def test_chain_under_a_held_top_is_a_loaded_wall(slab):
     for _ in range(20):
         lower, upper, t, load = draw.uniform([1.5, 1.5, 0.15, 0], [3, 3, 0.3, 1e4])
         wall = LoadedWall(lower, upper, t, 19e3, top_load=load, top_slab=slab, crack="known")
-        chain = wall.opened(Opening(0.0, lower, wall.height)).mechanism()
+        chain = wall.opened(Opening(foot=0.0, hinge=lower, hold=wall.height)).mechanism()
         expected = wall.mechanism()
         at = np.linspace(0, 1, 7) * expected.critical_rotation
         for name in ("inertia", "inertia_slope", "gravity", "gravity_slope", "ground"):
@@ -306,7 +306,7 @@ def test_chain_under_a_held_top_is_a_loaded_wall(slab):
 
 def test_contacts_of_a_chain_are_those_of_a_loaded_wall():
     wall = LoadedWall(1.9, 1.3, 0.3, 19e3, top_load=9e3, eccentricity=0.05, crack="known")
-    chain = wall.opened(Opening(0.0, 1.9, wall.height))
+    chain = wall.opened(Opening(foot=0.0, hinge=1.9, hold=wall.height))
     states = [0.01, 0.05, -0.03], [0.2, -0.3, 0.1], None, [1.0, -2.0, 0.5]
     found, expected = chain.contact_forces(*states), wall.contact_forces(*states)
     unit = 1 + 9e3 / (19e3 * 3.2 * 0.3)
@@ -322,7 +322,7 @@ def test_restitution_between_equal_blocks_is_that_of_the_formula():
     facade = Facade(
         (3.2,), (0.2,), 18e3, behind="floors", restitution=0.5, tie_heights=(3.2,), tie_stiffness=1e7
     )
-    opened = facade.opened(Opening(0.0, 1.6, 3.2)).mechanism()
+    opened = facade.opened(Opening(foot=0.0, hinge=1.6, hold=3.2)).mechanism()
     s = np.sin(np.arctan2(0.2, 1.6)) ** 2
     assert opened.restitution == pytest.approx((1 - 4.5 * s) / (1 + 3 * s), rel=1e-12)
     assert opened.positive.at("inertia", 0.0) == pytest.approx(float(chain.inertia(0.0)), rel=1e-12)
@@ -335,9 +335,13 @@ PLAIN = Facade((3.2, 2.8), (0.4, 0.4), 18e3, behind="floors", restitution=0.6)
 def test_what_stops_one_side_alone_leaves_the_whole_wall_to_the_other():
     """A tie pulls and a floor pushes: the other way the wall rocks about its edge as a block does, φ_cr = atan(t/h)."""
     tied = Facade((3.2,), (0.4,), 18e3, tie_heights=(2.4,), tie_stiffness=2e7, restitution=0.8)
-    inwards = tied.opened(Opening(0.0, 1.2, 2.4)).mechanism().negative
+    inwards = tied.opened(Opening(foot=0.0, hinge=1.2, hold=2.4)).mechanism().negative
     assert inwards.critical_rotation == pytest.approx(np.arctan(0.4 / 3.2), rel=1e-12)
-    outwards = PLAIN.opened(Opening(0.0, 1.2, 3.2, upright=True, outwards=False)).mechanism().positive
+    outwards = (
+        PLAIN.opened(Opening(foot=0.0, hinge=1.2, hold=3.2, upright=True, outwards=False))
+        .mechanism()
+        .positive
+    )
     assert outwards.critical_rotation == pytest.approx(np.arctan(0.4 / 6.0), rel=1e-12)
 
 
@@ -346,7 +350,7 @@ def test_critical_rotation_of_a_candidate():
     bodies = named(replace(PLAIN, crack=None))
     for name, height in (("overturns about its foot", 6.0), ("upper storey alone", 2.8)):
         assert bodies[name].critical_rotation == pytest.approx(np.arctan(0.4 / height), rel=1e-12)
-    pushed = Candidate("", 0.0, PLAIN.opened(Opening(0.0, 1.2, 3.2, outwards=False)))
+    pushed = Candidate("", 0.0, PLAIN.opened(Opening(foot=0.0, hinge=1.2, hold=3.2, outwards=False)))
     assert "must be positive" in pushed.refusal and np.isnan(pushed.critical_rotation)
 
 
@@ -483,11 +487,11 @@ def test_reaction_at_the_top_at_rest_is_that_of_hand(slab, strength, expected):
 
 def test_reaction_of_a_tie_at_rest_is_the_strength_at_which_it_yields_as_it_bulges():
     """Section 12.7: R = 9.201252 kN/m with the hinge at 2.40 m; R ≤ F where λ of the bulge ≤ λ past the tie."""
-    wall = ONE_STOREY.opened(Opening(0.0, 2.4, 3.6))
+    wall = ONE_STOREY.opened(Opening(foot=0.0, hinge=2.4, hold=3.6))
     (tie,) = wall.reactions()
     assert tie.kind == "tie" and tie.force[0] == pytest.approx(9201.252, abs=5e-4)
     yields = replace(ONE_STOREY, tie_strength=float(tie.force[0]))
-    assert yields.held_wall.multiplier(Opening(0.0)) == pytest.approx(
+    assert yields.held_wall.multiplier(Opening(foot=0.0)) == pytest.approx(
         wall.mechanism().uplift_multiplier, rel=1e-12
     )
 
@@ -514,7 +518,7 @@ def held_forces(wall, opening, state):
 def test_reaction_in_motion_balances_all_masses_about_the_foot(upright):
     """Differences of places are right to 1e-7."""
     wall = replace(THREE, tie_heights=(6.4, 9.0) if upright else (6.4,), loads_held=False)
-    opening = Opening(0.0, 3.9, 6.4, upright=upright)
+    opening = Opening(foot=0.0, hinge=3.9, hold=6.4, upright=upright)
     opened = wall.opened(opening)
     for phi, velocity, ground in ((0.02, 0.3, -1.5), (0.05, -0.4, 2.0), (0.08, 0.1, 0.3)):
         acceleration = float(opened.mechanism().angular_acceleration(phi, velocity, ground))
@@ -544,7 +548,7 @@ def test_tie_past_which_a_facade_turns_pulls_as_its_law_says():
     np.testing.assert_allclose(
         twice.reactions([0.02, 0.05], [0.1, 0.0], ground=[0.0, 1.0])[0].force, 2 * tie.force
     )
-    foot = Opening(0.0)
+    foot = Opening(foot=0.0)
     both, one = (replace(each, tie_strength=3e3).held_wall.multiplier(foot) for each in (twice, facade))
     assert both - one == pytest.approx(one - facade.mechanism().uplift_multiplier, rel=1e-9)
 

@@ -106,7 +106,7 @@ def test_the_word_is_that_of_the_wall_that_slips():
     wall = replace(WALL, top_friction=0.3)
     slips = slipping(wall)
     held = wall.mechanism().uplift_multiplier
-    pulse = rocking.Pulse(1.6 * slips.multiplier * GRAVITY, 2.0, 0.2)
+    pulse = rocking.Pulse(amplitude=1.6 * slips.multiplier * GRAVITY, circular_frequency=2.0, start_time=0.2)
     assert 1.6 * slips.multiplier < held
     record = rocking.Accelerogram(pulse.acceleration(np.arange(900) * 0.01), 0.01)
     falls = rocking.assess(record, wall.cracked_by_statics())

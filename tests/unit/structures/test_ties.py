@@ -66,7 +66,7 @@ MOTIONS = {
 def test_every_flight_is_that_of_scipys_own_events(case):
     """Under one sine and after it: rotations at every state, and what has yielded and broken."""
     structure, amplitude, omega = MOTIONS[case]
-    pulse = Pulse(-amplitude, omega)
+    pulse = Pulse(amplitude=-amplitude, circular_frequency=omega)
     found = integrate(structure, pulse, 1e-11, history=True)
     lift = GRAVITY * structure.mechanism().positive.uplift_multiplier
     start = np.arcsin(lift / amplitude) / omega
@@ -102,7 +102,7 @@ def test_a_side_that_cannot_overturn_moves_as_any_other():
     assert both_ways.mechanism().negative.critical_rotation == pytest.approx(free, rel=1e-12)
     rotations = np.linspace(0, mechanism.positive.end_rotation, 2001)
     assert mechanism.positive.gravity(rotations).min() > 0
-    pulse = Pulse(-12.0, 8.0)
+    pulse = Pulse(amplitude=-12.0, circular_frequency=8.0)
     found = integrate(structure, pulse, 1e-11, history=True)
     assert found.outcome == "rocks"
     start = np.arcsin(GRAVITY * mechanism.positive.uplift_multiplier / 12.0) / 8.0
@@ -174,11 +174,21 @@ def test_limits_of_the_strength():
         assert history(structure, pulse) == pytest.approx(history(expected, pulse), rel=rel)
 
     elastic = replace(FACADE, tie_strength=None, tie_plastic_elongation=0.0, tie_stiffness=3e3)
-    alike(replace(elastic, tie_strength=1e30), elastic, Pulse(-1.9, 5.0), 1e-12)
+    alike(replace(elastic, tie_strength=1e30), elastic, Pulse(amplitude=-1.9, circular_frequency=5.0), 1e-12)
     brittle = replace(FACADE, tie_plastic_elongation=0.0)
     for change in ({"tie_strength": 1e-12}, {"tie_strength": 1e-6, "tie_stiffness": 1e9}):
-        alike(replace(brittle, **change), replace(FACADE, **UNTIED), Pulse(-1.3, 5.0), 1e-9)
-    alike(replace(FACADE, tie_plastic_elongation=1e-13), brittle, Pulse(-3.0, 6.0), 1e-9)
+        alike(
+            replace(brittle, **change),
+            replace(FACADE, **UNTIED),
+            Pulse(amplitude=-1.3, circular_frequency=5.0),
+            1e-9,
+        )
+    alike(
+        replace(FACADE, tie_plastic_elongation=1e-13),
+        brittle,
+        Pulse(amplitude=-3.0, circular_frequency=6.0),
+        1e-9,
+    )
 
 
 @pytest.mark.parametrize("structure", [FACADE, WALL], ids=["façade", "wall"])
@@ -189,7 +199,12 @@ def test_acceleration_and_capacity_know_the_ties(structure):
     for rotation, largest in ((0.004, 0.004), (0.006, 0.012), (0.02, 0.02), (0.02, 0.2)):
         inertia, bend, weight, push, u, pull = held.terms(rotation)
         before = held.points(largest)
-        tie = Tie(structure.tie_stiffness, 0.0, structure.tie_strength, structure.tie_plastic_elongation)
+        tie = Tie(
+            stiffness=structure.tie_stiffness,
+            pretension=0.0,
+            strength=structure.tie_strength,
+            plastic_elongation=structure.tie_plastic_elongation,
+        )
         plastic = np.maximum(before - tie.strength / tie.stiffness, 0.0)
         force = np.clip(tie.stiffness * (u - plastic), 0.0, tie.strength)
         force[plastic > tie.plastic_elongation] = 0.0
@@ -244,7 +259,9 @@ def test_the_defect_of_the_block_knows_a_tie_that_breaks_at_once(stiffness):
 def test_a_tie_where_nothing_moves_does_nothing(height):
     """At the top that the floor holds, or at the foot: its motion is rounding, and its strength holds nothing back."""
     free, still = replace(WALL, **UNTIED), replace(WALL, tie_heights=(height,))
-    found, expected = (history(each, Pulse(-6.0, 8.0))[:2] for each in (still, free))
+    found, expected = (
+        history(each, Pulse(amplitude=-6.0, circular_frequency=8.0))[:2] for each in (still, free)
+    )
     assert expected[0] > 1e-3
     assert found == pytest.approx(expected, rel=1e-6)  # what a strength of .07 weights does over 1e-9 m
     assert still.tie_events(found[0]) == ""

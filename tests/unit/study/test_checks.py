@@ -403,7 +403,7 @@ def test_the_page_names_the_client_and_what_the_checks_rest_on():
     )
     settings = Settings(client="The town").for_pages
     data = structures_data([page], spectrum, settings)
-    assert Fact("client", "The town") in data.about
+    assert Fact(label="client", text="The town") in data.about
     (text,) = data.sheets
     (share,) = text.answers[0].sure
     assert share.value == "50\u00a0%"
@@ -433,9 +433,9 @@ def test_the_page_tells_a_reserve_that_was_not_sought_from_one_that_was_not_reac
         lines = [f"{each.value} {each.text}" for each in data.answers[0].sure[1:]]
         return lines[0] if lines else data.answers[0].basis.share
 
-    never = Reserve(math.nan, math.nan, math.nan, 3.0)
-    low = Reserve(0.8, 1.1, math.nan, 3.0)
-    high = Reserve(1.6, 2.2, 3.0, 3.0)
+    never = Reserve(low=math.nan, median=math.nan, high=math.nan, limit=3.0)
+    low = Reserve(low=0.8, median=1.1, high=math.nan, limit=3.0)
+    high = Reserve(low=1.6, median=2.2, high=3.0, limit=3.0)
     assert "No reserve was sought" in share()
     assert (
         share(never, never) == "3\u00a0× applied to any record lets fewer than 5 % of the members overturn."
@@ -454,7 +454,7 @@ def test_the_page_to_sign_carries_the_caveat_of_page_one(study, monkeypatch):
     lifting = replace(
         made_rows.case("N", math.inf, "parapet", falls=64),
         check=ModelCheck(0.3, True, ""),
-        reserve=Reserve(0.6, 0.7, 0.8, 3.0),
+        reserve=Reserve(low=0.6, median=0.7, high=0.8, limit=3.0),
     )
     station = made_rows.station(lifting)
     verdicts = made_rows.verdicts([station])

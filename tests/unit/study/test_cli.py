@@ -253,7 +253,9 @@ def test_spectrum_agrees_with_the_integration_of_one_block(record, tmp_path):
     rocks = [row for row in table if 0 < float(row["rotation_ratio"]) < math.inf]
     chosen = rocks[len(rocks) // 2]
     p, multiplier = float(chosen["frequency_parameter_rad_s"]), float(chosen["uplift_multiplier"])
-    block = rocking.EquivalentBlock(p, 0.1, 0.1 / multiplier, 0.9)
+    block = rocking.EquivalentBlock(
+        frequency_parameter=p, critical_rotation=0.1, acceleration_scale=0.1 / multiplier, restitution=0.9
+    )
     response = rocking.integrate(block, rocking.read(record, unit="g")[0])
     # both are exact solutions of the same linear equation; only event times are iterated, to rounding
     assert float(chosen["rotation_ratio"]) == pytest.approx(response.rotation_ratio, rel=1e-9)

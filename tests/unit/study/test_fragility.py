@@ -47,7 +47,16 @@ def _study(**fragility: object) -> Study:
 def _records(folder: Path, count: int) -> list[CatalogueRecord]:
     records = []
     for seed in range(count):
-        recipe = SyntheticRecord(f"made{seed}", seed, 4.0, 0.4 + 0.2 * seed, 1.0, 1.0, 6.0, 0.01)
+        recipe = SyntheticRecord(
+            name=f"made{seed}",
+            seed=seed,
+            pulse_amplitude=4.0,
+            pulse_period=0.4 + 0.2 * seed,
+            pulse_start=1.0,
+            noise_peak=1.0,
+            duration=6.0,
+            time_step=0.01,
+        )
         (folder / f"made{seed}.AT2").write_text(at2_text(recipe))
         cells = {"unit": "g", "event": "made", "station": str(seed), "folder": folder}
         records.append(CatalogueRecord(f"made{seed}", f"made{seed}.AT2", **cells))
@@ -321,7 +330,10 @@ def test_the_rate_of_each_period_of_a_support_is_the_one_by_hand(tmp_path):
     hazard = tmp_path / "hazard.csv"
     points = [f"{level},{scale * level**-slope}" for level in (lowest, highest)]
     hazard.write_text("\n".join(["intensity,annual_rate", *points]))
-    supports = tuple(Support((Mode(period, DAMPING, PARTICIPATION),)) for period in PERIODS)
+    supports = tuple(
+        Support((Mode(period=period, damping_ratio=DAMPING, participation=PARTICIPATION),))
+        for period in PERIODS
+    )
     carried = {"parapet": Scene("parapet", BODY, Place("roof", supports))}
     study = replace(_study(hazard=str(hazard), intensity_measure="pga"), scenes=carried)
     records = _records(tmp_path, 3)

@@ -41,7 +41,16 @@ def made(tmp_path_factory) -> tuple[Path, Rows, list[str]]:
     folder = tmp_path_factory.mktemp("map")
     records = []
     for seed, (name, place) in enumerate(PLACES.items()):
-        recipe = SyntheticRecord(name, seed, 4.0 / (1 + seed), 0.8, 1.0, 1.0, 6.0, 0.01)
+        recipe = SyntheticRecord(
+            name=name,
+            seed=seed,
+            pulse_amplitude=4.0 / (1 + seed),
+            pulse_period=0.8,
+            pulse_start=1.0,
+            noise_peak=1.0,
+            duration=6.0,
+            time_step=0.01,
+        )
         (folder / f"{name}.AT2").write_text(at2_text(recipe))
         cells = {"unit": "g", "event": "L'Aquila", "station": name, "folder": folder}
         records.append(CatalogueRecord(name, f"{name}.AT2", **cells, **place))
@@ -133,7 +142,9 @@ def test_the_plane_keeps_distances_also_across_the_date_line():
             east, north = plane(easts, latitude + spread[:, 1], origin)
             assert np.abs(east).max() < 100 and abs(east.max() + east.min()) < 1e-6
             for k in range(1, 8):
-                one, other = (Place(latitude + spread[place, 1], easts[place]) for place in (0, k))
+                one, other = (
+                    Place(latitude=latitude + spread[place, 1], longitude=easts[place]) for place in (0, k)
+                )
                 flat = math.hypot(east[k] - east[0], north[k] - north[0])
                 assert flat == pytest.approx(one.distance_to(other), rel=0.015, abs=0.1)
 

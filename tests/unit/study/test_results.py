@@ -46,7 +46,9 @@ def test_a_table_of_the_summary_is_an_attribute(folder: Path) -> None:
     assert {"comparison", "variations", "trade"} <= set(dir(results))
 
 
-@pytest.mark.parametrize("reserve", [None, Reserve(1.2, math.nan, math.nan, 3.0)], ids=["none", "sought"])
+@pytest.mark.parametrize(
+    "reserve", [None, Reserve(low=1.2, median=math.nan, high=math.nan, limit=3.0)], ids=["none", "sought"]
+)
 def test_an_outcome_keeps_the_decision_with_the_values_of_its_remarks(tmp_path: Path, reserve) -> None:
     """Of every kind in the catalogue; a row read back from its print raised ValueError for each that has values."""
     remarks = tuple(
