@@ -203,8 +203,8 @@ def assess(
     """
     if type(record).__module__.startswith("obspy."):
         channels = Accelerogram.from_obspy(record, inventory, unit)
-        record = [each for each in channels if each.is_horizontal]
-        vertical = vertical or next((each for each in channels if each.vertical), None)
+        record = [channel for channel in channels if channel.is_horizontal]
+        vertical = vertical or next((channel for channel in channels if channel.vertical), None)
     records = _checked_records(record)
     settings = settings or AssessmentSettings()
     for name, value, allowed, words in (
@@ -239,7 +239,7 @@ def _checked_records(record: object) -> list[Accelerogram]:
     if isinstance(records, str | bytes) or not isinstance(records, Sequence):
         wrong = f"is {kind_of(record)}, but must be an accelerogram, or two horizontal ones; "
         wrong += "rocking.read gives those of a file"
-    elif odd := [each for each in records if not isinstance(each, Accelerogram)]:
+    elif odd := [item for item in records if not isinstance(item, Accelerogram)]:
         wrong = f"holds a {type(odd[0]).__name__}, but must hold accelerograms"
     elif len(records) not in (1, 2):
         wrong = f"holds {len(records)} accelerograms, but must hold one or two horizontal ones"

@@ -122,7 +122,7 @@ class Assessor:
         self, horizontal: Sequence[Accelerogram], vertical: Accelerogram | None = None
     ) -> tuple[Component, ...]:
         """Return the components of a record with the pulses of each. vertical: acts with them."""
-        beside = [None if vertical is None else aligned(vertical, each) for each in horizontal]
+        beside = [None if vertical is None else aligned(vertical, component) for component in horizontal]
         found = self._sought(horizontal, self.motion_measures)
         return tuple(
             pulses.beside(accelerogram, lift)
@@ -189,10 +189,10 @@ class Assessor:
                 shaking = shakings[support] = self._with_pair(shaking, vertical, failures)
             except RockingError as error:
                 names = list(by_name(grounds))
-                periods |= {(each.name, support): _lost(each, support, names, error) for each in carried}
+                periods |= {(scene.name, support): _lost(scene, support, names, error) for scene in carried}
                 continue
             if support is not None:
-                predictions = self.predict(shaking.components, {each.name: each for each in carried})
+                predictions = self.predict(shaking.components, {scene.name: scene for scene in carried})
             for scene in carried:
                 try:
                     with one_structure(scene.name):
@@ -206,9 +206,9 @@ class Assessor:
         results = {}
         for scene in scenes.values():
             along = [
-                periods[scene.name, each]
-                for each in (None, *scene.place.supports)
-                if (scene.name, each) in periods
+                periods[scene.name, support]
+                for support in (None, *scene.place.supports)
+                if (scene.name, support) in periods
             ]
             with_members = [
                 period_result for period_result in along if period_result.support and period_result.decisive
@@ -224,7 +224,7 @@ class Assessor:
             scenes=results,
             failures=tuple(failures),
             durations=dict(self.clock.durations),
-            floors={support: each.floor for support, each in shakings.items() if support is not None},
+            floors={support: shaking.floor for support, shaking in shakings.items() if support is not None},
         )
 
     def compare(self, result: RecordResult) -> RecordResult:
@@ -256,8 +256,10 @@ class Assessor:
     def _pulses_on(self, support: Carrier, grounds: Sequence[Component]) -> tuple[ComponentPulses, ...]:
         """The pulses of each component as it arrives on a support."""
         with self.clock.stage("supports"):
-            motions = [arrived(Motion((each.accelerogram,), each.vertical, support)) for each in grounds]
-        floors = [next(iter(each.horizontal.values())) for each in motions]
+            motions = [
+                arrived(Motion((ground.accelerogram,), ground.vertical, support)) for ground in grounds
+            ]
+        floors = [next(iter(motion.horizontal.values())) for motion in motions]
         return self._sought(floors, measured=False)
 
     def _with_pair(
@@ -265,7 +267,7 @@ class Assessor:
     ) -> _Shaking:
         """The motion at one place with its pair; why it is none, or has no pulse, is added to the failures."""
         if len(shaking.grounds) == 2 and self.settings.ensemble.members:
-            components = tuple(each.accelerogram for each in shaking.grounds)
+            components = tuple(ground.accelerogram for ground in shaking.grounds)
             pair = Motion(components, vertical, shaking.support)
             inputs = PairInputs(pair=pair, processing=self.settings.ensemble.processing)
             try:

@@ -139,7 +139,7 @@ class CaseResult:
 
         Without the histories, without the prediction, which a pulse gives at once, and without the times it took.
         """
-        responses = {method: _without_history(each) for method, each in self.responses.items()}
+        responses = {method: _without_history(response) for method, response in self.responses.items()}
         answer = self.answer
         if answer is not None and answer.response is not None:
             answer = replace(answer, response=_without_history(answer.response))
@@ -168,9 +168,9 @@ class CaseResult:
     def largest_of_part(self, part: str | None) -> float:
         """Return the largest of its runs in which a part falls by itself, a leaf or "" for all of it; None: of any."""
         if self.ensembles is not None:
-            of_part = [each for each in self.ensembles.followed if part is None or each.part == part]
-            of_each = [each.ensemble.rotation_ratios for each in of_part]
-            ratios = [ratio for each in of_each for ratio in each.tolist()]
+            of_part = [crack for crack in self.ensembles.followed if part is None or crack.part == part]
+            of_each = [crack.ensemble.rotation_ratios for crack in of_part]
+            ratios = [ratio for ratios_of_crack in of_each for ratio in ratios_of_crack.tolist()]
             return max((ratio for ratio in ratios if not math.isnan(ratio)), default=math.nan)
         if self.answer is None or self.answer.outcome is Outcome.NO_UPLIFT:
             return 0.0
@@ -186,14 +186,16 @@ class CaseResult:
         settled = None
         beyond = AssessmentKind.TIES_GIVE if self.ties_give else None
         other_runs = [
-            each.integrated_rotation_ratio for each in self.variations if each.crack and each.counts
+            variation.integrated_rotation_ratio
+            for variation in self.variations
+            if variation.crack and variation.counts
         ]
-        runs = [each for each in (self.integrated_rotation_ratio, *other_runs) if not math.isnan(each)]
+        runs = [ratio for ratio in (self.integrated_rotation_ratio, *other_runs) if not math.isnan(ratio)]
         rests = self.answer is not None and self.answer.outcome is Outcome.NO_UPLIFT and not any(other_runs)
         if self.ensembles is not None:
-            followed = [each for each in self.ensembles.followed if each.counts]
-            rests = all(bool((each.ensemble.rotation_ratios == 0).all()) for each in followed)
-            if any(each.facts.farthest > BEYOND and each.part in held for each in followed):
+            followed = [crack for crack in self.ensembles.followed if crack.counts]
+            rests = all(bool((crack.ensemble.rotation_ratios == 0).all()) for crack in followed)
+            if any(crack.facts.farthest > BEYOND and crack.part in held for crack in followed):
                 beyond = AssessmentKind.HELD_BEYOND
         elif self.answer is not None and self.answer.response is None:
             settled = Verdict.OVERTURNS if self.overturns else Verdict.STANDS
@@ -213,7 +215,12 @@ class CaseResult:
             held=bool(held),
             beyond=beyond,
             top=next(
-                (each.remark for each in body.restraints() if each.kind == "top" and each.lets_go), None
+                (
+                    restraint.remark
+                    for restraint in body.restraints()
+                    if restraint.kind == "top" and restraint.lets_go
+                ),
+                None,
             ),
             stacks=stacks,
             as_stones=body.as_stones,
@@ -231,7 +238,7 @@ class CaseResult:
     @property
     def failure(self) -> Failure | None:
         """Why there is no result; None where there is one."""
-        return next((each for each in self.failures if each.stage in DECISIVE), None)
+        return next((failure for failure in self.failures if failure.stage in DECISIVE), None)
 
     @property
     def severity(self) -> tuple[bool, float]:
@@ -272,7 +279,7 @@ class PeriodResult:
     @cached_property
     def worst(self) -> CaseResult | None:
         """The case of the component that overturns, then rotates, most; None where no component gave a result."""
-        answered = [each for each in self.cases.values() if each.answer is not None]
+        answered = [case for case in self.cases.values() if case.answer is not None]
         return max(answered, key=lambda case: case.severity, default=None)
 
     @cached_property
@@ -281,17 +288,17 @@ class PeriodResult:
         if self.directions is not None and self.directions.ensembles is not None:
             # All directions are one: what a component lacks takes nothing away.
             return self.directions, decide(self.directions.facts(self.scene.structure))
-        answered = [each for each in self.cases.values() if each.answer is not None]
+        answered = [case for case in self.cases.values() if case.answer is not None]
         if not answered:
-            first = [each.failure.message for each in self.cases.values() if each.failure][:1]
+            first = [case.failure.message for case in self.cases.values() if case.failure][:1]
             return None, decide(Facts(failures=tuple(first)))
         both = [*self.cases.values(), *([self.directions] if self.directions else [])]
         missing = tuple(
-            f"the component {each.component or 'not named'} gave no result: {each.failure.message}"
-            for each in both
-            if each.failure
+            f"the component {case.component or 'not named'} gave no result: {case.failure.message}"
+            for case in both
+            if case.failure
         )
-        decided = [(each, decide(each.facts(self.scene.structure, missing))) for each in answered]
+        decided = [(case, decide(case.facts(self.scene.structure, missing))) for case in answered]
         return max(decided, key=lambda pair: (severity(pair[1]), *_rotation_severity(pair[0])))
 
     def check_of(self, candidate: Candidate) -> ModelCheck | None:
@@ -376,19 +383,19 @@ class PeriodResult:
         uplift to the limit, so that a body of courses that tapers is always in doubt.
         """
         both = [*self.cases.values(), *([self.directions] if self.directions else [])]
-        doubts = [each.doubt for each in both if each.doubt is not None]
+        doubts = [case.doubt for case in both if case.doubt is not None]
         doubts += [
-            each
-            for each in self.decision.doubts
-            if each.kind in (AssessmentKind.MEMBERS_FAILED, AssessmentKind.COMPONENT_MISSING)
+            doubt
+            for doubt in self.decision.doubts
+            if doubt.kind in (AssessmentKind.MEMBERS_FAILED, AssessmentKind.COMPONENT_MISSING)
         ]
-        if any(each.check.bounces for each in both):
+        if any(case.check.bounces for case in both):
             doubts.append(Remark(AssessmentKind.CONTACTS_OPEN))
         if self.scene.structure.tapers:
             doubts.append(Remark(AssessmentKind.COURSES_THROWN))
         if self.scene.structure.needs_stones:
             doubts.append(Remark(AssessmentKind.STONES_TELL))
-        return tuple(sorted(set(doubts), key=lambda each: each.kind))
+        return tuple(sorted(set(doubts), key=lambda remark: remark.kind))
 
     @property
     def reserve_in_words(self) -> str:
@@ -412,9 +419,13 @@ class PeriodResult:
         """A crack that overturns in a single run, where there is no ensemble; "" where none does."""
         if self.ensembles is not None:
             return ""
-        variations = (each for case in self.cases.values() for each in case.variations if each.counts)
+        variations = (
+            variation for case in self.cases.values() for variation in case.variations if variation.counts
+        )
         fallen = (
-            each.crack for each in variations if each.crack and math.isinf(each.integrated_rotation_ratio)
+            variation.crack
+            for variation in variations
+            if variation.crack and math.isinf(variation.integrated_rotation_ratio)
         )
         return next(fallen, "")
 
@@ -429,9 +440,9 @@ class PeriodResult:
     def stacks(self) -> ContactShare | None:
         """The share of contact dynamics over all components together; None where it followed nothing."""
         both = [*self.cases.values(), *([self.directions] if self.directions else [])]
-        shares = [each.contact for each in both if each.contact is not None]
-        falls = sum(each.falls for each in shares)
-        runs = sum(each.runs for each in shares)
+        shares = [case.contact for case in both if case.contact is not None]
+        falls = sum(share.falls for share in shares)
+        runs = sum(share.runs for share in shares)
         return ContactShare(falls=falls, runs=runs, reason=shares[0].reason) if runs else None
 
     @property
@@ -461,7 +472,7 @@ class PeriodResult:
         of_members = self.ensemble.worst("direction")
         if of_members or self.worst is None:
             return of_members
-        answered = [each for each in self.cases.values() if each.answer is not None]
+        answered = [case for case in self.cases.values() if case.answer is not None]
         return self.worst.component if len(answered) > 1 else ""
 
     @property
@@ -545,7 +556,7 @@ class RecordResult:
     @property
     def carried(self) -> list[SceneResult]:
         """The results of the scenes on a support."""
-        return [each for each in self.scenes.values() if each.scene.place.supports]
+        return [structure for structure in self.scenes.values() if structure.scene.place.supports]
 
     @cached_property
     def worst_first(self) -> list[PeriodResult]:
@@ -555,7 +566,7 @@ class RecordResult:
     @property
     def worst_periods(self) -> list[PeriodResult]:
         """The result of each scene, of one on a support that of the worst period; the worst first."""
-        worst = (each.worst for each in self.scenes.values())
+        worst = (structure.worst for structure in self.scenes.values())
         return sorted(worst, key=lambda period_result: period_result.severity, reverse=True)
 
     @property
@@ -566,7 +577,7 @@ class RecordResult:
     @property
     def accelerograms(self) -> list[Accelerogram]:
         """The components."""
-        return [each.accelerogram for each in self.components]
+        return [component.accelerogram for component in self.components]
 
     @property
     def responses(self) -> dict[tuple[str, str, float | None], Response]:
@@ -581,8 +592,8 @@ class RecordResult:
     def cases(self, component: str) -> list[tuple[PeriodResult, CaseResult]]:
         """Return the cases of one component, or of `BOTH_COMPONENTS`, in the order of the structures."""
         if component == BOTH_COMPONENTS:
-            return [(each, each.directions) for each in self.periods if each.directions is not None]
-        return [(each, each.cases[component]) for each in self.periods if component in each.cases]
+            return [(period, period.directions) for period in self.periods if period.directions is not None]
+        return [(period, period.cases[component]) for period in self.periods if component in period.cases]
 
 
 def _without_history(response: Response) -> Response:

@@ -87,15 +87,15 @@ def _compile(say: Callable[[str, bool], None]) -> None:
     ]
     running = [subprocess.Popen(call, stderr=subprocess.PIPE, text=True) for call in calls]
     next_word = _PATIENCE
-    while any(each.poll() is None for each in running):
+    while any(worker.poll() is None for worker in running):
         spent = time.monotonic() - started
         if spent >= next_word:
             next_word = spent + _EVERY
             say(f"Compiling for this machine, once, {USUAL}: {spent:.0f} s", False)
         time.sleep(0.1)
-    for each in running:
-        _, errors = each.communicate()
-        if each.returncode:
+    for worker in running:
+        _, errors = worker.communicate()
+        if worker.returncode:
             raise RockingError(f"the numerical parts do not compile: {errors.strip().splitlines()[-1:]}")
     if next_word > _PATIENCE:
         say(f"Compiled in {time.monotonic() - started:.0f} s; it is kept for every later run.", True)

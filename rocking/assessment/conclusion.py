@@ -73,7 +73,7 @@ class Conclusion:
             return decision.tells[0]
         if decision.doubts:
             return decision.doubts[0]
-        shares = [each.overturning_share for each in self.elsewhere if each.overturning_share >= 0]
+        shares = [place.overturning_share for place in self.elsewhere if place.overturning_share >= 0]
         if shares and "–" in (share := percents(*shares)):
             return Remark.of(AssessmentKind.OTHER_PERIODS, share=share)
         # Runs of contact dynamics are on the friction that it has.
@@ -128,21 +128,21 @@ def conclusions(verdicts: Iterable[VerdictRow], comparison: Iterable[ComparisonR
             worst,
             farthest.get((worst.record, worst.structure, worst.support_period_s)),
             [
-                each
-                for each in others[worst.record, worst.structure]
-                if each is not worst and each.support_period_s
+                verdict
+                for verdict in others[worst.record, worst.structure]
+                if verdict is not worst and verdict.support_period_s
             ],
         )
         for worst in worst_period_each(rows)
     ]
-    return sorted(made, key=lambda each: each.severity, reverse=True)
+    return sorted(made, key=lambda conclusion: conclusion.severity, reverse=True)
 
 
 def worst_of_each(made: Iterable[Conclusion]) -> list[Conclusion]:
     """Return of each structure the conclusion under its worst record, the worst first."""
     worst: dict[str, Conclusion] = {}
-    for each in sorted(made, key=lambda each: each.severity, reverse=True):
-        worst.setdefault(each.verdict.structure, each)
+    for conclusion in sorted(made, key=lambda conclusion: conclusion.severity, reverse=True):
+        worst.setdefault(conclusion.verdict.structure, conclusion)
     return list(worst.values())
 
 
@@ -162,12 +162,14 @@ def conclusion_in_words(words: Mapping[str, Verdict], records: int = 1) -> str:
     """
     every = len(words)
     some = " under some record" if records > 1 else ""
-    each = " under every record" if records > 1 else ""
+    throughout = " under every record" if records > 1 else ""
     if every <= 1:
-        said = (f"{name} {word.predicate}{each if word.stays_up else some}." for name, word in words.items())
+        said = (
+            f"{name} {word.predicate}{throughout if word.stays_up else some}." for name, word in words.items()
+        )
         return next(said, "No structure was assessed.")
     if all(word.stays_up for word in words.values()):
-        return f"All {every} structures stand{each}."
+        return f"All {every} structures stand{throughout}."
     falling = sum(word in FALLING for word in words.values())
     untold = sum(word is Verdict.CANNOT_BE_TOLD for word in words.values())
     if untold == every:

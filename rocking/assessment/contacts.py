@@ -93,7 +93,7 @@ def doubt(
         doubt(leaf, motions, ratios.get(name, rotation_ratio), settings)
         for name, leaf in structure.leaves_alone
     )
-    return own or next((each for each in of_each if each is not None), None)
+    return own or next((reason for reason in of_each if reason is not None), None)
 
 
 def _doubt_of_part(
@@ -112,13 +112,13 @@ def _doubt_of_part(
         return None
     if bounces:
         return Remark(AssessmentKind.CONTACTS_OPEN)
-    candidates = [each.structure for each in structure.candidates() if not each.part]
-    bulges = [each for each in candidates if isinstance(each, Tied) and each.opening]
-    first = [each for each in candidates if each not in bulges][:1]
-    asked = [each for each in first if not all(isinstance(part, Turning) for part in each.linkages)]
-    for each, sign, direction in product(asked, _signs(structure, settings), _directions(motions)):
+    candidates = [candidate.structure for candidate in structure.candidates() if not candidate.part]
+    bulges = [wall for wall in candidates if isinstance(wall, Tied) and wall.opening]
+    first = [body for body in candidates if body not in bulges][:1]
+    asked = [body for body in first if not all(isinstance(part, Turning) for part in body.linkages)]
+    for body, sign, direction in product(asked, _signs(structure, settings), _directions(motions)):
         strongest = motions.horizontal[direction].scaled(sign * (1 + settings.ensemble.amplitude_range))
-        if _opens(each, strongest, motions.vertical, strict(settings.tolerance)):
+        if _opens(body, strongest, motions.vertical, strict(settings.tolerance)):
             return Remark(AssessmentKind.CONTACTS_OPEN)
     return Remark(AssessmentKind.IMPACT_OPENS) if any(map(_keeps_little, [*asked, *bulges])) else None
 
@@ -142,7 +142,10 @@ def ties_give(structure: Structure, motions: GroundMotions, settings: Assessment
         return True
     if not isinstance(structure, Tied) or not structure.tie_period:
         return False
-    bulge = next((each.structure for each in structure.mechanisms() if structure.hangs_on_ties(each)), None)
+    bulge = next(
+        (candidate.structure for candidate in structure.mechanisms() if structure.hangs_on_ties(candidate)),
+        None,
+    )
     if bulge is None:
         return False
     both = Members(1 + settings.ensemble.amplitude_range, polarity=[1.0, -1.0])
@@ -235,7 +238,7 @@ def stackable(structure: Laid) -> bool:
 
     Of a wall whose leaves may part, all of them together and each of them.
     """
-    numbers = [_courses_of(each) for each in _parts(structure)]
+    numbers = [_courses_of(part) for part in _parts(structure)]
     return all(numbers) and max(numbers) > 1
 
 
@@ -260,10 +263,10 @@ def contact_share(
     Of a part that is one body its mechanism says more.
     """
     parts = _parts(structure)
-    laid = [each for each in parts if len(parts) == 1 or _courses_of(each) != 1]
+    laid = [part for part in parts if len(parts) == 1 or _courses_of(part) != 1]
     worst = ContactShare(reason="one rigid body moves as its mechanism does, whose members say more")
-    for each in laid:
-        share = _share_of(each, motions, settings or AssessmentSettings(), runs)
+    for part in laid:
+        share = _share_of(part, motions, settings or AssessmentSettings(), runs)
         if not share.runs:
             return share
         if not worst.runs or share.falls * worst.runs > worst.falls * share.runs:
@@ -283,7 +286,7 @@ def _share_of(
     courses is followed with COURSES and MANY_COURSES in turn. An arch or a portal is followed as its stones.
     """
     signs = _signs(structure, settings)
-    directions = [motions.horizontal[each] for each in _directions(motions)[:: len(signs)]]
+    directions = [motions.horizontal[direction] for direction in _directions(motions)[:: len(signs)]]
     ways = [
         (motion, sign) for motion in sorted(directions, key=peak_velocity, reverse=True) for sign in signs
     ]
@@ -312,7 +315,7 @@ def _share_of(
                 falls += it_falls
                 left = len(cases) - followed
                 words = [
-                    step_of(each, len(cases), risk=settings.ensemble.risk) for each in (falls, falls + left)
+                    step_of(count, len(cases), risk=settings.ensemble.risk) for count in (falls, falls + left)
                 ]
                 if words[0] is words[1]:
                     break
@@ -351,8 +354,8 @@ def _laid(structure: Laid, friction: float = FRICTION) -> Sequence[Stack | Stone
     if isinstance(structure, Structure) and structure.as_stones:
         return [replace(structure.stones(), friction=friction)]
     by_size = structure.tapers and not structure.courses_are_given
-    stacks = [structure.stack(each) for each in ((COURSES, MANY_COURSES) if by_size else (None,))]
-    return [replace(each, friction=min(each.friction, friction)) for each in stacks]
+    stacks = [structure.stack(courses) for courses in ((COURSES, MANY_COURSES) if by_size else (None,))]
+    return [replace(stack, friction=min(stack.friction, friction)) for stack in stacks]
 
 
 def _falls(stack: Stack | Stones, motion: Accelerogram, step: float, vertical: Accelerogram | None) -> bool:

@@ -92,7 +92,7 @@ class CrackEnsembles:
     def facts(self) -> Facts:
         """The facts of the cracks alone from which the decision follows."""
         risk = self.followed[0].ensemble.settings.risk
-        of_each = tuple(each.facts for each in self.followed)
+        of_each = tuple(crack.facts for crack in self.followed)
         return Facts(cracks=of_each, slides_at=self.slides_at, risk=risk)
 
     @cached_property
@@ -104,8 +104,8 @@ class CrackEnsembles:
     @property
     def statics_beside(self) -> FollowedCrack | None:
         """The crack reported beside the one that governs: that of statics, or the worst beside a known one; or None."""
-        beside = [each for each in self.followed if not each.counts]
-        other = max(beside, key=lambda each: each.facts.severity(self.facts.risk), default=self.followed[0])
+        beside = [crack for crack in self.followed if not crack.counts]
+        other = max(beside, key=lambda crack: crack.facts.severity(self.facts.risk), default=self.followed[0])
         return None if other is self.governing else other
 
 
@@ -122,17 +122,19 @@ def cracks(structure: Structure) -> tuple[Candidate, ...]:
         return _with_geometry(structure, every)
     forming: list[Candidate] = []
     alone = dict(structure.leaves_alone)
-    for part in dict.fromkeys(each.part for each in every):
+    for part in dict.fromkeys(candidate.part for candidate in every):
         if part:
-            forming += [of_leaf(part, each) for each in cracks(alone[part])]
+            forming += [of_leaf(part, candidate) for candidate in cracks(alone[part])]
         else:
-            forming += _with_geometry(structure, tuple(each for each in every if not each.part))
+            forming += _with_geometry(
+                structure, tuple(candidate for candidate in every if not candidate.part)
+            )
     return tuple(forming)
 
 
 def _with_geometry(structure: Structure, several: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
     """The candidates of one part, with the first crack once more where its restitution is typed too low."""
-    first = next((each for each in several if each.counts and not each.bulges), None)
+    first = next((candidate for candidate in several if candidate.counts and not candidate.bulges), None)
     balanced = None if first is None else first.structure.restitution_of_geometry
     if first is None or balanced is None:
         return several
@@ -153,7 +155,9 @@ def _with_geometry(structure: Structure, several: tuple[Candidate, ...]) -> tupl
 def mechanisms_of(structure: Structure) -> tuple[Candidate, ...]:
     """Return every mechanism: those that may be followed, and behind them those that statics alone lists."""
     forming = cracks(structure)
-    listed = (each for each in structure.mechanisms() if not any(_same(each, own) for own in forming))
+    listed = (
+        candidate for candidate in structure.mechanisms() if not any(_same(candidate, own) for own in forming)
+    )
     return (*forming, *listed)
 
 
@@ -199,21 +203,25 @@ def prepare_structure(structure: Structure, settings: AssessmentSettings, *, ver
 
 def counting_cracks(structure: Structure) -> tuple[Candidate, ...]:
     """Return those of the mechanisms that may form that take part in the verdict."""
-    return tuple(each for each in cracks(structure) if each.counts)
+    return tuple(candidate for candidate in cracks(structure) if candidate.counts)
 
 
 def never_lets_go(structure: Structure) -> str:
     """Return why no mechanism that counts can overturn, in words; "" where one can, or where that is not known."""
-    held = [each.mechanism.never_lets_go for each in counting_cracks(structure)]
+    held = [candidate.mechanism.never_lets_go for candidate in counting_cracks(structure)]
     if not all(held) or not isinstance(structure, Tied):
         return held[0] if all(held) else ""
-    lets_go = any(each.refusal or each.mechanism.can_overturn for each in structure.mechanisms())
+    lets_go = any(
+        candidate.refusal or candidate.mechanism.can_overturn for candidate in structure.mechanisms()
+    )
     return "" if lets_go else held[0]
 
 
 def cracked(structure: Structure, description: str) -> Structure:
     """Return the structure with the crack of this description; itself where none of its cracks has it."""
-    described = (each.structure for each in cracks(structure) if each.description == description)
+    described = (
+        candidate.structure for candidate in cracks(structure) if candidate.description == description
+    )
     return next(described, structure) if description else structure
 
 
@@ -236,15 +244,15 @@ def ensemble_over_cracks(
     """
     every = cracks(structure)
     parts: list[CrackEnsembles] = []
-    for part in dict.fromkeys(each.part for each in every):
-        own = [each for each in every if each.part == part]
+    for part in dict.fromkeys(candidate.part for candidate in every):
+        own = [candidate for candidate in every if candidate.part == part]
         parts.append(_of_part(own, motions, settings, is_named=len(every) > 1, exhaustive=exhaustive))
         if parts[-1].followed[0].facts.step(settings.ensemble.risk) is Verdict.OVERTURNS:
             break
     if len(parts) == 1:
         return parts[0]
-    followed = tuple(each for part in parts for each in part.followed)
-    left_out_at = [each.slides_at for each in parts if not math.isnan(each.slides_at)]
+    followed = tuple(crack for part in parts for crack in part.followed)
+    left_out_at = [ensembles.slides_at for ensembles in parts if not math.isnan(ensembles.slides_at)]
     return CrackEnsembles(followed, min(left_out_at, default=math.nan))
 
 
@@ -257,12 +265,16 @@ def _of_part(
     exhaustive: bool,
 ) -> CrackEnsembles:
     """The ensembles of the cracks of one part that may govern it; is_named: whether anything else may form."""
-    counting = [each for each in several if each.counts]
+    counting = [candidate for candidate in several if candidate.counts]
     sliding = sliding_first(several, motions, settings)
-    lifting = [each for each in counting if each not in sliding] or counting
-    left_out = [slides_at(each, settings.friction_coefficient) for each in counting if each not in lifting]
+    lifting = [candidate for candidate in counting if candidate not in sliding] or counting
+    left_out = [
+        slides_at(candidate, settings.friction_coefficient)
+        for candidate in counting
+        if candidate not in lifting
+    ]
     left_out_at = min(left_out, default=math.nan)
-    first, *others = *lifting, *(each for each in several if not each.counts)
+    first, *others = *lifting, *(candidate for candidate in several if not candidate.counts)
     of_statics = ensemble(
         first.mechanism,
         motions,
@@ -275,18 +287,20 @@ def _of_part(
     risk = settings.ensemble.risk
     settled = statics.facts.step(risk) is Verdict.OVERTURNS
     if settled:
-        others = [each for each in others if not each.counts]
+        others = [candidate for candidate in others if not candidate.counts]
     if not others:
         return CrackEnsembles((statics,), left_out_at)
     doubtful = others
     if not exhaustive:
-        always = [each for each in others if each.bulges]
-        rest = [each for each in others if not each.bulges]
+        always = [candidate for candidate in others if candidate.bulges]
+        rest = [candidate for candidate in others if not candidate.bulges]
         doubtful = always + screened(rest, of_statics, motions, settings, first.multiplier)
     mechanisms = {}
-    for each in doubtful:
-        followed = FollowedCrack.of(each, _alone(each, motions, settings), slides=each in sliding)
-        mechanisms[followed] = each.mechanism
+    for candidate in doubtful:
+        followed = FollowedCrack.of(
+            candidate, _alone(candidate, motions, settings), slides=candidate in sliding
+        )
+        mechanisms[followed] = candidate.mechanism
         if settled and followed.facts.step(risk) is Verdict.OVERTURNS:
             break
     ensembles = CrackEnsembles((statics, *mechanisms), left_out_at)
@@ -301,7 +315,7 @@ def _of_part(
         )
         grew = replace(governing, ensemble=more)
         ensembles = replace(
-            ensembles, followed=tuple(grew if each is governing else each for each in ensembles.followed)
+            ensembles, followed=tuple(grew if crack is governing else crack for crack in ensembles.followed)
         )
     return ensembles
 
@@ -314,10 +328,12 @@ def sliding_first(
     A bulge whose joints slide instead is no safer for it: it is none of them where anything that counts lifts, or
     nothing but bulges may form.
     """
-    sliding = [each for each in several if slides_first(each, motions, settings)]
-    counting = [each for each in several if each.counts]
-    if all(each.bulges for each in counting) or any(each not in sliding for each in counting):
-        return [each for each in sliding if not each.bulges]
+    sliding = [candidate for candidate in several if slides_first(candidate, motions, settings)]
+    counting = [candidate for candidate in several if candidate.counts]
+    if all(candidate.bulges for candidate in counting) or any(
+        candidate not in sliding for candidate in counting
+    ):
+        return [candidate for candidate in sliding if not candidate.bulges]
     return sliding
 
 
@@ -361,21 +377,21 @@ def screened(
     `lifted_at`, the λ of the first crack, may rock.
     """
     if np.all(of_statics.rotation_ratios == 0):
-        others = [each for each in others if each.multiplier < lifted_at]
+        others = [candidate for candidate in others if candidate.multiplier < lifted_at]
     order = np.argsort(-of_statics.rotation_ratios, kind="stable")
     few = design(settings.ensemble)[order[[0, 1, order.size // 2]]]
     follow = partial(
         drawn, motions=motions, points=few, settings=settings.ensemble, tolerance=settings.tolerance
     )
     severity = {}
-    for each in others:
-        if each.mechanism.can_overturn and not each.mechanism.tied:
-            block = follow(each.mechanism.equivalent_block("uplift"))
+    for candidate in others:
+        if candidate.mechanism.can_overturn and not candidate.mechanism.tied:
+            block = follow(candidate.mechanism.equivalent_block("uplift"))
             if block.rotation_ratios.max() <= FAR_FROM_DOUBT:  # not of a member that failed
                 continue
-        ratios = np.nan_to_num(follow(each.mechanism).rotation_ratios, nan=np.inf, posinf=np.inf)
+        ratios = np.nan_to_num(follow(candidate.mechanism).rotation_ratios, nan=np.inf, posinf=np.inf)
         if ratios.max() > IN_DOUBT:
-            severity[each] = int(np.isinf(ratios).sum()), float(ratios.min())
+            severity[candidate] = int(np.isinf(ratios).sum()), float(ratios.min())
     return sorted(severity, key=severity.__getitem__, reverse=True)
 
 
@@ -430,22 +446,22 @@ def deciding(ensembles: CrackEnsembles) -> list[Deciding]:
     falls = np.isinf(governing.rotation_ratios)
     known = ~np.isnan(governing.rotation_ratios)
     shares = []
-    for cause in (each for each in CAUSES if each.name in governing.causes):
+    for cause in (cause for cause in CAUSES if cause.name in governing.causes):
         groups = governing.causes[cause.name]
         if groups.dtype.kind == "f" and np.unique(groups).size > BINS:
             # Numbers of an interval go by the part of it in which they lie.
             groups = np.searchsorted(np.linspace(groups.min(), groups.max(), BINS + 1)[1:-1], groups)
         shares.append(Deciding(cause.name, explained(falls[known], groups[known]), cause.origin))
-    of_part = [each for each in ensembles.followed if each.part == ensembles.governing.part]
-    cracked = [each for each in of_part if each.counts and not each.bulges]
-    counting = [each for each in cracked if not each.of_geometry]
+    of_part = [crack for crack in ensembles.followed if crack.part == ensembles.governing.part]
+    cracked = [crack for crack in of_part if crack.counts and not crack.bulges]
+    counting = [crack for crack in cracked if not crack.of_geometry]
     if len(cracked) > len(counting):
         typed_or_not = _explained_by_crack([counting[0], cracked[-1]])
         shares.append(Deciding("restitution", typed_or_not, Origin.IGNORANCE))
     if len(counting) > 1:
         shares.append(Deciding(CRACK, _explained_by_crack(counting), Origin.IGNORANCE))
-    some = [each for each in shares if each.share > 0]
-    return sorted(some, key=lambda each: each.share, reverse=True)
+    some = [deciding_cause for deciding_cause in shares if deciding_cause.share > 0]
+    return sorted(some, key=lambda deciding_cause: deciding_cause.share, reverse=True)
 
 
 def decided_by(ensembles: CrackEnsembles) -> str:
@@ -478,10 +494,10 @@ def would_tell(ensembles: CrackEnsembles, *, restitution_is_typed: bool = False)
     if governing.of_geometry and governing.ensemble.overturning_share > 0 and not restitution_is_typed:
         return (Remark(AssessmentKind.RESTITUTION),)
     worth = (
-        Remark(_KINDS[each.name])
-        for each in deciding(ensembles)
-        if each.origin is Origin.IGNORANCE and each.share >= _TELLS and each.name in _KINDS
-        if not (restitution_is_typed and each.name == "restitution")
+        Remark(_KINDS[cause.name])
+        for cause in deciding(ensembles)
+        if cause.origin is Origin.IGNORANCE and cause.share >= _TELLS and cause.name in _KINDS
+        if not (restitution_is_typed and cause.name == "restitution")
     )
     return tuple(worth)[:1]
 
@@ -501,8 +517,8 @@ def explained(falls: np.ndarray, groups: np.ndarray) -> float:
 def _explained_by_crack(followed: Iterable[FollowedCrack]) -> float:
     falls = []
     groups = []
-    for place, each in enumerate(followed):
-        ratios = each.ensemble.rotation_ratios
+    for place, crack in enumerate(followed):
+        ratios = crack.ensemble.rotation_ratios
         own = np.isinf(ratios[~np.isnan(ratios)])
         falls.append(own)
         groups.append(np.full(own.size, place))

@@ -249,7 +249,7 @@ class Facts:
             raise ValueError(f"stacks {self.stacks}, but must be those that fall, of at least one.")
         if self.settled not in (None, Verdict.STANDS, Verdict.OVERTURNS):
             raise ValueError(f"settled {self.settled}, but an estimate settles that it stands or overturns.")
-        if odd := [str(each.kind) for each in self.doubts if each.kind not in CONTACTS]:
+        if odd := [str(doubt.kind) for doubt in self.doubts if doubt.kind not in CONTACTS]:
             raise ValueError(f"doubts {odd}, but must be of {[str(kind) for kind in CONTACTS]}.")
         if not 0 < self.risk < 0.5:
             raise ValueError(f"risk {self.risk}, but must be above 0 and below 0.5.")
@@ -257,18 +257,18 @@ class Facts:
     @property
     def counting(self) -> tuple[CrackFacts, ...]:
         """The cracks that count, and of them those that lift before they slide, where there are any."""
-        counting = tuple(each for each in self.cracks if each.counts)
-        return tuple(each for each in counting if not each.slides) or counting
+        counting = tuple(crack for crack in self.cracks if crack.counts)
+        return tuple(crack for crack in counting if not crack.slides) or counting
 
     @property
     def followed(self) -> tuple[CrackFacts, ...]:
         """Those of them that have members."""
-        return tuple(each for each in self.counting if each.members)
+        return tuple(crack for crack in self.counting if crack.members)
 
     @property
     def governing(self) -> CrackFacts | None:
         """The worst crack of them; the first among equals, None without members."""
-        return max(self.followed, key=lambda each: each.severity(self.risk), default=None)
+        return max(self.followed, key=lambda crack: crack.severity(self.risk), default=None)
 
 
 @dataclass(frozen=True)
@@ -312,7 +312,7 @@ class Decision:
         low, high = self.interval
         if math.isnan(low) or self.word is Verdict.CANNOT_OVERTURN:
             return ""
-        one_run = any(each.kind is AssessmentKind.ENSEMBLE for each in self.tells)
+        one_run = any(remark.kind is AssessmentKind.ENSEMBLE for remark in self.tells)
         if one_run and low == high and self.word.badness <= Verdict.UNCERTAIN.badness:
             return "one run"  # but not where stacks add to it, or say worse
         if self._is_a_least_share:
@@ -466,30 +466,30 @@ def decide(facts: Facts) -> Decision:
             interval = share, share
     else:
         # 6: the worst crack; statics' own keeps a word in it.
-        word = _envelope((each, each.step(risk)) for each in followed)
+        word = _envelope((crack, crack.step(risk)) for crack in followed)
         tells = facts.remarks
         # Not that of the worst step: by their error fewer members may have the worse word and the smaller share.
-        share = max(each.share for each in followed)
+        share = max(crack.share for crack in followed)
         why = _counted(facts, worse_beside)
         if left_out:
             why = f"{why}; another crack slides first, at {facts.slides_at:.2g} g"
         if facts.top is not None:
             why = f"{why}; {facts.top.brief}"
             tells = (*tells, Remark(AssessmentKind.TIE_THE_TOP))
-        of_part = [each for each in followed if each.part == governing.part]
-        first = next((each for each in of_part if not each.bulges), governing)
+        of_part = [crack for crack in followed if crack.part == governing.part]
+        first = next((crack for crack in of_part if not crack.bulges), governing)
         disagree = not governing.bulges and governing.step(risk) is not first.step(risk)
         ends = {governing, first} if disagree else {governing}
-        interval = min(each.falls / each.members for each in ends), share
+        interval = min(crack.falls / crack.members for crack in ends), share
         # 7: failed members count as falling, but alone they make nothing fall.
-        falls_without = _envelope((each, each.step_of_followed(risk)) for each in followed)
+        falls_without = _envelope((crack, crack.step_of_followed(risk)) for crack in followed)
         open_ = word.badness >= Verdict.PROBABLY_OVERTURNS.badness or not all(
-            each.followed for each in followed
+            crack.followed for crack in followed
         )
         if open_ and falls_without.badness < Verdict.PROBABLY_OVERTURNS.badness:
             word = Verdict.CANNOT_BE_TOLD
             tells = (Remark(AssessmentKind.TOLERANCE),)
-        if any(each.failed for each in followed):
+        if any(crack.failed for crack in followed):
             beside = (*beside, Remark(AssessmentKind.MEMBERS_FAILED))
 
     if sliding:
@@ -541,7 +541,7 @@ def decide(facts: Facts) -> Decision:
 
 def _slides_throughout(facts: Facts) -> str:
     """Where every crack that counts slides before it lifts, and the motion reaches so far, in words; else ""."""
-    if math.isnan(facts.slides_at) or not all(each.slides for each in facts.counting):
+    if math.isnan(facts.slides_at) or not all(crack.slides for crack in facts.counting):
         return ""
     return (
         f"slides before it lifts, at {facts.slides_at:.2g} g" if facts.slides_at else "slides apart at rest"
@@ -551,15 +551,15 @@ def _slides_throughout(facts: Facts) -> str:
 def _envelope(words: Iterable[tuple[CrackFacts, Verdict]]) -> Verdict:
     """The word of all that may form: the worst of its parts, each of which falls by itself."""
     of_parts: dict[str, list[tuple[CrackFacts, Verdict]]] = {}
-    for each, word in words:
-        of_parts.setdefault(each.part, []).append((each, word))
+    for crack, word in words:
+        of_parts.setdefault(crack.part, []).append((crack, word))
     return worse(*map(_envelope_of_part, of_parts.values()))
 
 
 def _envelope_of_part(each_with_word: Sequence[tuple[CrackFacts, Verdict]]) -> Verdict:
     """The word of one part: of the cracks only one opens, but a held wall may bulge with any of them."""
-    of_bulges = [word for each, word in each_with_word if each.bulges]
-    of_cracks = [word for each, word in each_with_word if not each.bulges]
+    of_bulges = [word for crack, word in each_with_word if crack.bulges]
+    of_cracks = [word for crack, word in each_with_word if not crack.bulges]
     if not of_cracks:
         return worse(Verdict.STANDS, *of_bulges)
     # The one that statics chooses comes first, which is the likeliest to form: others limit its word, no more.
@@ -573,8 +573,8 @@ def _envelope_of_part(each_with_word: Sequence[tuple[CrackFacts, Verdict]]) -> V
 
 def _worse_than_known(facts: Facts) -> CrackFacts | None:
     """The worst crack beside one that is known, where its word is worse."""
-    others = [each for each in facts.cracks if not each.counts and each.members and not each.slides]
-    worst = max(others, key=lambda each: each.severity(facts.risk), default=None)
+    others = [crack for crack in facts.cracks if not crack.counts and crack.members and not crack.slides]
+    worst = max(others, key=lambda crack: crack.severity(facts.risk), default=None)
     if worst is None or facts.governing is None:
         return None
     if worst.step(facts.risk).badness <= facts.governing.step(facts.risk).badness:

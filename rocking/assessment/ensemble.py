@@ -252,7 +252,7 @@ class Ensemble:
         return replace(
             self,
             rotation_ratios=np.append(self.rotation_ratios, more.rotation_ratios),
-            causes={name: np.append(each, more.causes[name]) for name, each in self.causes.items()},
+            causes={name: np.append(values, more.causes[name]) for name, values in self.causes.items()},
             reasons={**self.reasons, **reasons},
         )
 

@@ -120,10 +120,10 @@ class TierFit:
 def read_tiers(path: Path = SHIPPED) -> dict[Tier, TierFit]:
     """Return the tiers in a file that the target `calibrate` made; by default of the shipped one."""
     fits = {}
-    for name, each in json.loads(path.read_text(encoding="utf-8"))["tiers"].items():
-        del each["terms"]
+    for name, tier in json.loads(path.read_text(encoding="utf-8"))["tiers"].items():
+        del tier["terms"]
         values: dict[str, Any] = {
-            key: np.array(value) if isinstance(value, list) else value for key, value in each.items()
+            key: np.array(value) if isinstance(value, list) else value for key, value in tier.items()
         }
         fits[Tier(name)] = TierFit(Tier(name), **values)
     return fits

@@ -132,7 +132,7 @@ class _Ladder:
         places = np.flatnonzero(wanted & np.isnan(self.falls))
         if not places.size:
             return False
-        values = {name: each[places] for name, each in self.values.items()}
+        values = {name: values[places] for name, values in self.values.items()}
         followed = followed_at(self.mechanism, self.motions, values, np.ones(1), tolerance=TOLERANCE)
         ratios = followed.rotation_ratios[0]
         self.falls[places] = np.isinf(ratios) | np.isnan(ratios)

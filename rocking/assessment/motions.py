@@ -89,7 +89,7 @@ class _FloorMotions:
             if any(other != support for other, _, _ in self._kept):
                 self._kept.clear()
             found = support.motion(ground, sampling)
-            kept = sum(each.acceleration.nbytes for each in self._kept.values())
+            kept = sum(motion.acceleration.nbytes for motion in self._kept.values())
             if kept + found.acceleration.nbytes <= FLOOR_BYTES:
                 self._kept[key] = found
         return found
@@ -135,13 +135,15 @@ class GroundMotions:
         vertical: with one component it must have the same samples. processing: whether raw components enter after each
         variant of their processing. Raises RecordError for components that do not belong together.
         """
-        raw = all(each.source.path and each.processed is False for each in components)
-        variants_of = [processed(each) if processing and raw else {"": each} for each in components]
-        names = [name for name in variants_of[0] if all(name in each for each in variants_of)]
+        raw = all(component.source.path and component.processed is False for component in components)
+        variants_of = [
+            processed(component) if processing and raw else {"": component} for component in components
+        ]
+        names = [name for name in variants_of[0] if all(name in variants for variants in variants_of)]
         ends = {0: components[0].component or "first", DIRECTIONS // 2: components[-1].component or "second"}
         horizontal = {}
         for name in names:
-            first, *others = (each[name] for each in variants_of)
+            first, *others = (variants[name] for variants in variants_of)
             if not others:
                 horizontal[first.component, name] = first
             for second in others:
@@ -175,7 +177,7 @@ class GroundMotions:
 
     def scaled(self, factor: float) -> "GroundMotions":
         """Return the motions with the horizontal ones multiplied by `factor`."""
-        horizontal = {each: motion.scaled(factor) for each, motion in self.horizontal.items()}
+        horizontal = {name: motion.scaled(factor) for name, motion in self.horizontal.items()}
         return replace(self, horizontal=horizontal)
 
 
@@ -196,7 +198,11 @@ class Motion:
     @cached_property
     def fingerprint(self) -> str:
         """Hash of the samples and of all that is known of them; where the file lies is left out."""
-        told = [each.name for each in fields(Accelerogram) if each.name not in ("acceleration", "source")]
+        told = [
+            attribute.name
+            for attribute in fields(Accelerogram)
+            if attribute.name not in ("acceleration", "source")
+        ]
         contents: list[object] = []
         for motion in (*self.components, self.vertical):
             if motion is None:
@@ -303,7 +309,7 @@ def on_support(
 
 def by_name(components: Sequence[Component]) -> dict[str, Component]:
     """Return the components by their names, or by numbers where two have the same name or one of two has none."""
-    names = [each.accelerogram.component for each in components]
+    names = [component.accelerogram.component for component in components]
     if len(names) > 1 and (len(set(names)) < len(names) or not all(names)):
         names = [f"component {place}" for place, _ in enumerate(names, start=1)]
     return dict(zip(names, components, strict=True))
@@ -344,7 +350,7 @@ def horizontal_motions(accelerograms: Sequence[Accelerogram]) -> list[Horizontal
 
     Two components that share time step and start are a pair; fewer, more or others stand each alone.
     """
-    groups: list[Sequence[Accelerogram]] = [[each] for each in accelerograms]
+    groups: list[Sequence[Accelerogram]] = [[accelerogram] for accelerogram in accelerograms]
     peaks = None
     if len(accelerograms) == 2:
         with suppress(RecordError):  # two that do not belong together stand alone

@@ -178,7 +178,7 @@ def with_contacts(
     runs = MOST_RUNS if settings.fidelity == "contact" else RUNS
     counting = counting_cracks(structure)
     sliding = sliding_first(cracks(structure), motions, settings)
-    slides = all(each in sliding for each in counting)
+    slides = all(candidate in sliding for candidate in counting)
     if slides:
         case = replace(case, slides_at=slides_at(counting[0], settings.friction_coefficient))
     elif decide(case.facts(structure)).word.badness < Verdict.PROBABLY_OVERTURNS.badness:
@@ -193,12 +193,12 @@ def with_contacts(
         case = replace(case, ties_give=ties_give(structure, motions, settings))
     exempt = settings.friction_coefficient >= structure.stands_on_friction
     if not exempt and decide(case.facts(structure)).word in (Verdict.STANDS, Verdict.PROBABLY_STANDS):
-        lifting = next(each for each in counting if each not in sliding)
+        lifting = next(candidate for candidate in counting if candidate not in sliding)
         governing = [case.ensembles.governing.description] if case.ensembles else []
         bodies = [cracked(structure, name) for name in dict.fromkeys([lifting.description, *governing])]
         case = replace(case, friction_needed=friction_needed(bodies, motions, settings))
     decision = decide(case.facts(structure))
-    advised = any(each.kind is AssessmentKind.CONTACT_DYNAMICS for each in decision.tells)
+    advised = any(remark.kind is AssessmentKind.CONTACT_DYNAMICS for remark in decision.tells)
     asking = {
         "auto": (),
         "full": (Verdict.CANNOT_BE_TOLD,),
@@ -272,12 +272,12 @@ def _cheapest(inputs: CaseInputs, ensemble_follows: bool) -> MethodAnswer:
     # Peak velocities were calibrated on the ground, not on supports that ring.
     risk = settings.fidelity_risk if inputs.motion.support is None else 0.0
     several = counting_cracks(structure)
-    mechanisms = [each.mechanism for each in several]
+    mechanisms = [candidate.mechanism for candidate in several]
     alone = len(several) == 1 and not several[0].bulges
     of_statics = mechanism if alone else mechanisms[0]
     if not alone:
-        estimates = (estimated(Tier.PEAK_VELOCITY, each, record) for each in mechanisms)
-        if not all(each is not None and each.high <= risk for each in estimates):
+        estimates = (estimated(Tier.PEAK_VELOCITY, mechanism, record) for mechanism in mechanisms)
+        if not all(estimate is not None and estimate.high <= risk for estimate in estimates):
             risk = 0.0
     answer = cheapest_answer(
         of_statics,
@@ -313,16 +313,16 @@ def other_cracks(
 
     vertical: acts with the accelerogram. Raises RockingError where one of them cannot be followed.
     """
-    others = sorted(structure.candidates(count) if count else (), key=lambda each: each.position)
-    if len(others) < 2 and all(is_own(each, structure) for each in others):
+    others = sorted(structure.candidates(count) if count else (), key=lambda candidate: candidate.position)
+    if len(others) < 2 and all(is_own(candidate, structure) for candidate in others):
         return []
     variations = []
-    for each in others:
-        ratio = _rotation_ratio(each.structure, accelerogram, settings, vertical)
+    for candidate in others:
+        ratio = _rotation_ratio(candidate.structure, accelerogram, settings, vertical)
         if math.isnan(ratio):
             # Raises the reason.
-            integrate(each.structure, accelerogram, strict(settings.tolerance), vertical=vertical)
-        mechanism = each.mechanism
+            integrate(candidate.structure, accelerogram, strict(settings.tolerance), vertical=vertical)
+        mechanism = candidate.mechanism
         predicted = math.nan
         if pulse and mechanism.can_overturn:
             block = mechanism.equivalent_block(settings.acceleration_scale)
@@ -331,9 +331,9 @@ def other_cracks(
             Variation(
                 integrated_rotation_ratio=ratio,
                 predicted_rotation_ratio=predicted,
-                crack=each.description,
-                position=each.position,
-                counts=each.counts,
+                crack=candidate.description,
+                position=candidate.position,
+                counts=candidate.counts,
             )
         )
     return variations

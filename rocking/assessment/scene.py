@@ -116,12 +116,13 @@ class Scene:
         A restitution below that of the geometry is none of them: both are followed, and reported where it matters.
         """
         sizes = [
-            replace(each, about=f"{self.name}: {each.about}") for each in self.structure.described.remarks
+            replace(remark, about=f"{self.name}: {remark.about}")
+            for remark in self.structure.described.remarks
         ]
         above = [
-            replace(each, about=self.name)
-            for each in self.structure.cautions
-            if each.kind is StructureKind.RESTITUTION_ABOVE
+            replace(caution, about=self.name)
+            for caution in self.structure.cautions
+            if caution.kind is StructureKind.RESTITUTION_ABOVE
         ]
         heavy = self.place.warning(self.name) if self.place.supports else None
         is_wall = self.structure.type_name == "wall"
@@ -148,7 +149,7 @@ def on_friction(scenes: Mapping[str, Scene], coefficient: float) -> dict[str, Sc
 
 def on_the_ground(structures: Mapping[str, Structure | Mechanism]) -> dict[str, Scene]:
     """Return the scenes of structures that no list puts anywhere, by name."""
-    return {name: Scene(name, as_structure(each)) for name, each in structures.items()}
+    return {name: Scene(name, as_structure(structure)) for name, structure in structures.items()}
 
 
 def periods_in_words(verdicts: Mapping[float, Verdict]) -> str:
@@ -245,7 +246,7 @@ def load_scenes(path: str | Path, content: bytes | None = None) -> dict[str, Sce
     places: dict[str, Place | None] = {}
     scenes: dict[str, Scene] = {}
     names: list[object] = []
-    for where, entry, texts, base in sorted(entries, key=lambda each: not _is_support(each.values)):
+    for where, entry, texts, base in sorted(entries, key=lambda entry: not _is_support(entry.values)):
         name = entry.get("name") if isinstance(entry, Mapping) else None
         unvalued = (
             [str(key) for key, value in entry.items() if value is None] if isinstance(entry, Mapping) else []
@@ -280,7 +281,7 @@ def load_scenes(path: str | Path, content: bytes | None = None) -> dict[str, Sce
                 scenes[str(name)] = replace(scene, variant_of=base)
         except (ConfigurationError, StructureError) as error:
             defects.append(f"{where}: {error}")
-    carrying = {str(each.values.get("stands_on")) for each in entries if isinstance(each.values, Mapping)}
+    carrying = {str(entry.values.get("stands_on")) for entry in entries if isinstance(entry.values, Mapping)}
     for idle in places.keys() - carrying:
         defects.append(
             f"{path}: support {_repeated(idle)} carries nothing; name it by stands_on, or remove it."
@@ -407,12 +408,12 @@ def _rows(path: Path, defects: list[str]) -> list[_Entry]:
     A cell means what it would in YAML. A list is parted by semicolons. Where semicolons part the cells, as in
     spreadsheets of countries of decimal commas, lists stand in quotation marks, which these write themselves.
     """
-    of_types = [each for of_kind in TYPES.values() for form in of_kind for each in form.fields]
-    lists = {each.key for each in of_types if each.is_list}
-    texts = {"name", "type", "stands_on", *(each.key for each in of_types if each.kind is str)}
+    of_types = [field for of_kind in TYPES.values() for form in of_kind for field in form.fields]
+    lists = {field.key for field in of_types if field.is_list}
+    texts = {"name", "type", "stands_on", *(field.key for field in of_types if field.kind is str)}
     of_support = place_schema(NAME)["properties"]
     assert isinstance(of_support, dict)
-    keys = ("name", "type", *(each.key for each in of_types), *of_support, "stands_on", *CHECK_KEYS)
+    keys = ("name", "type", *(field.key for field in of_types), *of_support, "stands_on", *CHECK_KEYS)
     columns = [key for key in dict.fromkeys(keys) if key != "modes"] + [_NOTE]
     numbers = [key for key in columns if key not in texts]
     found = []
@@ -425,12 +426,12 @@ def _rows(path: Path, defects: list[str]) -> list[_Entry]:
         values: dict[str, object] = dict(cells)
         for key in cells.keys() - texts:
             parts = [part.strip() for part in cells[key].split(";") if part.strip()]
-            each = [scalar_value(part) for part in parts]
-            if key in lists and not all(isinstance(value, int | float) for value in each):
+            typed = [scalar_value(part) for part in parts]
+            if key in lists and not all(isinstance(value, int | float) for value in typed):
                 defects.append(
                     f"{where}: {key} is {shown(cells[key])}, but must be numbers parted by semicolons, as in 3.4; 3.0."
                 )
-            values[key] = each if key in lists or len(each) != 1 else each[0]
+            values[key] = typed if key in lists or len(typed) != 1 else typed[0]
             cells[key] = ", ".join(parts)
         found.append(_Entry(where, values, cells))
     if not found:
@@ -473,7 +474,7 @@ def _texts(node: yaml.Node) -> dict[str, str]:
     """The scalars and the lists of scalars of a mapping, as they were typed."""
     texts = {}
     for key, value in node.value if isinstance(node, yaml.MappingNode) else ():
-        each = value.value if isinstance(value, yaml.SequenceNode) else [value]
+        members = value.value if isinstance(value, yaml.SequenceNode) else [value]
         if isinstance(value, yaml.ScalarNode | yaml.SequenceNode):
-            texts[key.value] = ", ".join(one.value for one in each if isinstance(one, yaml.ScalarNode))
+            texts[key.value] = ", ".join(one.value for one in members if isinstance(one, yaml.ScalarNode))
     return texts

@@ -93,7 +93,11 @@ class RecordStore:
         head = f"{computation_version()} {sha256_of_bytes(content)}\n"
         write_whole(self._path, [head.encode(), content])
         if self._timings is not None:
-            own = {each: self._durations[each] for each in self._now if each in self._durations}
+            own = {
+                fingerprint: self._durations[fingerprint]
+                for fingerprint in self._now
+                if fingerprint in self._durations
+            }
             write_whole(self._timings, json.dumps(own).encode())
 
     def stand(self) -> None:
@@ -141,11 +145,11 @@ def encoded(value: object) -> Any:
     if isinstance(value, np.generic):
         return value.item()
     if isinstance(value, Mapping):
-        return [[encoded(key), encoded(each)] for key, each in value.items()]
+        return [[encoded(key), encoded(item)] for key, item in value.items()]
     if isinstance(value, tuple | list):
-        return [encoded(each) for each in value]
+        return [encoded(item) for item in value]
     if is_dataclass(value):
-        return {each.name: encoded(getattr(value, each.name)) for each in fields(value) if each.init}
+        return {field.name: encoded(getattr(value, field.name)) for field in fields(value) if field.init}
     raise TypeError(f"a {type(value).__name__} cannot be kept")
 
 
@@ -163,7 +167,7 @@ def decoder(kind: Any) -> Callable[[Any], Any]:
     origin = get_origin(kind)
     parts = get_args(kind)
     if origin in (typing.Union, types.UnionType):
-        kinds = [each for each in parts if each is not type(None)]
+        kinds = [kind for kind in parts if kind is not type(None)]
 
         def of_texts_and_numbers(value: Any) -> Any:  # which JSON tells apart
             if type(value) not in kinds:
@@ -174,13 +178,13 @@ def decoder(kind: Any) -> Callable[[Any], Any]:
         return lambda value: None if value is None else of_value(value)
     if origin is tuple and parts[1:] == (...,):
         of_each = decoder(parts[0])
-        return lambda value: tuple([of_each(each) for each in value])
+        return lambda value: tuple([of_each(item) for item in value])
     if origin is tuple:
         of_places = [decoder(part) for part in parts]
-        return lambda value: tuple(of(each) for of, each in zip(of_places, value, strict=True))
+        return lambda value: tuple(of(item) for of, item in zip(of_places, value, strict=True))
     if origin is not None and issubclass(origin, Mapping):
         of_key, of_item = map(decoder, parts)
-        return lambda value: {of_key(key): of_item(each) for key, each in value}
+        return lambda value: {of_key(key): of_item(item) for key, item in value}
     if origin is typing.Literal:
 
         def chosen(value: Any) -> Any:
@@ -204,8 +208,8 @@ def decoder(kind: Any) -> Callable[[Any], Any]:
         def made_of(value: Any) -> Any:
             if not of_fields:  # not before, as a case holds others of its own kind
                 hints = get_type_hints(kind)
-                of_fields.update((each.name, decoder(hints[each.name])) for each in fields(kind))
-            return made(**{name: of_fields[name](each) for name, each in value.items()})
+                of_fields.update((field.name, decoder(hints[field.name])) for field in fields(kind))
+            return made(**{name: of_fields[name](item) for name, item in value.items()})
 
         return made_of
     made_by: Callable[[Any], Any] = kind_of if kind is Kind else kind

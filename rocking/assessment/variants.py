@@ -81,7 +81,7 @@ def variants(
 
     groups: names of the scenes by the structure. concluded: on each scene, under its worst record.
     """
-    conclusion_of = {each.verdict.structure: each for each in concluded}
+    conclusion_of = {conclusion.verdict.structure: conclusion for conclusion in concluded}
     made = {}
     for structure, names in groups.items():
         first = Variant(structure, structure, conclusion_of.get(structure))

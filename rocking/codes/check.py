@@ -304,8 +304,8 @@ class StructureCheck:
     def __repr__(self) -> str:
         """The verdict and the ratio of each check, and what the limit state leaves to say."""
         told = [
-            f"{each.clause} {each.refusal or each.outcome}, ratio {each.ratio_in_words}"
-            for each in self.checks
+            f"{check.clause} {check.refusal or check.outcome}, ratio {check.ratio_in_words}"
+            for check in self.checks
         ]
         if self.remark:
             told.append(str(self.remark))
@@ -315,7 +315,7 @@ class StructureCheck:
     @property
     def checks(self) -> tuple[Check, ...]:
         """Those that the limit state has."""
-        return tuple(each for each in (self.linear, self.nonlinear, self.dynamic) if each)
+        return tuple(check for check in (self.linear, self.nonlinear, self.dynamic) if check)
 
     @property
     def decisive(self) -> Check | None:
@@ -323,13 +323,13 @@ class StructureCheck:
 
         A dynamic check that its chosen set meets has none as long as there are too few other sets to ask.
         """
-        answered = [each for each in self.checks if not _is_open(each)]
+        answered = [check for check in self.checks if not _is_open(check)]
         return answered[-1] if answered else None
 
     def with_any_crack(self, check: Check) -> Check | None:
         """Return a check as it would be were the crack not known; None where it is not known, or none was made."""
         others = self.were_it_unknown.checks if self.were_it_unknown else ()
-        return next((each for each in others if each.clause == check.clause), None)
+        return next((other for other in others if other.clause == check.clause), None)
 
     @property
     def verified(self) -> bool:

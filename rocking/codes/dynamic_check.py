@@ -126,14 +126,14 @@ def _dynamic_check(
 ) -> DynamicCheck:
     state = LIMIT_STATES[by_formula.limit_state]
     together = [_Body.of(sides, state) for sides in _sides_together(by_formula.mechanisms)]
-    bodies = [each for each in together if any(map(math.isfinite, each.limits))]
+    bodies = [body for body in together if any(map(math.isfinite, body.limits))]
     places = np.unique(np.concatenate([records.chosen, records.sets.ravel()]).astype(int))
     # by body and record of the pool: the mean of d over its limit, and motions under which d_0 is exceeded
     use = np.full((len(bodies), len(records.names)), np.nan)
     falls = np.zeros(use.shape, dtype=int)
     motions = np.zeros(len(records.names), dtype=int)
     for place in places:
-        felt = [_felt(each, support) for each in records.scaled(int(place))]
+        felt = [_felt(record, support) for record in records.scaled(int(place))]
         for row, body in enumerate(bodies):
             use[row, place], falls[row, place] = body.answer(felt)
             motions[place] = max(motions[place], len(felt) * len(body.polarities))
@@ -141,7 +141,7 @@ def _dynamic_check(
     chosen_use = use[:, records.chosen].mean(axis=1)
     worst = int(np.argmax(np.nan_to_num(chosen_use, nan=np.inf)))
     exceeding = int(falls[:, records.chosen].sum(axis=1).max())
-    limit = next(each for each in bodies[worst].limits if math.isfinite(each))
+    limit = next(limit for limit in bodies[worst].limits if math.isfinite(limit))
     share = float(met.mean()) if met.size else float("nan")
     found = DynamicCheck(
         clause="C8.7.1.2.1.9",
@@ -240,7 +240,7 @@ def _interval(use: np.ndarray, falls: np.ndarray, records: Selection, share: flo
     for groups in (sample.stations, sample.events):
         fewest, most = _elsewhere(np.asarray(groups), alone, fails)
         here, best, worst = (
-            _none_of(sample.count, each, records.chosen.size) for each in (fails.sum(), fewest, most)
+            _none_of(sample.count, failing, records.chosen.size) for failing in (fails.sum(), fewest, most)
         )
         lows.append(share * worst / here if here else 0.0)
         highs.append(share * best / here if here else best)
@@ -256,7 +256,7 @@ def _elsewhere(groups: np.ndarray, alone: np.ndarray, fails: np.ndarray) -> tupl
     from scipy.stats import betabinom  # half a second of import, which the rows of this check do not need
 
     names = np.unique(groups)
-    of_group = sum(bool(alone[groups == each].any()) for each in names)
+    of_group = sum(bool(alone[groups == group].any()) for group in names)
     per_group = fails.sum() / of_group if of_group else fails.size / names.size
     counts = betabinom.ppf(INTERVAL, names.size, of_group + 0.5, names.size - of_group + 0.5)
     fewest, most = (counts * per_group).tolist()
@@ -272,11 +272,11 @@ def _none_of(stations: int, failing: float, size: int) -> float:
 def _sides_together(mechanisms: Sequence[CodeCapacity]) -> list[tuple[CodeCapacity, ...]]:
     """The mechanisms of each crack together: one to a side, positive first."""
     bodies: list[tuple[CodeCapacity, ...]] = []
-    for each in mechanisms:
-        if each.candidate.sign < 0:
-            bodies[-1] = (*bodies[-1], each)
+    for capacity in mechanisms:
+        if capacity.candidate.sign < 0:
+            bodies[-1] = (*bodies[-1], capacity)
         else:
-            bodies.append((each,))
+            bodies.append((capacity,))
     return bodies
 
 
@@ -290,7 +290,7 @@ class _Body:
 
     @classmethod
     def of(cls, sides: tuple[CodeCapacity, ...], state: LimitState) -> "_Body":
-        limits = tuple(each.limit(state).displacement for each in sides)
+        limits = tuple(capacity.limit(state).displacement for capacity in sides)
         return cls(sides, with_confidence(sides), limits)
 
     @property
@@ -327,7 +327,7 @@ def _felt(record: Accelerogram, support: Support | None) -> Accelerogram:
 
 def with_confidence(sides: Sequence[CodeCapacity]) -> Mechanism:
     """Return the mechanism whose restoring actions are divided by the confidence factor."""
-    made = [_weakened(each.static.side, each.confidence_factor) for each in sides]
+    made = [_weakened(capacity.static.side, capacity.confidence_factor) for capacity in sides]
     negative = made[1] if len(made) > 1 else None
     return Mechanism(made[0], negative, one_sided=sides[0].one_sided)
 
@@ -340,7 +340,7 @@ def _weakened(side: Side, factor: float) -> Side:
     def over(function: Callable[[np.ndarray], np.ndarray], rotation: np.ndarray) -> np.ndarray:
         return function(rotation) / factor
 
-    ties = tuple(SideTie(each.tie.over(factor), each.stretch, each.stretch_slope) for each in side.ties)
+    ties = tuple(SideTie(tie.tie.over(factor), tie.stretch, tie.stretch_slope) for tie in side.ties)
     untied = side.untied_gravity and partial(over, side.untied_gravity)
     return replace(
         side,

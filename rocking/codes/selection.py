@@ -68,7 +68,7 @@ class ScaledPool:
 
     def scaled(self, place: int) -> tuple[Accelerogram, ...]:
         """Return the components of a record of the pool, scaled."""
-        return tuple(each.scaled(float(self.factors[place])) for each in self.pairs[place])
+        return tuple(component.scaled(float(self.factors[place])) for component in self.pairs[place])
 
 
 @dataclass(frozen=True, eq=False)
@@ -295,7 +295,7 @@ def _check_ranges(periods: tuple[float, float], factors: tuple[float, float]) ->
 
 
 def _mean_spectrum(pair: Sequence[Accelerogram], periods: np.ndarray, damping: float) -> np.ndarray:
-    spectra = [response_spectrum(each, periods, damping).pseudo_acceleration for each in pair]
+    spectra = [response_spectrum(component, periods, damping).pseudo_acceleration for component in pair]
     mean: np.ndarray = np.mean(spectra, axis=0)
     return mean
 

@@ -90,7 +90,9 @@ def _kinematic_check(structure: Structure, spectrum: DesignSpectrum, terms: Code
         mechanisms=mechanisms,
         governing=mechanisms[first],
         restraints=structure.restraints(),
-        remark=next((each.remark for each in structure.restraints() if each.ties == math.inf), None),
+        remark=next(
+            (restraint.remark for restraint in structure.restraints() if restraint.ties == math.inf), None
+        ),
     )
     if terms.limit_state == "SLD":
         return replace(made, linear=_onset_check(made, spectrum))
@@ -166,13 +168,13 @@ def _opening(structure: Structure) -> Iterator[Candidate]:
             f"the structure is {kind_of(structure)}, which has no capacity curve; give a structure with a "
             "geometry, as rocking.Block or rocking.Facade."
         )
-    own = [each for each in structure.candidates() if not each.part]
-    cracked = [each for each in own if each.counts and not each.bulges]
+    own = [candidate for candidate in structure.candidates() if not candidate.part]
+    cracked = [candidate for candidate in own if candidate.counts and not candidate.bulges]
     if structure.statics_chooses:
         typed = structure.crack_in_words if isinstance(structure, Crackable) else ""
-        cracked = [*cracked[:1], *(each for each in cracked[1:] if each.description == typed)]
-    family = [each for each in structure.mechanisms() if not each.part]
-    bulges = [each for each in family if each.bulges and not each.refusal]
+        cracked = [*cracked[:1], *(candidate for candidate in cracked[1:] if candidate.description == typed)]
+    family = [candidate for candidate in structure.mechanisms() if not candidate.part]
+    bulges = [candidate for candidate in family if candidate.bulges and not candidate.refusal]
     for candidate in cracked:
         body = candidate.structure
         opens = "" if candidate.description == AS_GIVEN else f"{candidate.description}, "
@@ -218,13 +220,13 @@ def _starts(mechanisms: Sequence[CodeCapacity], floor: FloorDemand) -> Crossings
             return floor.peak(levels)
         return floor.acceleration(period, levels, floor.spectrum.damping)
 
-    onsets = np.array([each.onset_acceleration for each in mechanisms])
+    onsets = np.array([capacity.onset_acceleration for capacity in mechanisms])
     return Crossings.of(felt, onsets, floor.spectrum.level)
 
 
 def _collapses(mechanisms: Sequence[CodeCapacity], floor: FloorDemand, state: LimitState) -> Crossings:
     """The levels at which the displacement demand at the secant period of each mechanism is that of the limit state."""
-    points = [each.limit(state) for each in mechanisms]
+    points = [capacity.limit(state) for capacity in mechanisms]
     periods = np.array([point.period for point in points])
     shortest = mechanisms[0].elastic_period
 
@@ -243,9 +245,9 @@ def _on_the_better_branch(
     What is left after the break is a chain of its own (C8.7.1.2.1.6), so that a tie takes nothing from it.
     """
     better = []
-    for each in mechanisms:
-        ruptures = len(each.limiting_ruptures) if state.ends_with_ties else 0
-        branches = [replace(each, released=passed) for passed in range(ruptures + 1)]
+    for capacity in mechanisms:
+        ruptures = len(capacity.limiting_ruptures) if state.ends_with_ties else 0
+        branches = [replace(capacity, released=passed) for passed in range(ruptures + 1)]
         best = 0
         if ruptures:
             levels = _collapses(branches, floor, state).levels(np.arange(ruptures + 1))

@@ -209,16 +209,16 @@ def _acting(stack: Stack | Stones) -> kernel.Acting:
     """Forces and ties as the kernel takes them."""
     forces, ties, stops = [], [], []
     centres = stack.at_rest.centres
-    for each in stack.held:
-        body = each.course + 1
-        across, up = np.array(each.point) - centres[body]
-        if each.stop is not None:
-            stops.append([body, across, up, each.stop.stiffness, each.stop.damping])
-        if each.tie is not None:
-            tie = each.tie
+    for hold in stack.held:
+        body = hold.course + 1
+        across, up = np.array(hold.point) - centres[body]
+        if hold.stop is not None:
+            stops.append([body, across, up, hold.stop.stiffness, hold.stop.damping])
+        if hold.tie is not None:
+            tie = hold.tie
             ties.append([body, across, up, tie.stiffness, tie.pretension, tie.strength, tie.rupture_stretch])
-        if any(each.force):
-            forces.append([body, across, up, *each.force])
+        if any(hold.force):
+            forces.append([body, across, up, *hold.force])
     return kernel.Acting(
         np.array(forces).reshape(-1, 5), np.array(ties).reshape(-1, 7), np.array(stops).reshape(-1, 5)
     )
@@ -228,7 +228,7 @@ def _beginning(
     stack: Stack | Stones, bodies: kernel.Bodies, initial_velocity: np.ndarray | None
 ) -> tuple[kernel.State, kernel.Joints]:
     """The state in which a stack begins, and its joints, closed."""
-    count, ties = len(bodies.centres), sum(each.tie is not None for each in stack.held)
+    count, ties = len(bodies.centres), sum(hold.tie is not None for hold in stack.held)
     place, velocity = np.zeros((count, 3)), np.zeros((count, 3))
     place[:, :2] = bodies.centres
     if initial_velocity is not None:

@@ -65,12 +65,12 @@ of_identified = Columns(Identified)
 class ComponentRow(RowOf[I]):
     """A row about one component of one record."""
 
-    record: str = of_identified(RECORD, lambda each: each.identity.record)
-    component: str = of_identified(COMPONENT, lambda each: each.identity.component)
-    record_sha256: str = of_identified(RECORD_SHA256, lambda each: each.identity.record_sha256, last=True)
+    record: str = of_identified(RECORD, lambda of: of.identity.record)
+    component: str = of_identified(COMPONENT, lambda of: of.identity.component)
+    record_sha256: str = of_identified(RECORD_SHA256, lambda of: of.identity.record_sha256, last=True)
     settings_sha256: str = of_identified(
         "SHA-256 of settings, structures and package behind the row",
-        lambda each: each.identity.settings_sha256,
+        lambda of: of.identity.settings_sha256,
         last=True,
     )
 
@@ -298,7 +298,7 @@ class PulseRow(ComponentRow[FoundPulse]):
     flags: tuple[Kind, ...] = of_pulse(
         "Kinds of reason to doubt the pulse",
         lambda found: (
-            tuple(each.kind for each in found.analysis.flags)
+            tuple(flag.kind for flag in found.analysis.flags)
             if found.kind == "alternative" and found.rank == 1
             else ()
         ),
@@ -472,8 +472,8 @@ class StructureRow(StructureNameRow[ListedStructure]):
 
 def structure_rows(structures: Mapping[str, Structure], scale: Scale = "rest") -> Iterator[StructureRow]:
     """Yield the row of each structure. scale: the block that predicts."""
-    for each in structures.items():
-        yield StructureRow.of(ListedStructure(*each, scale))
+    for entry in structures.items():
+        yield StructureRow.of(ListedStructure(*entry, scale))
 
 
 @dataclass(frozen=True)

@@ -71,9 +71,9 @@ of_structure = Columns(OfStructure)
 class CaseRow(ComponentRow[C]):
     """A row about one structure under one component of one record."""
 
-    structure: str = of_structure(STRUCTURE, lambda each: each.period_result.structure)
+    structure: str = of_structure(STRUCTURE, lambda of: of.period_result.structure)
     support_period_s: float | None = of_structure(
-        SUPPORT_PERIOD, lambda each: each.period_result.support_period_s
+        SUPPORT_PERIOD, lambda of: of.period_result.support_period_s
     )
 
     @property
@@ -86,13 +86,11 @@ class CaseRow(ComponentRow[C]):
 class DecidedRow(CaseRow[C]):
     """A row about a case that says what becomes of the structure over all components."""
 
-    verdict: Verdict = of_structure(
-        f"The verdict: {', '.join(Verdict)}", lambda each: each.period_result.verdict
-    )
+    verdict: Verdict = of_structure(f"The verdict: {', '.join(Verdict)}", lambda of: of.period_result.verdict)
     overturning_share: float = of_structure(
         "Largest share that overturns, of the members of each crack and the stacks that make the verdict; 0 or 1 of a "
         "single run; empty where unknown",
-        lambda each: each.period_result.decision.share,
+        lambda of: of.period_result.decision.share,
     )
 
 
@@ -307,10 +305,10 @@ class VerdictRow(DecidedRow[OfStructure]):
     why: str = of_decision("Reason for the verdict", lambda decision: decision.why)
     doubts: tuple[Kind, ...] = of_decision(
         "Kinds of doubt that may make it worse",
-        lambda decision: tuple(each.kind for each in decision.doubts),
+        lambda decision: tuple(doubt.kind for doubt in decision.doubts),
     )
     tells: tuple[Kind, ...] = of_decision(
-        "What would settle it, by kind", lambda decision: tuple(each.kind for each in decision.tells)
+        "What would settle it, by kind", lambda decision: tuple(remark.kind for remark in decision.tells)
     )
     overturning_members: int = of_ensemble(
         "Number of members that overturn", lambda ensemble: ensemble.overturning_members
@@ -382,7 +380,7 @@ class VerdictRow(DecidedRow[OfStructure]):
     reserve_doubts: tuple[Kind, ...] = of_structure(
         "Kinds of doubt for which the reserve may be too high: it is that of the mechanism alone",
         lambda of: (
-            tuple(each.kind for each in of.period_result.reserve_doubts) if of.period_result.reserve else ()
+            tuple(doubt.kind for doubt in of.period_result.reserve_doubts) if of.period_result.reserve else ()
         ),
     )
     decided_by: str = of_structure(
@@ -411,9 +409,11 @@ def worst_period_each(verdicts: Iterable[VerdictRow]) -> list[VerdictRow]:
     On the ground it stands beside a support for comparison only.
     """
     shown: dict[tuple[str, str], VerdictRow] = {}
-    for each in sorted(verdicts, key=lambda each: (each.support_period_s != 0, each.severity), reverse=True):
-        shown.setdefault((each.record, each.structure), each)
-    return sorted(shown.values(), key=lambda each: each.severity, reverse=True)
+    for verdict in sorted(
+        verdicts, key=lambda verdict: (verdict.support_period_s != 0, verdict.severity), reverse=True
+    ):
+        shown.setdefault((verdict.record, verdict.structure), verdict)
+    return sorted(shown.values(), key=lambda verdict: verdict.severity, reverse=True)
 
 
 def counted_cases(
@@ -615,7 +615,7 @@ def candidate_cases(period_result: "PeriodResult", identity: Identity) -> Iterat
     from rocking.assessment.cracks import mechanisms_of  # as above: it loads what integrates
 
     followed = (
-        {each.description: each for each in period_result.ensembles.followed}
+        {crack.description: crack for crack in period_result.ensembles.followed}
         if period_result.ensembles
         else {}
     )
@@ -755,7 +755,7 @@ class RemarkRow(RowOf[Remarked]):
     @classmethod
     def of_study(cls, remarks: Iterable[Remark]) -> "list[RemarkRow]":
         """Return the rows of what there is to say of a study before it meets a record."""
-        return [cls.of(Remarked("", each.about, each)) for each in remarks]
+        return [cls.of(Remarked("", remark.about, remark)) for remark in remarks]
 
 
 @dataclass(frozen=True)
@@ -839,18 +839,18 @@ def _remarked(result: "RecordResult", vertical: bool) -> list[Remarked]:
     record = result.record
     told = [
         Remarked(record, remark.about or name, remark)
-        for name, each in zip(result.names, result.accelerograms, strict=True)
-        for remark in each.warnings
+        for name, accelerogram in zip(result.names, result.accelerograms, strict=True)
+        for remark in accelerogram.warnings
     ]
-    if vertical and result.components and not any(each.vertical for each in result.components):
+    if vertical and result.components and not any(component.vertical for component in result.components):
         told.append(Remarked(record, "vertical", Remark(AssessmentKind.VERTICAL_MISSING, record)))
     told += [
         Remarked(record, structure, response.warning)
         for (_, structure, _), response in result.responses.items()
         if response.warning
     ]
-    first = {(each.about, str(each.remark)): each for each in reversed(told)}
-    return [each for each in told if first[each.about, str(each.remark)] is each]
+    first = {(remark.about, str(remark.remark)): remark for remark in reversed(told)}
+    return [remark for remark in told if first[remark.about, str(remark.remark)] is remark]
 
 
 def rows_of_record(
@@ -870,11 +870,11 @@ def rows_of_record(
     identities = [
         Identity(
             record=record,
-            component=each.component,
-            record_sha256=each.source.sha256,
+            component=accelerogram.component,
+            record_sha256=accelerogram.source.sha256,
             settings_sha256=settings_sha256,
         )
-        for each in result.accelerograms
+        for accelerogram in result.accelerograms
     ]
     by_component = dict(zip(result.names, identities, strict=True))
     comparison: list[ComparisonRow] = []
@@ -889,17 +889,18 @@ def rows_of_record(
                     compared = ComparedCase(identity, period_result, case, friction_coefficient)
                     comparison.append(ComparisonRow.of(compared))
                 variations += [
-                    VariationRow.of(VariedCase(identity, period_result, each)) for each in case.variations
+                    VariationRow.of(VariedCase(identity, period_result, variation))
+                    for variation in case.variations
                 ]
             failures += [
                 FailedCase(
                     record,
                     identity.component,
                     period_result.structure,
-                    each,
+                    failure,
                     support_period=period_result.support_period_s,
                 )
-                for each in case.failures
+                for failure in case.failures
             ]
     verdicts = []
     mechanisms: list[MechanismRow] = []
@@ -909,17 +910,17 @@ def rows_of_record(
             identity = replace(identity, component=period_result.component)
             verdicts.append(VerdictRow.of(OfStructure(identity, period_result)))
         with _told(failures, identity, period_result):
-            mechanisms += [MechanismRow.of(each) for each in candidate_cases(period_result, identity)]
+            mechanisms += [MechanismRow.of(case) for case in candidate_cases(period_result, identity)]
     components = list(zip(identities, result.components, strict=True))
     return RecordRows(
-        record=[RecordRow.of(ReadComponent(*each, licence, epicentre)) for each in components],
-        pulses=[PulseRow.of(found) for each in components for found in pulses_found(*each)],
+        record=[RecordRow.of(ReadComponent(*component, licence, epicentre)) for component in components],
+        pulses=[PulseRow.of(found) for component in components for found in pulses_found(*component)],
         comparison=comparison,
         variations=variations,
-        failures=[FailureRow.of(each) for each in failures],
-        remarks=[RemarkRow.of(each) for each in _remarked(result, vertical)],
-        timings=[TimingRow.of(TimedStage(record, *each)) for each in result.durations.items()],
+        failures=[FailureRow.of(failure) for failure in failures],
+        remarks=[RemarkRow.of(remark) for remark in _remarked(result, vertical)],
+        timings=[TimingRow.of(TimedStage(record, *stage)) for stage in result.durations.items()],
         verdicts=verdicts,
         mechanisms=mechanisms,
-        supports=[SupportRow.of(each) for each in structures_carried(result, by_component)],
+        supports=[SupportRow.of(support) for support in structures_carried(result, by_component)],
     )

@@ -22,8 +22,8 @@ def named_records(
 ) -> dict[str, tuple[str, str]]:
     """Return station and earthquake of each record, by its identifier. each_unnamed: as of `Sample.of`."""
     firsts: dict[str, inputs.RecordRow] = {}
-    for each in records:
-        firsts.setdefault(each.record, each)
+    for component in records:
+        firsts.setdefault(component.record, component)
     sample = Sample.of(list(firsts.values()), rows=list(firsts), each_unnamed=each_unnamed)
     return dict(zip(firsts, zip(sample.stations, sample.events, strict=True), strict=True))
 
@@ -87,7 +87,7 @@ class CountedCases:
             (math.isinf(row.predicted_rotation_ratio), math.isinf(row.integrated_rotation_ratio))
             for row in self.cases
         )
-        return Counter(names[each] for each in falls if each in names)
+        return Counter(names[record] for record in falls if record in names)
 
     @property
     def rock_ratios(self) -> list[float]:
@@ -158,8 +158,8 @@ def agreement_rows(
     ]
     yield AgreementRow.of(CountedCases("", compared, names))
     of_each: dict[str, list[rows.ComparisonRow]] = {}
-    for each in compared:
-        of_each.setdefault(each.structure, []).append(each)
+    for case in compared:
+        of_each.setdefault(case.structure, []).append(case)
     for structure, cases in of_each.items():
         yield AgreementRow.of(CountedCases(structure, cases, names))
 
