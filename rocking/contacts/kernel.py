@@ -161,6 +161,9 @@ def follow(bodies, acting, ground, limits, state, joints, history):
     guesses = MOST_GUESSES + (MORE_GUESSES * count if between else 0)
     _fill_scale(bodies, limits, state.scale)
     quiet, swept, largest_of_all = 0, 0, 0.0
+    # What has slipped stands elsewhere, and less may move it than half of what lifts: it is watched as long as the
+    # ground shakes.
+    shaken = max(limits.still, int((len(ground.acceleration[0]) - 1) * ground.spacing / step))
     before_x = _velocity(ground, 0, limits.start * step)
     before_z = _velocity(ground, 1, limits.start * step)
     low, high = _shut(bodies, acting, limits, state, joints)
@@ -173,7 +176,7 @@ def follow(bodies, acting, ground, limits, state, joints, history):
             # At rest, and this opens nothing.
             if limits.every > 0 and number % limits.every == 0 and number // limits.every < len(history):
                 _keep(bodies, state, history[number // limits.every])
-            if number > limits.still:
+            if number > (limits.still if _widest(joints) <= calm * step else shaken):
                 return STAYS, number + 1 - limits.start, swept
             continue
         _drift(place, velocity, step / 2)
@@ -201,7 +204,7 @@ def follow(bodies, acting, ground, limits, state, joints, history):
         settles = largest < limits.settled
         if between and number > limits.still:
             # A stone that slips out need not turn, and one that has come to rest may have turned.
-            settles = (settles and _sliding(joints) == 0) or _is_calm(velocity, calm)
+            settles = (settles and _sliding(joints) == 0) or (number > shaken and _is_calm(velocity, calm))
         quiet = quiet + 1 if number > limits.still and settles else 0
         if quiet * step > REST:
             return STAYS, number + 1 - limits.start, swept
@@ -231,6 +234,15 @@ def _velocity(ground, component, time):
 
 
 @compiled
+def _widest(joints):
+    """The largest gap at an end of a joint."""
+    gap = 0.0
+    for joint in range(len(joints.gap) - 1):
+        gap = max(gap, joints.gap[joint, 0], joints.gap[joint, 1])
+    return gap
+
+
+@compiled
 def _is_calm(velocity, calm):
     """Whether nothing moves faster than `calm`."""
     for body in range(len(velocity)):
@@ -252,8 +264,9 @@ def _shut(bodies, acting, limits, state, joints):
     """Return the least and the largest gain of the ground, over that of weight, that opens nothing of a stack at rest.
 
     The impulses of what touches are linear in what the ground gains in a step; each must press, and friction stay in
-    its cone. 0, 0 of a stack that moves, slides, or is held by a tie that was tightened. What touches at rest is one
-    choice of several where more touches than need be: beyond its bounds a step finds another one.
+    its cone. 0, 0 of a stack that moves, slides, or is held by a tie that was tightened. A joint may be open at one
+    end, as in an arch that slipped and rests on other hinges. What touches at rest is one choice of several where more
+    touches than need be: beyond its bounds a step finds another one.
     """
     count, velocity = len(bodies.centres), state.velocity
     weight = limits.gravity * limits.step
@@ -268,8 +281,9 @@ def _shut(bodies, acting, limits, state, joints):
             return 0.0, 0.0
     _find_contacts(bodies, state.place, state.faces, joints)
     for joint in range(count - 1):
-        if max(joints.gap[joint, 0], joints.gap[joint, 1]) > calm * limits.step:
-            return 0.0, 0.0
+        for end in range(2):
+            if joints.touches[joint] >> end & 1 == 1 and joints.gap[joint, end] > calm * limits.step:
+                return 0.0, 0.0
     still, pushed = state.still, state.pushed
     for kept, gain in ((still, 0.0), (pushed, weight)):
         _halt(velocity)

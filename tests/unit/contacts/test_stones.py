@@ -189,6 +189,36 @@ def test_a_stone_that_slips_out_falls_without_turning(friction):
     assert response.largest_turns.max() < stones.fallen_turn / 2
 
 
+def slipped(weak: float, friction: float = 0.35) -> tuple[Stones, Accelerogram]:
+    """A pulse under which joints slide, 4 s of still ground, 4 s of a sine of `weak` times what moves them first."""
+    stones = on_friction(ARCH, friction)
+    moves = stones.resting_multiplier * GRAVITY
+    times = np.arange(0, 4, 0.005)
+    pulse = 3 * moves * np.sin(2 * np.pi * times[:120] / 0.6)
+    return stones, Accelerogram(
+        np.concatenate([pulse, np.zeros(800), weak * moves * np.sin(2 * np.pi * times / 0.5)]), 0.005
+    )
+
+
+def test_what_slipped_rests_with_open_joints_under_weak_motion():
+    """It lies still to the last bit where nothing opens, and does not creep by what its contacts give."""
+    response = follow_stack(*slipped(0.02), history=True)
+    assert not response.falls and response.largest_turns.max() > 0.03
+    resting = response.times > 3.6
+    assert np.abs(np.diff(response.turns)).max() > 0.01
+    assert np.abs(response.velocities[resting]).max() == 0
+
+
+def test_what_slipped_is_followed_as_long_as_the_ground_may_move_it_again():
+    """It stands elsewhere, so that less than half of what moved it at first, for which it is watched no more, does."""
+    stones, motion = slipped(0.45)
+    before = follow_stack(*slipped(0.0)).largest_turns.max()
+    again = follow_stack(stones, motion)
+    assert again.largest_turns.max() > 1.02 * before
+    intact = follow_stack(stones, motion.scaled(0.2))
+    assert again.steps * 5e-4 > motion.duration > 2 * intact.steps * 5e-4
+
+
 def test_hardly_any_step_has_its_impulses_found_one_after_the_other():
     steps = unsolved = 0
     for structure, friction in ((ARCH, 0.6), (replace(ARCH, voussoirs=27), 5.0), (PIERS, 0.6)):
