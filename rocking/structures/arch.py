@@ -175,7 +175,7 @@ class Arch(Crackable):
         try:
             return self._as_crushed(lambda ring: onset_at(ring, np.array(self.hinge_angles)))
         except (NoMechanism, TooThin, ValueError):
-            angles = ", ".join(f"{each:.6g}" for each in np.degrees(self.hinge_angles))
+            angles = ", ".join(f"{angle:.6g}" for angle in np.degrees(self.hinge_angles))
             raise StructureError(
                 f"hinge_angles is {angles}°, but must be four angles of a mechanism that turns about the intrados "
                 "at the first and the third and about the extrados at the others; leave it out for those of statics."
@@ -198,7 +198,7 @@ class Arch(Crackable):
                 other = replace(self, hinge_angles=tuple(angles), crack="known", restitution=restitution)
                 other.mechanism()
                 others.append(Candidate(description, np.nan, other))
-        return tuple(sorted(others, key=lambda each: each.multiplier))
+        return tuple(sorted(others, key=lambda candidate: candidate.multiplier))
 
     @property
     def crack_position(self) -> float:

@@ -230,7 +230,7 @@ def other_hinges(ring: Ring, onset: Onset, count: int) -> list[np.ndarray]:
     spacing = 0.99 * np.diff(coarse).max()
     places = np.array(list(combinations(range(sections.size), 4)))
     at_each = [ring.gaps(sections, np.full(sections.shape, contact)) for contact in PATTERN]
-    rows = np.stack([each[places[:, k]] for k, each in enumerate(at_each)], axis=1)
+    rows = np.stack([gaps[places[:, k]] for k, gaps in enumerate(at_each)], axis=1)
     regular = np.abs(np.linalg.det(rows[..., :4])) > _CLEARANCE
     rows = rows[regular]
     hinges = sections[places[regular]]
@@ -240,9 +240,9 @@ def other_hinges(ring: Ring, onset: Onset, count: int) -> list[np.ndarray]:
     moves = (turns > 0).all(axis=1) & (multipliers > onset.multiplier)
     mechanisms = [static]
     for four in hinges[moves][np.argsort(multipliers[moves])]:
-        if len(mechanisms) <= count and all(np.abs(four - each).max() >= spacing for each in mechanisms):
+        if len(mechanisms) <= count and all(np.abs(four - listed).max() >= spacing for listed in mechanisms):
             mechanisms.append(four)
-    return [each + ring.embrace_angle / 2 for each in mechanisms[1:]]
+    return [hinge_angles + ring.embrace_angle / 2 for hinge_angles in mechanisms[1:]]
 
 
 def _touching_line(rows: np.ndarray) -> np.ndarray:

@@ -232,7 +232,7 @@ class Ring:
         rate = np.stack([np.ones_like(sine), radius * sine, radius * cosine])
         if self.fill is not None:
             (filled, more), (before, _) = (
-                self.fill.loads(self.thickness, np.asarray(each)) for each in (at, start)
+                self.fill.loads(self.thickness, np.asarray(angle)) for angle in (at, start)
             )
             total = total + (filled.T - before).T
             rate = rate + more

@@ -86,7 +86,7 @@ class Gable(RigidBody, Leaved):
 def _of_leaf(wall: Block | RigidBody) -> dict[str, Any]:
     """The options of a wall that each of its leaves has."""
     names = ("restitution_range", "compressive_strength", "unit_weight")
-    return {each: getattr(wall, each) for each in names}
+    return {name: getattr(wall, name) for name in names}
 
 
 def _bonded(height: float, leaf: Leaf, heights: tuple[float, ...], options: dict[str, Any]) -> Facade:
@@ -107,7 +107,7 @@ class BuildingPart(Form):
 
     def construct(self, **values: Any) -> Structure:
         """Return the structure of sizes and options by name, in SI; raises StructureError where it cannot stand."""
-        sizes = {each.name: values.pop(each.name, None) for each in self.fields if each.name in _SIZES}
+        sizes = {key.name: values.pop(key.name, None) for key in self.fields if key.name in _SIZES}
         self.check(**{name: size for name, size in sizes.items() if size is not None})
         structure: Structure = super().construct(**self.arguments(sizes), **values)
         return structure
@@ -223,9 +223,11 @@ def _part(
     )
     own = {*_SIZES, *arguments({"height": 2.0, "thickness": 0.5, "breadth": 1.0, "wall_thickness": None})}
     options = tuple(
-        replace(each, value=replace(each.value, example=crack)) if each.name == "crack_height" else each
-        for each in constructor(made_of).fields
-        if not each.required and each.name not in own
+        replace(option, value=replace(option.value, example=crack))
+        if option.name == "crack_height"
+        else option
+        for option in constructor(made_of).fields
+        if not option.required and option.name not in own
     )
     return BuildingPart(
         name,
@@ -248,8 +250,8 @@ _FLUE = field_of(
 )
 
 PARTS: dict[str, BuildingPart] = {
-    each.type_name: each
-    for each in (
+    part.type_name: part
+    for part in (
         _part(
             "free_wall",
             "Wall that stands free, held by nothing at its top, such as a boundary wall",

@@ -150,7 +150,7 @@ class StaticCapacity:
     def _control(self, rotation: float) -> tuple[float, float, float]:
         """The horizontal displacement of the control point [m] and its derivatives with φ."""
         point = self.linkage.point(self.control_part, self.control_corner, rotation)
-        moved, velocity, bend = (float(each.real) for each in point)
+        moved, velocity, bend = (float(derivative.real) for derivative in point)
         return moved - self.rounding, velocity, bend
 
     def curve(self, count: int) -> StaticCurve:

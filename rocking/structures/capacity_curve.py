@@ -169,7 +169,7 @@ class CapacityCurve(Structure):
             )
         return cls(
             tuple(displacements),
-            tuple(units.get(head, 1.0) * each for each in loads),
+            tuple(units.get(head, 1.0) * load for load in loads),
             weight,
             restitution,
             one_sided,
@@ -180,9 +180,9 @@ class CapacityCurve(Structure):
     def description(self) -> str:
         """The curve in a few words, as a page has no room for its points."""
         kept = [
-            each.field.phrased(each.text)
-            for each in self.described.values
-            if each.field.name not in ("displacements", "multipliers") and each.value is not False
+            given.field.phrased(given.text)
+            for given in self.described.values
+            if given.field.name not in ("displacements", "multipliers") and given.value is not False
         ]
         points = len(self.displacements)
         curve = f"curve of {points} points from α {self.multipliers[0]:.4g} to 0 at {self._reach:.4g} m"
@@ -296,12 +296,12 @@ def _points(path: Path) -> tuple[list[float], list[float], str]:
     """The displacements [m] and what is borne there, as they stand in a file, with the head of the latter."""
     text = read_whole(path, _LARGEST, StructureError).decode("utf-8-sig", errors="replace")
     lines = list(csv.reader(text.splitlines(), delimiter=";" if ";" in text.partition("\n")[0] else ","))
-    heads = [each.strip() for each in lines[0]] if lines else []
+    heads = [head.strip() for head in lines[0]] if lines else []
     place = _only(path, heads, _DISPLACEMENTS)
     other = _only(path, heads, _FORCES)
     displacements, loads = [], []
     for number, cells in enumerate(lines[1:], start=2):
-        if not any(each.strip() for each in cells):
+        if not any(cell.strip() for cell in cells):
             continue
         try:
             displacements.append(_DISPLACEMENTS[heads[place]] * float(cells[place]))

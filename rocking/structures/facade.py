@@ -309,7 +309,7 @@ class Facade(Tied):
             loads["eccentricity"] = self._eccentricity_on(leaf, bearing, self.eccentricity)
             kept = ["floor_loads", "loads_held", "top_slab"]
             kept += ["thrust", "thrust_height"] if leaf.moves != "inwards" else []
-            loads |= {each: getattr(self, each) for each in kept}
+            loads |= {name: getattr(self, name) for name in kept}
         # Its cracks are those of the wall, but that bonders leave it others.
         cracked = {"crack": None, "crack_storey": None, "crack_height": None} if held_at else {}
         return replace(
@@ -393,7 +393,7 @@ class Facade(Tied):
             Hold(height, "tie", ties * self._yield_force, np.inf if height in floors else 0.0)
             for height, ties in Counter(self._tie_levels).items()
         ]
-        holds += [Hold(each, "floor", 0.0, np.inf) for each in floors if each not in self._tie_levels]
+        holds += [Hold(level, "floor", 0.0, np.inf) for level in floors if level not in self._tie_levels]
         holds = self._with_bonders(holds)
         thrust_height = self.height if self.thrust_height is None else self.thrust_height
         return HeldWall(
@@ -535,7 +535,7 @@ class Facade(Tied):
         for hold in self.held_wall.holds:
             if hold.inwards and hold.height > foot and hold.kind != "bonder":
                 place = course_at(body, hold.height)
-                storey_mass = sum(each.mass for each in body) / len(self.storey_heights)
+                storey_mass = sum(course.mass for course in body) / len(self.storey_heights)
                 restitution = self.mechanism().positive.restitution
                 stop = Stop.of_mass(body[place].mass, restitution, thrown=max(storey_mass, body[place].mass))
                 held.append(Held(place, (body[place].top[0], hold.height), stop=stop))

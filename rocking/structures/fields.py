@@ -69,7 +69,9 @@ class PlainSignature:
         of_init = signature(kind.__init__)  # type: ignore[misc]
         hints = get_type_hints(kind.__init__)  # type: ignore[misc]
         _self, *parameters = of_init.parameters.values()
-        return Signature([each.replace(annotation=hints.get(each.name, Any)) for each in parameters])
+        return Signature(
+            [parameter.replace(annotation=hints.get(parameter.name, Any)) for parameter in parameters]
+        )
 
 
 def length(meaning: str, example: float, usual: tuple[float, float], letter: str = "", **more: Any) -> Value:
@@ -136,7 +138,7 @@ class Field(Described):
     @property
     def is_list(self) -> bool:
         """Whether it holds several numbers, and never one."""
-        kinds = {each.get("type") for each in self.schema.get("anyOf", [self.schema])}
+        kinds = {allowed.get("type") for allowed in self.schema.get("anyOf", [self.schema])}
         return "array" in kinds and "number" not in kinds
 
     @property
@@ -153,7 +155,7 @@ class Field(Described):
     def inward(self, value: object) -> object:
         """Return a value of the file as the constructor takes it: in SI and radians, a list as a tuple."""
         if isinstance(value, list | tuple):
-            return tuple(self.inward(each) for each in value)
+            return tuple(self.inward(item) for item in value)
         if self.unit not in _SI:
             return value
         return _SI[self.unit] * finite(StructureError, self.key, value, self.unit)  # type: ignore[arg-type]
@@ -161,7 +163,7 @@ class Field(Described):
     def outward(self, value: Any) -> Any:
         """Return an attribute in SI as a file gives it."""
         if isinstance(value, list | tuple):
-            return [self.outward(each) for each in value]
+            return [self.outward(item) for item in value]
         number = isinstance(value, float | int) and not isinstance(value, bool)
         return float(value / _SI[self.unit]) if self.unit in _SI and number else value
 
@@ -228,7 +230,11 @@ class Form:
         if make:
             method = getattr(kind, make)
             hints = get_type_hints(method, include_extras=True) | hints
-            options = {n: each for n, each in parameters.items() if each.default is not Parameter.empty}
+            options = {
+                n: parameter
+                for n, parameter in parameters.items()
+                if parameter.default is not Parameter.empty
+            }
             parameters = dict(signature(method).parameters) | options
         parameters["restitution_range"] = parameters.pop("restitution_range")  # the last word
         described = []
@@ -240,22 +246,22 @@ class Form:
     @property
     def is_in_a_file(self) -> bool:
         """Whether it names a file that holds the structure."""
-        return any(each.kind is str for each in self.fields)
+        return any(key.kind is str for key in self.fields)
 
     @property
     def keys(self) -> dict[str, Field]:
         """The fields by key."""
-        return {each.key: each for each in self.fields}
+        return {key.key: key for key in self.fields}
 
     @property
     def example(self) -> dict[str, object]:
         """An entry by key, without what only stands in place of other keys, and so has no example."""
-        return {each.key: each.value.example for each in self.fields if each.value.example is not None}
+        return {key.key: key.value.example for key in self.fields if key.value.example is not None}
 
     @property
     def required(self) -> tuple[str, ...]:
         """The keys that must be given."""
-        return tuple(each.key for each in self.fields if each.required)
+        return tuple(key.key for key in self.fields if key.required)
 
 
 def _bounded(bounds: Mapping[str, float]) -> Mapping[str, float]:
@@ -296,6 +302,6 @@ def field_of(name: str, hint: Any, value: Value, default: Any = Parameter.empty)
     if hint is str and not value.names:
         return Field(name, str, value.meaning, value.unit, default=... if required else default, value=value)
     options = get_args(hint) if NoneType in get_args(hint) else (hint,)
-    kinds = [kind_of(each) for each in options if each is not NoneType]
-    kind: Any = reduce(or_, [each for each in kinds if each is not None])
+    kinds = [kind_of(option) for option in options if option is not NoneType]
+    kind: Any = reduce(or_, [kind_of_option for kind_of_option in kinds if kind_of_option is not None])
     return Field(name, kind, value.meaning, value.unit, default=... if required else default, value=value)

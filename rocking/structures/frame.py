@@ -166,9 +166,9 @@ class Frame(Crushable):
         foot, head = [0, 1], [3, 2]
         faces = [plane(left[foot]), plane(left[head]), plane(right[head[::-1]]), plane(right[foot[::-1]])]
         bodies = left, beam, right
-        sizes = np.array([[np.ptp(each.real), np.ptp(each.imag)] for each in bodies])
+        sizes = np.array([[np.ptp(body.real), np.ptp(body.imag)] for body in bodies])
         masses = sizes.prod(axis=1)
-        centres = plane(np.array([each.mean() for each in bodies]))
+        centres = plane(np.array([body.mean() for body in bodies]))
         return chain(faces, masses, centres, masses * (sizes**2).sum(axis=1) / 12)
 
     def _dimensions(self) -> dict[str, Path]:

@@ -66,7 +66,7 @@ class Chain(Linkage):
         self._turn = -1.0 if forwards else 1.0
         self._guided = guided
         self._hang(parts, hung)
-        self._bodies = np.array([*bodies, *(bodies[each.part] for each in self.loads)])
+        self._bodies = np.array([*bodies, *(bodies[load.part] for load in self.loads)])
         self.unit = float(self.masses.sum())
 
         # Neither arm may come to lie flat; from the reach of the upper one follows how far the lower one may lean.
@@ -133,7 +133,7 @@ class Chain(Linkage):
         """The motion where the loads, which are its last parts, rise with their bearings and move to no side."""
         loads = slice(-len(self.loads), None)
         centroids, velocities, accelerations = (
-            each.copy() for each in (motion.centroids, motion.velocities, motion.accelerations)
+            quantity.copy() for quantity in (motion.centroids, motion.velocities, motion.accelerations)
         )
         starts = self.rest[loads].reshape(-1, *(1,) * (centroids.ndim - 1))
         centroids[loads] = starts.real + 1j * centroids[loads].imag
@@ -174,9 +174,9 @@ class Chain(Linkage):
         forces, couples = self.dalembert(state)
         places = motion.centroids.copy()
         if self._guided:
-            for place, each in enumerate(self.loads, start=forces.shape[0] - len(self.loads)):
+            for place, load in enumerate(self.loads, start=forces.shape[0] - len(self.loads)):
                 forces[place] = 1j * forces[place].imag  # the floor holds them sideways
-                places[place] = each.start + self.carried(each.part, each.start, motion).moved
+                places[place] = load.start + self.carried(load.part, load.start, motion).moved
         _, hinge, held = motion.hinges
         on_body = [forces[self._bodies == body].sum(axis=0) for body in range(3)]
 
@@ -355,17 +355,19 @@ class HeldWall:
         They are the edges of the thinner storey that ends there, or lie where what presses on them crushes the edge.
         Raises DoesNotStandError where all of the joint crushes.
         """
-        meeting = [each for each in self.storeys if each.low <= height <= each.high]
-        inner = max(each.left for each in meeting)
-        outer = min(each.right for each in meeting)
-        breadth = next((each.breadth(height) for each in meeting if each.high > height), 1.0)
+        meeting = [storey for storey in self.storeys if storey.low <= height <= storey.high]
+        inner = max(storey.left for storey in meeting)
+        outer = min(storey.right for storey in meeting)
+        breadth = next((storey.breadth(height) for storey in meeting if storey.high > height), 1.0)
         aside = inset(self.pressing(height) / breadth, self.strength, outer - inner)
         return inner + aside, outer - aside
 
     def pressing(self, height: float) -> float:
         """Return what presses on the joint at `height` [m], N per metre."""
         masonry = sum(
-            each.cut(max(each.low, height), each.high).total for each in self.storeys if each.high > height
+            storey.cut(max(storey.low, height), storey.high).total
+            for storey in self.storeys
+            if storey.high > height
         )
         return masonry + sum(
             load.weight for load in self.loads if load.z > height or (load.slab and load.z == height)
@@ -377,7 +379,7 @@ class HeldWall:
         That of what lies above it, with the floor that bears there, and of the course of GRIPPED that it grips.
         """
         floor = sum(load.weight for load in self.loads if load.z == height and not load.slab)
-        storey = next(each for each in self.storeys if each.low < height <= each.high)
+        storey = next(storey for storey in self.storeys if storey.low < height <= storey.high)
         return FRICTION * (self.pressing(height) + floor + GRIPPED * storey.weight)
 
     def joint(self, height: float) -> tuple[float, float, float]:
@@ -388,13 +390,13 @@ class HeldWall:
         known: dict[float, tuple[float, float, float]] = self.__dict__.setdefault("_joints", {})
         if height not in known:
             weight = moment = push = 0.0
-            for each in self.storeys:
-                foot = max(each.low, height)
-                if foot < each.high:
-                    above = each.cut(foot, each.high)
+            for storey in self.storeys:
+                foot = max(storey.low, height)
+                if foot < storey.high:
+                    above = storey.cut(foot, storey.high)
                     own = above.total
                     weight += own
-                    moment += own * (each.left + each.right) / 2
+                    moment += own * (storey.left + storey.right) / 2
                     push += own * (above.middle - height)
             for load in self.loads:
                 if load.z > height:
@@ -439,9 +441,9 @@ class HeldWall:
     @cached_property
     def _between_ties(self) -> "HeldWall":
         """The wall as it is midway between two ties of a row, which hold nothing there; a top by its friction alone."""
-        holds = [each for each in self.holds if each.kind != "tie"]
+        holds = [hold for hold in self.holds if hold.kind != "tie"]
         # What a top holds inwards is what ties do not give.
-        left = [each._replace(outwards=each.inwards) if each.kind == "top" else each for each in holds]
+        left = [hold._replace(outwards=hold.inwards) if hold.kind == "top" else hold for hold in holds]
         return replace(self, holds=tuple(left), ties_apart=False)
 
     def _strips(self, opening: Opening) -> list[tuple[float, float]]:
@@ -452,7 +454,7 @@ class HeldWall:
         changes, for which two points of Gauss are exact.
         """
         assert opening.hold is not None
-        changes = {each.z for each in self.loads} | {each.low for each in self.storeys}
+        changes = {load.z for load in self.loads} | {storey.low for storey in self.storeys}
         inner = sorted(height for height in changes if opening.foot < height < opening.hold)
         strips = []
         for low, high in pairwise([opening.foot, *inner, opening.hold]):
@@ -525,7 +527,7 @@ class HeldWall:
 
     def _is_held(self, opening: Opening) -> bool:
         """Whether what holds a bulge stops it to the side to which it falls; so is one body, which nothing holds."""
-        hold = next((each for each in self.holds if each.height == opening.hold), None)
+        hold = next((hold for hold in self.holds if hold.height == opening.hold), None)
         if opening.hinge is None or hold is None:
             return opening.hinge is None
         return (hold.outwards if opening.outwards else hold.inwards) > 0
@@ -571,7 +573,7 @@ class HeldWall:
             if opening.hold is not None and height > opening.hold and opening.forwards
         ]
         ways = [back, whole, *higher] if opening.hold in stops else [whole, *higher]
-        return next((each for each in ways if self.admits(each.kinks)), None)
+        return next((way for way in ways if self.admits(way.kinks)), None)
 
     def name(self, opening: Opening) -> str:
         """Return what it does, in words."""
@@ -643,17 +645,18 @@ class HeldWall:
                 least[kind] = opening, multiplier
         found = list(least.values())
         if not len(joints):
-            found = [self._sharpened(*each, heights) for each in found]
+            found = [self._sharpened(*listed, heights) for listed in found]
         weakest = {
-            outwards: min((each[1] for each in found if each[0].outwards == outwards), default=np.inf)
+            outwards: min((listed[1] for listed in found if listed[0].outwards == outwards), default=np.inf)
             for outwards in (True, False)
         }
         listed = [
-            each
-            for each in found
-            if each[1] <= weakest[each[0].outwards] or (each[0].foot in stops and self._is_held(each[0]))
+            listed
+            for listed in found
+            if listed[1] <= weakest[listed[0].outwards]
+            or (listed[0].foot in stops and self._is_held(listed[0]))
         ]
-        return tuple(sorted(listed, key=lambda each: each[1]))
+        return tuple(sorted(listed, key=lambda listed: listed[1]))
 
     def _is_near_its_hold(self, opening: Opening) -> bool:
         """Whether its hinge lies beyond HIGHEST_SHARE of the span."""
@@ -697,7 +700,7 @@ class HeldWall:
         cuts = sorted(height for height, _ in opening.kinks)
         cut = []
         for storey in self.storeys:
-            levels = [storey.low, *(each for each in cuts if storey.low < each < storey.high), storey.high]
+            levels = [storey.low, *(cut for cut in cuts if storey.low < cut < storey.high), storey.high]
             cut += [storey.cut(low, high) for low, high in pairwise(levels)]
         return cut
 
@@ -706,14 +709,14 @@ class HeldWall:
 
         At a joint it is the piece below.
         """
-        moving = [each for each in self.pieces(opening) if each.low >= opening.foot]
-        return next((part for part, each in enumerate(moving) if each.low < height <= each.high), STILL)
+        moving = [piece for piece in self.pieces(opening) if piece.low >= opening.foot]
+        return next((part for part, piece in enumerate(moving) if piece.low < height <= piece.high), STILL)
 
     def outlines(self, opening: Opening) -> list[tuple[int, np.ndarray]]:
         """Return the outlines of the pieces, each with its part of the linkage, or STILL."""
         return [
-            (self.part_at(opening, each.high), rectangle(each.left, each.right, each.low, each.high))
-            for each in self.pieces(opening)
+            (self.part_at(opening, piece.high), rectangle(piece.left, piece.right, piece.low, piece.high))
+            for piece in self.pieces(opening)
         ]
 
     def linkage(
@@ -723,18 +726,18 @@ class HeldWall:
 
         hung: what hangs on it, as seen from there. guided: loads with a mass move up and down only.
         """
-        moving = [each for each in self.pieces(cut) if each.low >= cut.foot]
+        moving = [piece for piece in self.pieces(cut) if piece.low >= cut.foot]
         sign = 1.0 if opening.outwards else -1.0
         if opening.is_triangle:
             return self._triangle(opening, moving, hung)
-        weights = np.array([each.total for each in moving])
-        centres = [complex(sign * (each.left + each.right) / 2, each.middle) for each in moving]
-        inertias = [each.inertia for each in moving]
+        weights = np.array([piece.total for piece in moving])
+        centres = [complex(sign * (piece.left + piece.right) / 2, piece.middle) for piece in moving]
+        inertias = [piece.inertia for piece in moving]
         parts = Parts(weights, centres, inertias)
         points = [self._edge(height, turn) for height, turn in opening.kinks]
         if opening.hold is not None and not opening.upright:
             points.append(self._face(opening.hold, opening.outwards))
-        foot, *others = (complex(sign * each.real, each.imag) for each in points)
+        foot, *others = (complex(sign * point.real, point.imag) for point in points)
         if opening.hinge is None:
             return Turning(foot, parts, hung)
         hinge, *held = others
@@ -743,7 +746,7 @@ class HeldWall:
             held[0] if held else None,
             parts,
             hung,
-            bodies=[opening.body_at(each.high) for each in moving],
+            bodies=[opening.body_at(piece.high) for piece in moving],
             forwards=opening.forwards,
             guided=guided,
         )
@@ -759,12 +762,12 @@ class HeldWall:
         moments = np.zeros((len(moving) + len(hung), 3), dtype=complex)
         for foot, share in self._strips(opening):
             shift = corner - self._edge(foot, turn)
-            for place, each in enumerate(moving):
-                low = max(each.low, foot)
-                if low < each.high:
-                    centre = complex(each.left + each.right, low + each.high) / 2 + shift
-                    mass = share * each.weight * (each.high - low)
-                    own = ((each.high - low) ** 2 + (each.right - each.left) ** 2) / 12
+            for place, piece in enumerate(moving):
+                low = max(piece.low, foot)
+                if low < piece.high:
+                    centre = complex(piece.left + piece.right, low + piece.high) / 2 + shift
+                    mass = share * piece.weight * (piece.high - low)
+                    own = ((piece.high - low) ** 2 + (piece.right - piece.left) ** 2) / 12
                     moments[place] += mass, mass * centre, mass * (abs(centre - corner) ** 2 + own)
             for place, load in enumerate(hung, start=len(moving)):
                 if load.start.imag > foot and not load.tie:
@@ -784,7 +787,7 @@ class HeldWall:
             elif load.force and shares[place]:
                 force = load.force * shares[place]
                 pulls.append(load._replace(start=complex(seen[place]), part=0, force=force))
-        parts = Parts(*(np.array(each) for each in zip(*bodies, strict=True)))
+        parts = Parts(*(np.array(values) for values in zip(*bodies, strict=True)))
         return Turning(complex(turn * corner.real, corner.imag), parts, pulls)
 
     def _edge(self, height: float, turn: float) -> complex:
@@ -796,7 +799,7 @@ class HeldWall:
         """The point at which the wall is held at `height` [m] on its outer or its inner face, or by what lies on it."""
         if any(hold.height == height and hold.kind == "top" for hold in self.holds):
             return self._edge(height, 1.0 if outwards else -1.0)
-        storey = next(each for each in self.storeys if each.low < height <= each.high)
+        storey = next(storey for storey in self.storeys if storey.low < height <= storey.high)
         return complex(storey.right if outwards else storey.left, height)
 
 

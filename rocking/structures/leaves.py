@@ -168,11 +168,12 @@ class Leaved(Structure):
         known: dict[int, tuple[Candidate, ...]] = self.__dict__.setdefault("_with_leaves", {})
         if count not in known:
             together = [
-                replace(each, description=_together(each.description)) for each in super().candidates(count)
+                replace(candidate, description=_together(candidate.description))
+                for candidate in super().candidates(count)
             ]
             groups = [together if self.leaves_alone else super().candidates(count)]
             groups += [
-                [of_leaf(name, each) for each in structure.candidates(count)]
+                [of_leaf(name, candidate) for candidate in structure.candidates(count)]
                 for name, structure in self.leaves_alone
             ]
             groups.sort(key=lambda group: group[0].uplift_multiplier)
@@ -182,10 +183,10 @@ class Leaved(Structure):
     @property
     def assumptions(self) -> tuple[Remark, ...]:
         """What is taken for granted, and that its leaves do not part where nothing is said of them."""
-        if self.leaves or "leaves" not in {each.name for each in self.described.form.fields}:
+        if self.leaves or "leaves" not in {key.name for key in self.described.form.fields}:
             return super().assumptions
         thicknesses = sorted({outer - inner for _, _, inner, outer in self._sections}, reverse=True)
-        shown = ", ".join(f"{each:.4g}" for each in thicknesses)
+        shown = ", ".join(f"{thickness:.4g}" for thickness in thicknesses)
         return (*super().assumptions, Remark.of(StructureKind.ONE_LEAF, "", thickness=shown))
 
     def marks(self, rotation: float = 0.0) -> tuple[Mark, ...]:

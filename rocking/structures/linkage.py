@@ -201,10 +201,10 @@ class Linkage(ABC):
 
     def _hang(self, parts: Parts, hung: Sequence[Hung]) -> None:
         """Take the rigid parts and what of `hung` acts; its `loads`, whose mass moves along, are the last parts."""
-        self.hung = tuple(each for each in hung if each.acts)
-        self.loads = [each for each in self.hung if each.mass]
-        self.masses = np.append(parts.masses, [each.mass for each in self.loads])
-        self.rest = np.append(parts.centres, [each.start for each in self.loads])
+        self.hung = tuple(force for force in hung if force.acts)
+        self.loads = [hung for hung in self.hung if hung.mass]
+        self.masses = np.append(parts.masses, [load.mass for load in self.loads])
+        self.rest = np.append(parts.centres, [load.start for load in self.loads])
         self.inertias = np.append(parts.inertias, np.zeros(len(self.loads)))
 
     @abstractmethod
@@ -260,9 +260,9 @@ class Linkage(ABC):
     def untied_gravity(self, rotation: ArrayLike) -> np.ndarray:
         """G without the ties."""
         powers = [
-            (each.force.conjugate() * self.point(each.part, each.start, rotation).velocity).real
-            for each in self.hung
-            if each.force
+            (hung.force.conjugate() * self.point(hung.part, hung.start, rotation).velocity).real
+            for hung in self.hung
+            if hung.force
         ]
         return self.weight(rotation) - sum(powers, np.zeros(())) / self.unit
 
@@ -274,12 +274,12 @@ class Linkage(ABC):
     def gravity_slope(self, rotation: ArrayLike) -> np.ndarray:
         """dG/dφ; of a tie between yield and rupture that of the force it keeps."""
         slopes = []
-        for each in self.hung:
-            point = self.point(each.part, each.start, rotation)
-            if each.tie:
-                slopes.append(each.tie.slope(*(coordinate.real for coordinate in point)))
-            elif each.force:
-                slopes.append(-(each.force.conjugate() * point.acceleration).real)
+        for hung in self.hung:
+            point = self.point(hung.part, hung.start, rotation)
+            if hung.tie:
+                slopes.append(hung.tie.slope(*(coordinate.real for coordinate in point)))
+            elif hung.force:
+                slopes.append(-(hung.force.conjugate() * point.acceleration).real)
         weight = _sum(self.masses, self.motion(rotation).accelerations.imag) / self.unit
         return weight + sum(slopes, np.zeros(())) / self.unit
 
@@ -287,15 +287,15 @@ class Linkage(ABC):
     def ties(self) -> tuple[SideTie, ...]:
         """The ties as the side has them, in the unit of G per m."""
 
-        def side_tie(each: Hung, tie: Tie) -> SideTie:
+        def side_tie(hung: Hung, tie: Tie) -> SideTie:
             def point(rotation: np.ndarray) -> PointMotion:
-                return self.point(each.part, each.start, rotation)
+                return self.point(hung.part, hung.start, rotation)
 
             return SideTie(
                 tie.over(self.unit), lambda phi: point(phi).moved.real, lambda phi: point(phi).velocity.real
             )
 
-        return tuple(side_tie(each, each.tie) for each in self.hung if each.tie)
+        return tuple(side_tie(hung, hung.tie) for hung in self.hung if hung.tie)
 
     def side(self, restitution: float) -> Side:
         """Return the side of rocking. Raises DoesNotStandError where nothing restores at rest."""
@@ -349,14 +349,14 @@ class Linkage(ABC):
         spin = motion.spin_slopes * state.velocity**2 + motion.spins * state.acceleration
         forces = -self.masses[:, None] * (centre + state.pull)
         couples = -self.inertias[:, None] * spin
-        for each in self.hung:
-            point = self.carried(each.part, each.start, motion)
-            force: np.ndarray = each.force * state.pull.imag
-            if each.tie:
-                largest = self.carried(each.part, each.start, furthest).moved
-                force = -each.tie.tension(point.moved.real, largest.real) * GRAVITY + 0j
-            forces[each.part] += force
-            couples[each.part] += cross(each.start + point.moved - motion.centroids[each.part], force)
+        for hung in self.hung:
+            point = self.carried(hung.part, hung.start, motion)
+            force: np.ndarray = hung.force * state.pull.imag
+            if hung.tie:
+                largest = self.carried(hung.part, hung.start, furthest).moved
+                force = -hung.tie.tension(point.moved.real, largest.real) * GRAVITY + 0j
+            forces[hung.part] += force
+            couples[hung.part] += cross(hung.start + point.moved - motion.centroids[hung.part], force)
         return forces, couples
 
 
@@ -384,7 +384,7 @@ class Turning(Linkage):
         self.slenderness = (
             float(np.arctan2(-moment.real, moment.imag)) if slenderness is None else slenderness
         )
-        self.critical = None if any(each.force or each.tie for each in self.hung) else self.slenderness
+        self.critical = None if any(hung.force or hung.tie for hung in self.hung) else self.slenderness
         inertia = self.inertias.sum() + self.masses @ np.abs(self.rest - corner) ** 2
         self.inertia_length = float(inertia / self.unit)
 

@@ -441,8 +441,8 @@ class Mechanism(Drawn):
         """The defects of the block exact at rest, of the worse side."""
         defects = [side.block_defects for side in self.sides]
         return BlockDefects(
-            restoring=max(each.restoring for each in defects),
-            forcing=max((each.forcing for each in defects), key=abs),
+            restoring=max(defect.restoring for defect in defects),
+            forcing=max((defect.forcing for defect in defects), key=abs),
         )
 
     def angular_acceleration(

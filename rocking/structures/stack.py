@@ -190,10 +190,10 @@ class Stack:
             raise StructureError(
                 f"friction is {self.friction!r}, but must be 0 or more; give the coefficient of the joints."
             )
-        for each in self.held:
-            if not 0 <= each.course < len(self.courses):
+        for held in self.held:
+            if not 0 <= held.course < len(self.courses):
                 raise StructureError(
-                    f"a force acts on course {each.course} of the stack, but there are {len(self.courses)}, "
+                    f"a force acts on course {held.course} of the stack, but there are {len(self.courses)}, "
                     "counted from 0; correct it."
                 )
 
@@ -218,13 +218,13 @@ class Stack:
         depth = self.height
         low, high = first.base - depth, first.base
         ground = np.array([[left, low], [right, low], [right, high], [left, high]])
-        centres = np.array([[0.0, first.base - depth / 2], *(each.centre for each in self.courses)])
-        corners = np.array([ground, *(each.corners for each in self.courses)]) - centres[:, None]
+        centres = np.array([[0.0, first.base - depth / 2], *(course.centre for course in self.courses)])
+        corners = np.array([ground, *(course.corners for course in self.courses)]) - centres[:, None]
         mobility = [[0.0, 0.0, 0.0]]
-        for each in self.courses:
-            across = 0.0 if each.guided else 1 / each.mass
-            turning = 0.0 if each.guided or each.upright else 1 / each.inertia
-            mobility.append([across, 1 / each.mass, turning])
+        for course in self.courses:
+            across = 0.0 if course.guided else 1 / course.mass
+            turning = 0.0 if course.guided or course.upright else 1 / course.inertia
+            mobility.append([across, 1 / course.mass, turning])
         pinned = np.nan, np.nan
         if self.top_held_at is not None:
             pinned = self.top_held_at[0] - last.centre[0], self.top_held_at[1] - last.centre[1]
@@ -234,7 +234,9 @@ class Stack:
     @property
     def settled_turn(self) -> float:
         """The turn [rad] below which a stack on still ground rests."""
-        return min(each.slenderness for each in self.courses if not (each.guided or each.upright)) / 30
+        return (
+            min(course.slenderness for course in self.courses if not (course.guided or course.upright)) / 30
+        )
 
     @cached_property
     def fallen_turn(self) -> float:
@@ -243,11 +245,11 @@ class Stack:
 
     def _slenderness_above(self, place: int) -> float:
         """The angle at which all courses from `place` up, as one body, stand on their edge, rad."""
-        above = [each for each in self.courses[place:] if not each.guided]
+        above = [course for course in self.courses[place:] if not course.guided]
         if not above:
             return 0.0
-        masses = np.array([each.mass for each in above])
-        centre = masses @ np.array([each.centre for each in above]) / masses.sum()
+        masses = np.array([course.mass for course in above])
+        centre = masses @ np.array([course.centre for course in above]) / masses.sum()
         left, right = above[0].bottom
         lever = min(centre[0] - left, right - centre[0])
         return float(np.arctan2(max(lever, 0.0), centre[1] - above[0].base))
@@ -258,10 +260,10 @@ class Stack:
 
         A support of the top and a tie only hold; 0 where a force acts, which may push.
         """
-        if any(any(each.force) for each in self.held):
+        if any(any(held.force) for held in self.held):
             return 0.0
         slenderness = [
-            self._slenderness_above(place) for place, each in enumerate(self.courses) if not each.guided
+            self._slenderness_above(place) for place, course in enumerate(self.courses) if not course.guided
         ]
         return float(np.tan(min(slenderness)))
 
@@ -272,11 +274,11 @@ class Stack:
         A twentieth of the time in which the shortest course falls over, 1/p, and half of the time in which its
         stiffest tie moves the mass it is fixed to, √(m/k), beyond which an explicit force gains energy.
         """
-        radii = [np.hypot(*(np.array(each.centre) - each.corners[0])) for each in self.courses]
+        radii = [np.hypot(*(np.array(course.centre) - course.corners[0])) for course in self.courses]
         steps = [0.05 * np.sqrt(4 * min(radii) / (3 * GRAVITY))]
-        for each in self.held:
-            if each.tie is not None and each.tie.stiffness > 0:
-                steps.append(0.5 * np.sqrt(self.courses[each.course].mass / each.tie.stiffness))
+        for held in self.held:
+            if held.tie is not None and held.tie.stiffness > 0:
+                steps.append(0.5 * np.sqrt(self.courses[held.course].mass / held.tie.stiffness))
         return float(min(steps))
 
 
@@ -290,8 +292,8 @@ class PointMass:
 
 def loaded(course: Course, masses: Sequence[PointMass]) -> Course:
     """Return the course with point masses fixed to it."""
-    weights = np.array([course.mass, *(each.mass for each in masses)])
-    places = np.array([course.centre, *(each.point for each in masses)])
+    weights = np.array([course.mass, *(mass.mass for mass in masses)])
+    places = np.array([course.centre, *(mass.point for mass in masses)])
     mass = weights.sum()
     centre = weights @ places / mass
     squared_distances = ((places - centre) ** 2).sum(axis=1)
@@ -303,10 +305,10 @@ def joined(courses: Sequence[Course]) -> Course:
     """Return courses that stay together as one body."""
     first = courses[0]
     last = courses[-1]
-    masses = np.array([each.mass for each in courses])
-    places = np.array([each.centre for each in courses])
+    masses = np.array([course.mass for course in courses])
+    places = np.array([course.centre for course in courses])
     centre = masses @ places / masses.sum()
-    inertias = np.array([each.inertia for each in courses])
+    inertias = np.array([course.inertia for course in courses])
     inertia = inertias.sum() + masses @ ((places - centre) ** 2).sum(axis=1)
     height = last.base + last.height - first.base
     return Course(
@@ -340,7 +342,7 @@ def slab(left: float, right: float, base: float, load: float, **how: bool) -> Co
 
 def course_at(courses: Sequence[Course], height: float) -> int:
     """Return the place of the course that `height` [m] lies on, the lower one at a joint."""
-    tops = np.array([each.base + each.height for each in courses])
+    tops = np.array([course.base + course.height for course in courses])
     return min(int(np.searchsorted(tops, height - _GAP * tops[-1])), len(courses) - 1)
 
 
@@ -412,10 +414,10 @@ def stops_behind(courses: Sequence[Course], restitution: float) -> tuple[Held, .
     need slide; the impacts of the foot come on top.
     """
     stops = []
-    for place, each in enumerate(courses):
-        number = max(2, math.ceil(2 * each.height / (each.bottom[1] - each.bottom[0])))
-        stop = Stop.of_mass(each.mass / number, restitution)
+    for place, course in enumerate(courses):
+        number = max(2, math.ceil(2 * course.height / (course.bottom[1] - course.bottom[0])))
+        stop = Stop.of_mass(course.mass / number, restitution)
         for share in (np.arange(number) + 0.5) / number:
-            x = each.bottom[0] + share * (each.top[0] - each.bottom[0])
-            stops.append(Held(place, (float(x), float(each.base + share * each.height)), stop=stop))
+            x = course.bottom[0] + share * (course.top[0] - course.bottom[0])
+            stops.append(Held(place, (float(x), float(course.base + share * course.height)), stop=stop))
     return tuple(stops)

@@ -126,7 +126,7 @@ class Stones:
     @property
     def joints(self) -> np.ndarray:
         """Both ends of every joint (n + 1, 2, 2), from the left ground to the right one, m."""
-        faces = [np.array(each.corners)[:2] for each in self.stones]
+        faces = [np.array(stone.corners)[:2] for stone in self.stones]
         return np.array([*faces, np.array(self.stones[-1].corners)[[3, 2]]])
 
     @property
@@ -135,13 +135,13 @@ class Stones:
         joints = self.joints
         first = _ground(joints[0], -1.0)
         last = _ground(joints[-1], 1.0)[::-1]
-        corners = np.array([first, *(np.array(each.corners) for each in self.stones), last])
+        corners = np.array([first, *(np.array(stone.corners) for stone in self.stones), last])
         centres = np.array(
-            [first.mean(axis=0), *(np.array(each.centre) for each in self.stones), last.mean(axis=0)]
+            [first.mean(axis=0), *(np.array(stone.centre) for stone in self.stones), last.mean(axis=0)]
         )
         still = [0.0, 0.0, 0.0]
-        mobility = [[1 / each.mass, 1 / each.mass, 1 / each.inertia] for each in self.stones]
-        drops = [_DROPPED * min(each.faces) for each in self.stones]
+        mobility = [[1 / stone.mass, 1 / stone.mass, 1 / stone.inertia] for stone in self.stones]
+        drops = [_DROPPED * min(stone.faces) for stone in self.stones]
         return BodiesAtRest(
             centres,
             corners - centres[:, None],
@@ -168,9 +168,9 @@ class Stones:
         """
         rows = self._rows
         found = [greatest_multiplier(rows * [1, 1, 1, sign, 1]) for sign in (1.0, -1.0)]
-        if any(each.status for each in found):
+        if any(solution.status for solution in found):
             return 0.0
-        return max(float(min(each.x[3] for each in found)), 0.0)
+        return max(float(min(solution.x[3] for solution in found)), 0.0)
 
     @property
     def _rows(self) -> np.ndarray:
@@ -178,16 +178,16 @@ class Stones:
 
         Of weight 1 in all; the unknowns before λ are force and moment with which the left ground pushes.
         """
-        masses = np.array([each.mass for each in self.stones])
+        masses = np.array([stone.mass for stone in self.stones])
         masses = masses / masses.sum()
         joints = self.joints
         unit = np.linalg.norm(joints[0, 1] - joints[0, 0])
         origin = joints[0, 0]
         joints = (joints - origin) / unit
-        places = (np.array([each.centre for each in self.stones]) - origin) / unit
+        places = (np.array([stone.centre for stone in self.stones]) - origin) / unit
         zero = np.zeros(1)
         weight = np.concatenate([zero, np.cumsum(masses)])
-        of_x, of_z = (np.concatenate([zero, np.cumsum(masses * each)]) for each in places.T)
+        of_x, of_z = (np.concatenate([zero, np.cumsum(masses * coordinate)]) for coordinate in places.T)
         count = weight.size
         # What pushes the stones behind each joint, per (X, Z, M, λ, 1): of the ground, and the loads up to there.
         force_x, force_z, moment = (np.zeros((count, 5)) for _ in range(3))
@@ -212,7 +212,9 @@ class Stones:
     @property
     def longest_step(self) -> float:
         """The longest time step [s]: a twentieth of the time in which the smallest stone falls over, 1/p."""
-        radii = [np.linalg.norm(np.array(each.corners) - each.centre, axis=1).min() for each in self.stones]
+        radii = [
+            np.linalg.norm(np.array(stone.corners) - stone.centre, axis=1).min() for stone in self.stones
+        ]
         return float(0.05 * np.sqrt(4 * min(radii) / (3 * GRAVITY)))
 
 

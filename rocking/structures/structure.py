@@ -99,10 +99,10 @@ class Structure(ABC):
 
     def __post_init__(self) -> None:
         """Hold each value that is not the default against what its type says of it."""
-        for each in constructor(type(self)).fields:
-            value = getattr(self, each.name)
-            if value is not each.default:
-                object.__setattr__(self, each.name, each.in_si(value))
+        for key in constructor(type(self)).fields:
+            value = getattr(self, key.name)
+            if value is not key.default:
+                object.__setattr__(self, key.name, key.in_si(value))
         # As it is typed: whether a façade is, follows from its geometry, which is checked later.
         if vars(self).get("one_sided") and not isinstance(self._given_restitution, float):
             raise SizeError.of(
@@ -273,7 +273,7 @@ class Structure(ABC):
         known: dict[int, StaticCapacity] = self.__dict__.setdefault("_capacities", {})
         if side not in known:
             place = 0 if side > 0 else -1
-            moving = [each for each in self._seen(side < 0) if each[0] != STILL]
+            moving = [outline for outline in self._seen(side < 0) if outline[0] != STILL]
             known[side] = StaticCapacity.of(mechanism.sides[place], self.linkages[place], moving, side < 0)
         return known[side]
 
@@ -492,9 +492,9 @@ class Structure(ABC):
             return None
         # None is the balance of each side; a type that asks for a number gets the least of both
         balanced = {
-            each.name: None if each.default is None else own
-            for each in fields(self)
-            if each.name in ("restitution", "inward_restitution")
+            own_field.name: None if own_field.default is None else own
+            for own_field in fields(self)
+            if own_field.name in ("restitution", "inward_restitution")
         }
         return own, replace(self, **balanced)
 
@@ -721,13 +721,17 @@ class Crackable(Crushable):
     def _ranked_candidates(self, count: int) -> tuple[Candidate, ...]:
         others = self._may_form(count)
         if not self.crack_is_known:
-            for each in others:
-                if each.position == self.crack_position and _alike(each.structure, self):
+            for candidate in others:
+                if candidate.position == self.crack_position and _alike(candidate.structure, self):
                     # one object, so that it is integrated once
-                    each.structure.__dict__["_mechanism"] = self.mechanism()
+                    candidate.structure.__dict__["_mechanism"] = self.mechanism()
             return others
         own = Candidate(self.crack_in_words, self.crack_position, self)
-        beside = (replace(each, counts=False) for each in others if each.description != own.description)
+        beside = (
+            replace(candidate, counts=False)
+            for candidate in others
+            if candidate.description != own.description
+        )
         return (own, *beside)
 
     @abstractmethod
@@ -775,7 +779,7 @@ class CrackedAtHeight(Crackable):
     def _places(self, count: int) -> list[float]:
         """The heights above the base [m] at which it may open, `count` over its height at least."""
         shares = np.linspace(self.lowest_crack, HIGHEST_SHARE, count)
-        return [float(each) for each in self.total_height * shares]
+        return [float(height) for height in self.total_height * shares]
 
     def _may_form(self, count: int) -> tuple[Candidate, ...]:
         """Each has its own momentum balance where no restitution is given.
@@ -786,10 +790,12 @@ class CrackedAtHeight(Crackable):
         one it can. Raises DoesNotStandError where it falls at rest with one of them and its crack is not known.
         """
         heights = sorted({*self._places(count), float(self.crack_position)})
-        formed = [each for each in map(self._candidate, heights) if each]
-        cracked = [each for each in formed if each.structure.mechanism().can_overturn] or formed
+        formed = [candidate for candidate in map(self._candidate, heights) if candidate]
+        cracked = [
+            candidate for candidate in formed if candidate.structure.mechanism().can_overturn
+        ] or formed
         # Of multipliers that are equal but for rounding, as all along a solid spire, the lowest crack comes first.
-        rounded = [float(f"{each.uplift_multiplier:.9g}") for each in cracked]
+        rounded = [float(f"{candidate.uplift_multiplier:.9g}") for candidate in cracked]
         order = np.argsort(rounded, kind="stable")
         ranked = [cracked[place] for place in order]
 
@@ -850,8 +856,8 @@ def _alike(one: Structure, other: Structure) -> bool:
     first, second = (
         [
             (side.uplift_multiplier, side.critical_rotation, side.restitution)
-            for side in each.mechanism().sides
+            for side in structure.mechanism().sides
         ]
-        for each in (one, other)
+        for structure in (one, other)
     )
     return first == second

@@ -30,8 +30,8 @@ _CLASSES = (
 
 
 TYPES: dict[str, tuple[Form, ...]] = {
-    **{each.type_name: forms(each) for each in map(resolve_name, _CLASSES)},
-    **{name: (each,) for name, each in PARTS.items()},
+    **{kind.type_name: forms(kind) for kind in map(resolve_name, _CLASSES)},
+    **{name: (part,) for name, part in PARTS.items()},
 }
 """The forms of each `type` of a structure list."""
 _ALIKE = 0.8
@@ -100,11 +100,11 @@ def definitions(more: Mapping[str, object]) -> dict[str, dict[str, object]]:
 
 def _definition(kind: str, form: Form, more: Mapping[str, object]) -> dict[str, object]:
     properties = {}
-    for each in form.fields:
-        unit = f", {each.unit}" if each.unit else ""
-        low, high = each.value.usual or (None, None)
-        usual = f"; usually {low:g} to {high:g}" if each.unit and each.value.usual else ""
-        properties[each.key] = {**each.schema, "description": f"{each.meaning}{unit}{usual}"}
+    for key in form.fields:
+        unit = f", {key.unit}" if key.unit else ""
+        low, high = key.value.usual or (None, None)
+        usual = f"; usually {low:g} to {high:g}" if key.unit and key.value.usual else ""
+        properties[key.key] = {**key.schema, "description": f"{key.meaning}{unit}{usual}"}
     return {
         "description": form.meaning,
         "type": "object",

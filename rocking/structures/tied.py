@@ -315,13 +315,17 @@ class Tied(CrackedAtHeight, Leaved):
 
     @cached_property
     def _mechanisms(self) -> tuple[Candidate, ...]:
-        cracked = [each for each in self.candidates() if each.counts and not each.part]
+        cracked = [candidate for candidate in self.candidates() if candidate.counts and not candidate.part]
         others = self._bulges if self.crack_is_known else self._family
         if self.symmetric:
-            others = tuple(each for each in others if each.sign >= 0)
-        beside = [each for each in others if not any(_is_that(own, each) for own in cracked)]
-        of_leaves = [of_leaf(name, each) for name, leaf in self.leaves_alone for each in leaf.mechanisms()]
-        return tuple(sorted((*cracked, *beside, *of_leaves), key=lambda each: each.uplift_multiplier))
+            others = tuple(candidate for candidate in others if candidate.sign >= 0)
+        beside = [candidate for candidate in others if not any(_is_that(own, candidate) for own in cracked)]
+        of_leaves = [
+            of_leaf(name, candidate) for name, leaf in self.leaves_alone for candidate in leaf.mechanisms()
+        ]
+        return tuple(
+            sorted((*cracked, *beside, *of_leaves), key=lambda candidate: candidate.uplift_multiplier)
+        )
 
     @cached_property
     def _bulges(self) -> tuple[Candidate, ...]:
@@ -336,19 +340,19 @@ class Tied(CrackedAtHeight, Leaved):
         if span and not (self.tie_heights or self.held_at) and not self.held_wall.top_may_slip:
             return ()  # it is that bulge itself
         bulges = []
-        for each in self._family:
-            opening = each.structure.opening if isinstance(each.structure, Tied) else None
+        for candidate in self._family:
+            opening = candidate.structure.opening if isinstance(candidate.structure, Tied) else None
             if opening is None:
                 continue
             bulges_elsewhere = opening.hinge is not None and (opening.foot, opening.hold) != span
             if bulges_elsewhere or opening.between or self.held_wall.slip(opening):
-                bulges.append(each)
+                bulges.append(candidate)
         return tuple(bulges)
 
     def _places(self, count: int) -> list[float]:
         """Joints over the height, and those at which something changes: feet of storeys, and what holds it."""
         stops = np.array(
-            [each for each in self.held_wall.stops if each >= self.lowest_crack * self.total_height]
+            [height for height in self.held_wall.stops if height >= self.lowest_crack * self.total_height]
         )
         near = _SAME * self.total_height
         within = [place for place in super()._places(count) if not (np.abs(stops - place) < near).any()]
@@ -366,29 +370,29 @@ class Tied(CrackedAtHeight, Leaved):
         than every crack. Unless it is known, a crack that ties keep shut for good is left out, as far as something else
         is left, and one below a top that slips before: what would hold it there does not.
         """
-        cracked = [self._limited(each) for each in super()._ranked_candidates(count)]
+        cracked = [self._limited(candidate) for candidate in super()._ranked_candidates(count)]
         self._check_restitution()
-        followed = [each for each in self._bulges if not each.refusal]
-        between = [each for each in followed if self._falls_between_ties(each)][:1]
-        at_ties = [each for each in followed if not self._falls_between_ties(each)]
-        slipping = [each for each in at_ties if self._slips(each)][:1]
-        bulging = [each for each in at_ties if not self._slips(each)][:1]
-        counting = [each for each in cracked if each.counts]
-        beside = [each for each in cracked if not each.counts and math.isfinite(each.uplift_multiplier)]
+        followed = [bulge for bulge in self._bulges if not bulge.refusal]
+        between = [bulge for bulge in followed if self._falls_between_ties(bulge)][:1]
+        at_ties = [bulge for bulge in followed if not self._falls_between_ties(bulge)]
+        slipping = [bulge for bulge in at_ties if self._slips(bulge)][:1]
+        bulging = [bulge for bulge in at_ties if not self._slips(bulge)][:1]
+        counting = [crack for crack in cracked if crack.counts]
+        beside = [crack for crack in cracked if not crack.counts and math.isfinite(crack.uplift_multiplier)]
         if not self.crack_is_known:
-            opens = [each for each in counting if math.isfinite(each.uplift_multiplier)]
+            opens = [crack for crack in counting if math.isfinite(crack.uplift_multiplier)]
             counting = opens if opens or followed else counting
         if not followed:
             return (*counting, *beside)
         if not self.crack_is_known and any(
-            each.structure.mechanism().can_overturn for each in (*bulging, *slipping, *between)
+            candidate.structure.mechanism().can_overturn for candidate in (*bulging, *slipping, *between)
         ):
-            counting = [each for each in counting if each.structure.mechanism().can_overturn]
+            counting = [crack for crack in counting if crack.structure.mechanism().can_overturn]
         if slipping and not self.crack_is_known:
             slips_at = slipping[0].uplift_multiplier
-            counting = [each for each in counting if each.uplift_multiplier <= slips_at]
+            counting = [crack for crack in counting if crack.uplift_multiplier <= slips_at]
         for bulge in (*bulging, *slipping, *between):
-            is_weakest = all(bulge.uplift_multiplier < each.uplift_multiplier for each in counting)
+            is_weakest = all(bulge.uplift_multiplier < crack.uplift_multiplier for crack in counting)
             counting.insert(0 if is_weakest else len(counting), bulge)
         return (*counting, *beside)
 
@@ -493,7 +497,7 @@ class Tied(CrackedAtHeight, Leaved):
         wall = self.held_wall
         found = []
         for place, hold in enumerate(wall.holds):
-            held = (each for each in self.mechanisms() if self._holds_back(hold.height, each))
+            held = (candidate for candidate in self.mechanisms() if self._holds_back(hold.height, candidate))
             weakest = next(held, None)
             if weakest is None or hold.kind == "floor" or not isinstance(weakest.structure, Tied):
                 continue
@@ -509,7 +513,7 @@ class Tied(CrackedAtHeight, Leaved):
                     friction=friction,
                     coefficient=friction / reaction.pressing if reaction.pressing else 0.0,
                     ties=of_ties,
-                    weight=sum(each.total for each in wall.storeys),
+                    weight=sum(storey.total for storey in wall.storeys),
                     grip=wall.grip(hold.height) if hold.kind == "tie" else math.inf,
                 )
             )
@@ -532,8 +536,8 @@ class Tied(CrackedAtHeight, Leaved):
         if not stiffness:
             return 0.0
         wall = self.held_wall
-        inertia = sum(each.weight * (each.high**3 - each.low**3) / 3 for each in wall.storeys)
-        inertia += sum(each.weight * each.z**2 for each in wall.loads if each.rides)
+        inertia = sum(storey.weight * (storey.high**3 - storey.low**3) / 3 for storey in wall.storeys)
+        inertia += sum(load.weight * load.z**2 for load in wall.loads if load.rides)
         return 2 * math.pi * math.sqrt(inertia / (GRAVITY * stiffness))
 
     def hangs_on_ties(self, candidate: Candidate) -> bool:
@@ -571,7 +575,7 @@ class Tied(CrackedAtHeight, Leaved):
         if isinstance(linkage, Chain):
             gives = linkage.holding(state, stop if way and way.upright else None) / GRAVITY
         reactions = []
-        heights = [each.start.imag for each in linkage.hung if each.tie]
+        heights = [hung.start.imag for hung in linkage.hung if hung.tie]
         for hold in wall.holds:
             force = np.zeros(state.rotation.size)
             if way and hold.height == way.hold:
@@ -635,11 +639,11 @@ class Tied(CrackedAtHeight, Leaved):
     def tie_events(self, rotation: float) -> str:
         tie = self._tie
         events = []
-        tied = [each for each in self.linkages[0].hung if each.tie]
-        for each, side_tie in zip(tied, self.linkages[0].ties, strict=True):
-            if each.kind != "tie":
+        tied = [hung for hung in self.linkages[0].hung if hung.tie]
+        for hung, side_tie in zip(tied, self.linkages[0].ties, strict=True):
+            if hung.kind != "tie":
                 continue
-            height = each.start.imag
+            height = hung.start.imag
             stretch = float(side_tie.stretch(np.asarray(max(rotation, 0.0))))
             if (
                 stretch >= (1 - 1e-9) * tie.rupture_stretch
@@ -657,20 +661,20 @@ class Tied(CrackedAtHeight, Leaved):
         marks = []
         apart = (self._way(mirrored) or self._opens).between
         anchorage = float(np.vstack(self.outline())[:, 0].min()) - 2 * size
-        for each in self._hung(mirrored):
-            if each.kind == "friction":
+        for hung in self._hung(mirrored):
+            if hung.kind == "friction":
                 continue
-            stays = each.part == STILL or (apart and each.kind == "tie")  # the ties stand beside the section
-            shift = 0j if stays else linkage.carried(each.part, each.start, motion).moved
-            head = plane(np.asarray(each.start + shift), mirrored)
-            tail = {"load": [0.0, size], "thrust": [-size, 0.0], "tie": [anchorage - head[0], 0.0]}[each.kind]
-            text = f"{(abs(each.force) + each.mass) / 1e3:.6g} kN/m"
-            if each.kind == "tie":
+            stays = hung.part == STILL or (apart and hung.kind == "tie")  # the ties stand beside the section
+            shift = 0j if stays else linkage.carried(hung.part, hung.start, motion).moved
+            head = plane(np.asarray(hung.start + shift), mirrored)
+            tail = {"load": [0.0, size], "thrust": [-size, 0.0], "tie": [anchorage - head[0], 0.0]}[hung.kind]
+            text = f"{(abs(hung.force) + hung.mass) / 1e3:.6g} kN/m"
+            if hung.kind == "tie":
                 text = f"{self.tie_stiffness / 1e3:.6g} kN/m²"
                 if self.tie_strength is not None:
                     end = "yields" if self.tie_plastic_elongation else "breaks"
                     text += f", {end} at {self.tie_strength / 1e3:.6g} kN/m"
-            marks.append(Mark(each.kind, text, np.array([head + tail, head])))
+            marks.append(Mark(hung.kind, text, np.array([head + tail, head])))
         behind = anchorage + 2 * size
         marks += [
             Mark("support", "", np.array([[behind - size / 2, height], [behind, height]]))
@@ -681,8 +685,8 @@ class Tied(CrackedAtHeight, Leaved):
     def _with_bonders(self, holds: Iterable[Hold]) -> list[Hold]:
         """What holds a leaf besides the rest of its wall, which gives to neither side where it does."""
         near = _SAME * self.height
-        others = [each for each in holds if all(abs(each.height - height) > near for height in self.held_at)]
-        return [*others, *(Hold(each, "bonder", math.inf, math.inf) for each in self.held_at)]
+        others = [hold for hold in holds if all(abs(hold.height - height) > near for height in self.held_at)]
+        return [*others, *(Hold(height, "bonder", math.inf, math.inf) for height in self.held_at)]
 
     def _bonded(self, courses: Sequence[Course], outer: float, inner: float) -> list[Held]:
         """What bonders do to a leaf in courses, with faces at these x [m]: a stop inwards, a tie as stiff outwards."""
@@ -700,7 +704,7 @@ class Tied(CrackedAtHeight, Leaved):
 
     def _ties_of(self, leaf: Leaf) -> dict[str, Any]:
         """The fields by which the ties of the wall hold a leaf: outwards, tightened where it cannot go inwards."""
-        ties = {each: getattr(self, each) for each in _NO_TIES} | _RODS_SPREAD
+        ties = {name: getattr(self, name) for name in _NO_TIES} | _RODS_SPREAD
         leans = leaf.moves == "outwards" or (leaf.is_inner and self._leans)
         if not leans:
             ties["tie_pretension"] = 0.0

@@ -129,13 +129,13 @@ class WallLinkage(Linkage):
 
     def _loaded(self, blocks: Kinematics) -> Kinematics:
         """The motion with that of the loads on the top, each of which rises with its bearing and moves to no side."""
-        carried = [self.carried(1, each.start, blocks) for each in self.loads]
+        carried = [self.carried(1, load.start, blocks) for load in self.loads]
         # Upwards only: the imaginary part.
         places = [
-            load.start + 1j * np.imag(each.moved) for load, each in zip(self.loads, carried, strict=True)
+            load.start + 1j * np.imag(point.moved) for load, point in zip(self.loads, carried, strict=True)
         ]
-        velocities = [1j * np.imag(each.velocity) for each in carried]
-        accelerations = [1j * np.imag(each.acceleration) for each in carried]
+        velocities = [1j * np.imag(point.velocity) for point in carried]
+        accelerations = [1j * np.imag(point.acceleration) for point in carried]
         # No load turns.
         still = np.zeros((len(carried), *blocks.spins.shape[1:]))
         return replace(
@@ -155,8 +155,8 @@ class WallLinkage(Linkage):
         """
         motion = self.motion(state.rotation)
         forces, couples = self.dalembert(state)
-        for each, force in zip(self.loads, forces[2:], strict=True):
-            bearing = each.start + self.carried(1, each.start, motion).moved
+        for load, force in zip(self.loads, forces[2:], strict=True):
+            bearing = load.start + self.carried(1, load.start, motion).moved
             pressing = 1j * force.imag  # the floor holds the load sideways
             forces[1] += pressing
             couples[1] += cross(bearing - motion.centroids[1], pressing)
@@ -642,7 +642,7 @@ class LoadedWall(CrackedWall, Tied):
         }
         loads["top_slab"] = "hinged"
         if self._bears(leaf):
-            loads |= {each: getattr(self, each) for each in loads}
+            loads |= {name: getattr(self, name) for name in loads}
             loads["eccentricity"] = self._eccentricity_on(leaf, [self.thickness], self.eccentricity)
         return replace(
             self,

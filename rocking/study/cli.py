@@ -325,7 +325,9 @@ def _assess(options: argparse.Namespace) -> int:
     scenes = scenes_of(options.structures, stdin)
     own = stations_of(options.files, _declared(options))
     print(*assess_stations(own.stations, scenes, options.name, options.output, options.pdf), sep="\n")
-    written = [options.output / each.record.id / "report.pdf" for each in own.stations if options.output]
+    written = [
+        options.output / station.record.id / "report.pdf" for station in own.stations if options.output
+    ]
     print(
         *written,
         *([options.pdf] if options.pdf else []),
@@ -359,7 +361,7 @@ def _accelerograms(options: argparse.Namespace) -> Any:
     from rocking.study.own_files import stations_of
 
     own = stations_of(options.files, _declared(options))
-    opened = [Study({}).open(each.record, list(each.channels))[0] for each in own.stations]
+    opened = [Study({}).open(station.record, list(station.channels))[0] for station in own.stations]
     return own, [accelerogram for horizontal in opened for accelerogram in horizontal]
 
 

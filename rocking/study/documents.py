@@ -47,7 +47,9 @@ def write_reason(path: Path, sentences: list[str], figures: Figures = "none") ->
     elif path.suffix == ".svg":
         write_whole(path, svg(new_figure(20)).encode())
     elif path.suffix == ".xlsx":
-        rows = [FailureRow.of(FailedCase("", "", "", Failure("document", each))) for each in sentences]
+        rows = [
+            FailureRow.of(FailedCase("", "", "", Failure("document", sentence))) for sentence in sentences
+        ]
         write_whole(path, workbook({FailureRow: rows}))
     else:
         parts = (Part(sentences=tuple(sentences)),)

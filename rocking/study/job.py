@@ -90,7 +90,7 @@ class Study:
     def assessment(self) -> AssessmentSettings:
         """The settings of the assessment: in full where a report or histories are made, which show every case."""
         settings = self.settings
-        own = {each.name: getattr(settings, each.name) for each in fields(AssessmentSettings)}
+        own = {setting.name: getattr(settings, setting.name) for setting in fields(AssessmentSettings)}
         if settings.fidelity == "auto" and (settings.reports or settings.histories):
             own["fidelity"] = "full"
         return AssessmentSettings(**own)
@@ -215,7 +215,7 @@ def begin_job(task: Task) -> Iterator[Job]:
         compile_all(tell_compilation)
         settings = handed(kind, plan.settings)
         study = Study(plan.scenes, settings, settings_sha256(plan.settings, plan.scenes))
-        records = [plan.records[each] for each in records_of(task.product, plan)]
+        records = [plan.records[record] for record in records_of(task.product, plan)]
         job = Job(task, plan, study, records, Path(task.log), tell_line)
         if kind in ("record", "batch"):
             batch = task.product.partition("/")[2] if kind == "batch" else ""
@@ -273,7 +273,7 @@ class Steps:
         asking = self._job.study.assessment
         costs = [_expected(scene, horizontal, asking) for scene in scenes.values()]
         if sum(costs) > WORTH_TELLING:
-            number = counted(sum(each > 0 for each in costs), "structure")
+            number = counted(sum(cost > 0 for cost in costs), "structure")
             tell(
                 "contact dynamics",
                 f"{self._record.id}: up to {sum(costs):.2g} s, if {number} cannot be decided otherwise; the longest "
@@ -370,7 +370,7 @@ def _write(result: RecordResult, record: CatalogueRecord, job: Job) -> None:
         if study.settings.histories:
             histories = history_rows(record.id, result.responses)
             write_rows(HistoryRow, histories, folder / HistoryRow.table.file_name)
-    tables = {each: list(of_it) for each, of_it in rows.tables.items()}
+    tables = {row_class: list(of_it) for row_class, of_it in rows.tables.items()}
     sums = sums_of(job.task.product, study.settings) if job.kind == "record" else {}
     job.keep(record.id, RecordOutcome(tables, page, spectra, sums))
     job.tell(f"{record.id}: {record_line(result.scenes.values(), rows.failures)}")
@@ -379,7 +379,10 @@ def _write(result: RecordResult, record: CatalogueRecord, job: Job) -> None:
 def _drawn(result: RecordResult, rows: RecordRows) -> set[tuple[str, str, float | None]]:
     """The cases whose history documents draw: the worst one of each structure that moves, at its worst period."""
     worst = worst_cases(rows.comparison)
-    keys = ((result.record, each.structure, each.support_period_s) for each in result.worst_periods)
+    keys = (
+        (result.record, period_result.structure, period_result.support_period_s)
+        for period_result in result.worst_periods
+    )
     found = (worst[key] for key in keys if key in worst)
     return {row.case for row in found if row.integrated_rotation_ratio > NEGLIGIBLE}
 

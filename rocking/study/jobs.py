@@ -16,8 +16,8 @@ from rocking.study.work import work_of
 def record(task: Task) -> None:
     """Take the records of a task through the five steps, each on what the one before it gave."""
     with begin_job(task) as job, on_cores(task.cores):
-        for each in job.records:
-            with steps_of(each, job) as step:
+        for catalogued in job.records:
+            with steps_of(catalogued, job) as step:
                 motion = step.read()  # 1: by obspy, or by a reader of ours where it has none
                 components = step.pulses(motion)  # 2: the sine pulses that dominate it
                 predictions = step.predict(components)  # 3: the closed form of each equivalent block

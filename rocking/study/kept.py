@@ -25,7 +25,7 @@ def keep_rows(path: Path, rows: Rows, made_by_hand: Sequence[str] = (), conclusi
     made_by_hand: what a product is made from that no whole run makes.
     """
     content = (made_by_hand, conclusion, encoded_rows(rows))
-    lines = (json.dumps(each, separators=(",", ":")).encode() for each in content)
+    lines = (json.dumps(key, separators=(",", ":")).encode() for key in content)
     write_whole(path, b"\n".join(lines))
 
 
@@ -64,9 +64,9 @@ def undamaged(path: Path) -> Iterator[None]:
 def encoded_rows(rows: Rows) -> dict[str, list[list[Any]]]:
     """Return what JSON can hold of the rows of tables: by the name of the table what each row carries."""
     content = {}
-    for each, of_it in rows.items():
-        names = _carried(each)
-        content[each.table.name] = [[encoded(getattr(row, name)) for name in names] for row in of_it]
+    for row_class, of_it in rows.items():
+        names = _carried(row_class)
+        content[row_class.table.name] = [[encoded(getattr(row, name)) for name in names] for row in of_it]
     return content
 
 
@@ -75,12 +75,12 @@ def decoded_rows(
 ) -> dict[type[Row], list[Row]]:
     """Return the rows of `tables` that `encoded_rows` gave. Raises ValueError, KeyError or TypeError for others."""
     rows: dict[type[Row], list[Row]] = {}
-    for each in tables:
-        kept: Any = each
+    for row_class in tables:
+        kept: Any = row_class
         columns = _columns_of(kept)
-        rows[each] = [
-            each(**{name: of(cell) for (name, of), cell in zip(columns, cells, strict=True)})
-            for cells in content[each.table.name]
+        rows[row_class] = [
+            row_class(**{name: of(cell) for (name, of), cell in zip(columns, cells, strict=True)})
+            for cells in content[row_class.table.name]
         ]
     return rows
 

@@ -73,7 +73,7 @@ TABLE: Mapping[str, Line] = {
         shows=True,
         documents=False,
     ),
-    **{each.name: each.made_from for each in PRODUCTS},
+    **{product.name: product.made_from for product in PRODUCTS},
 }
 """By the kind of product, which is the name of its rule. All are made from the settings that change a number, the rows
 of the catalogue, the structures in their order, this package and the libraries as well; a record and a batch from their
@@ -93,7 +93,7 @@ def made_from(product: str, plan: Inputs) -> tuple[str, ...]:
 def of_records(product: str, plan: Inputs) -> tuple[str, ...]:
     """Return the last OF_RECORDS lines of `made_from`: the records of a product, their files, and those of the pool."""
     line = TABLE[product.partition("/")[0]]
-    records = [plan.records[each] for each in records_of(product, plan)]
+    records = [plan.records[record] for record in records_of(product, plan)]
     files = _hashes(plan, records) if line.opens_records else {}
     return (_named("catalogue", *records), _told("files", files), _told("pool", _others(plan, line)))
 
@@ -104,7 +104,7 @@ OF_RECORDS = 3
 def what_changed(before: Iterable[str], now: Iterable[str]) -> str:
     """Return the names of the things that differ between two of `made_from`, as a list in words; "" for none."""
     lines = set(before) ^ set(now)
-    return ", ".join(sorted({each.partition(" = ")[0].partition(": ")[0] for each in lines}))
+    return ", ".join(sorted({line.partition(" = ")[0].partition(": ")[0] for line in lines}))
 
 
 def inputs_of(product: str, plan: Inputs) -> dict[str, list[str]]:
@@ -156,7 +156,7 @@ def of_kind(kind: str, plan: Inputs) -> tuple[str, ...]:
     for key, path in settings.told_in(line.files).items():
         lines.append(_told(f"file of {key}", {path: plan.contents.of(Path(path))} if path else {}))
     if line.terms:
-        lines.append(_named("terms", *((name, each.terms) for name, each in plan.scenes.items())))
+        lines.append(_named("terms", *((name, scene.terms) for name, scene in plan.scenes.items())))
     if kind in BY_NAME:
         lines.append(_named("source of the product", folder_sha256(BY_NAME[kind].source)))
     if line.shows:

@@ -39,8 +39,8 @@ def _draws_reports(settings: Settings) -> bool:
 OUTPUTS: Mapping[str, tuple[Output, ...]] = {
     "record": (
         *(
-            Output(f"{{name}}/{each.table.file_name}", is_measured=each is TimingRow)
-            for each in RECORD_TABLES
+            Output(f"{{name}}/{row_class.table.file_name}", is_measured=row_class is TimingRow)
+            for row_class in RECORD_TABLES
         ),
         Output("{name}/histories.csv", _histories),
         Output("{name}/report.pdf", _reports, label="report", caption="record", category="Records"),
@@ -52,13 +52,13 @@ OUTPUTS: Mapping[str, tuple[Output, ...]] = {
     "summary": (
         *(
             Output(
-                f"summary/{each.table.file_name}",
-                is_measured=each is TimingRow,
-                label=each.table.description,
+                f"summary/{row_class.table.file_name}",
+                is_measured=row_class is TimingRow,
+                label=row_class.table.description,
                 caption="table",
                 category="Tables",
             )
-            for each in SUMMARY_TABLES
+            for row_class in SUMMARY_TABLES
         ),
         Output(
             "summary/summary.pdf",
@@ -87,7 +87,7 @@ OUTPUTS: Mapping[str, tuple[Output, ...]] = {
         Output("summary/datapackage.json"),
         Output(SUMS),
     ),
-    **{each.name: each.outputs for each in PRODUCTS},
+    **{product.name: product.outputs for product in PRODUCTS},
 }
 """By the kind of product, which is the name of its rule."""
 
@@ -100,8 +100,8 @@ def log_of(product: str) -> str:
 def outputs_of(product: str, settings: Settings) -> dict[Output, Path]:
     """Return the files of a product, such as "record/a" or "summary", that the settings ask for."""
     kind, _, name = product.partition("/")
-    asked = (each for each in OUTPUTS[kind] if each.when(settings))
-    return {each: Path(settings.results, each.path.replace("{name}", name)) for each in asked}
+    asked = (output for output in OUTPUTS[kind] if output.when(settings))
+    return {output: Path(settings.results, output.path.replace("{name}", name)) for output in asked}
 
 
 def sums_of(product: str, settings: Settings) -> dict[str, str]:
@@ -111,7 +111,7 @@ def sums_of(product: str, settings: Settings) -> dict[str, str]:
     """
     results = Path(settings.results)
     outputs = outputs_of(product, settings).items()
-    paths = [path for each, path in outputs if path.suffix in (".csv", ".pdf") and not each.is_measured]
+    paths = [path for output, path in outputs if path.suffix in (".csv", ".pdf") and not output.is_measured]
     return {path.relative_to(results).as_posix(): sha256_of_file(path) for path in paths if path.is_file()}
 
 
@@ -167,8 +167,8 @@ def _names() -> tuple[re.Pattern[str], ...]:
 
     A group holds the name of a record or of a batch.
     """
-    outputs = [each for of_kind in OUTPUTS.values() for each in of_kind]
-    paths = [each.path for each in outputs]
+    outputs = [output for of_kind in OUTPUTS.values() for output in of_kind]
+    paths = [output.path for output in outputs]
     paths += [log_of(f"{kind}/{{name}}") for kind in ("record", "batch", "records", "batches")]
     paths += [log_of(kind) for kind in OUTPUTS]
     paths.append(case_timings_of(Path(), "{name}").as_posix())

@@ -230,7 +230,7 @@ def assess_stations(
         raise ConfigurationError(
             f"pdf is {str(pdf)!r}, the report of one record, but there are {len(found)}: {ids}; give --output FOLDER."
         )
-    chosen = {each: scene for each, scene in scenes.items() if name in (None, each)}
+    chosen = {structure: scene for structure, scene in scenes.items() if name in (None, structure)}
     study = Study(chosen, Settings(), settings_sha256(Settings(), scenes))
     remarks = list(study.remarks)
     for own in found:

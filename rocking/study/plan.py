@@ -72,7 +72,9 @@ class Plan:
     @property
     def doubts(self) -> tuple[Remark, ...]:
         """The warnings before the run."""
-        of_study = [each for each in study_remarks(self.settings, self.scenes) if each.kind not in _ON_PAGES]
+        of_study = [
+            remark for remark in study_remarks(self.settings, self.scenes) if remark.kind not in _ON_PAGES
+        ]
         more = len(of_study) - _NAMED
         return (
             *of_study[:_NAMED],
@@ -85,10 +87,12 @@ class Plan:
     @property
     def _outdated(self) -> list[Remark]:
         """What was made by hand and does not hold any more; a run leaves it out, and removes it."""
-        others = (each.name for each in PRODUCTS if each.name not in self.products)
+        others = (product.name for product in PRODUCTS if product.name not in self.products)
         made = {name: self.changed_since(name) for name in others}
         return [
-            Remark.of(StudyKind.OUTDATED, each, why=f"changed: {why}") for each, why in made.items() if why
+            Remark.of(StudyKind.OUTDATED, product, why=f"changed: {why}")
+            for product, why in made.items()
+            if why
         ]
 
     @cached_property
@@ -98,7 +102,7 @@ class Plan:
         kind, names = ("record", self.records) if self.makes_reports else ("batch", self.batches)
         return (
             *(f"{kind}/{name}" for name in names),
-            *(each.name for each in PRODUCTS if each.in_every_run(settings)),
+            *(product.name for product in PRODUCTS if product.in_every_run(settings)),
             "summary",
         )
 
@@ -106,7 +110,9 @@ class Plan:
     def beside_summary(self) -> tuple[str, ...]:
         """The products over all records that the summary shows: of the plan, and by hand where they still hold."""
         return tuple(
-            each.name for each in PRODUCTS if each.name in self.products or self._holds_by_hand(each.name)
+            product.name
+            for product in PRODUCTS
+            if product.name in self.products or self._holds_by_hand(product.name)
         )
 
     def _holds_by_hand(self, product: str) -> bool:
@@ -212,7 +218,7 @@ def missing_files(settings: Settings) -> Iterator[tuple[str, str]]:
         folder, file = os.path.split(Path.cwd() / value)
         beside = os.listdir(folder) if os.path.isdir(folder) else []
         near = [
-            each for each in get_close_matches(file, beside, n=1) if Path(each).suffix == Path(file).suffix
+            near for near in get_close_matches(file, beside, n=1) if Path(near).suffix == Path(file).suffix
         ]
         hint = "write its path from the folder of the study"
         if near:

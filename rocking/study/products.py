@@ -63,4 +63,4 @@ MAP = Product(
 )
 PRODUCTS = (CHECKS, FRAGILITY, TRADE, MAP)
 """In the order in which the summary shows them."""
-BY_NAME = {each.name: each for each in PRODUCTS}
+BY_NAME = {product.name: product for product in PRODUCTS}

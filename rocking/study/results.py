@@ -26,8 +26,8 @@ def _lines_of(row_class: type[Row], path: Path, record: str) -> Iterator[bytes]:
         yield from (line.encode() for line in stream if line.startswith(f"{record},"))
 
 
-_OWN = {each.table.name: each for each in (*RECORD_TABLES, *SUMMARY_TABLES)}
-_OF_PRODUCTS = {table: each for each in PRODUCTS for table in each.tables}
+_OWN = {row_class.table.name: row_class for row_class in (*RECORD_TABLES, *SUMMARY_TABLES)}
+_OF_PRODUCTS = {table: product for product in PRODUCTS for table in product.tables}
 
 
 def _names() -> list[str]:
@@ -39,7 +39,7 @@ def rows_of_table(product: Product, name: str) -> type[Row]:
     """Return the rows of a table of a product over all records, whose module is imported for it."""
     classes: list[Any] = list(vars(import_module(product.rows)).values())
     found: type[Row] = next(
-        each for each in classes if getattr(getattr(each, "table", None), "name", "") == name
+        found for found in classes if getattr(getattr(found, "table", None), "name", "") == name
     )
     return found
 
@@ -91,7 +91,8 @@ class Results:
         target = self.folder / record if folder is None else Path(folder)
         summary = self.folder / "summary"
         tables = {
-            each: list(_lines_of(each, summary / each.table.file_name, record)) for each in RECORD_TABLES
+            row_class: list(_lines_of(row_class, summary / row_class.table.file_name, record))
+            for row_class in RECORD_TABLES
         }
         if len(tables[TimingRow]) == 1:  # which every record has, also one that could not be read
             raise RockingError.naming(
@@ -100,9 +101,9 @@ class Results:
                 f"{self.folder} holds no tables of {record!r}; name a record of a study that has been run.",
             )
         with written_together():
-            for each, lines in tables.items():
-                write_whole(target / each.table.file_name, lines)
-        return [target / each.table.file_name for each in RECORD_TABLES]
+            for row_class, lines in tables.items():
+                write_whole(target / row_class.table.file_name, lines)
+        return [target / row_class.table.file_name for row_class in RECORD_TABLES]
 
     def __getattr__(self, name: str) -> "DataFrame":
         if name not in _names():

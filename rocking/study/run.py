@@ -146,22 +146,24 @@ def _why(progress: Progress, folder: Path, log: Path) -> str:
     """Why a run did not finish, in a sentence."""
     raised = _RAISED.findall("\n".join(progress.errors))
     reasons = progress.reasons or raised or progress.errors[-1:] or [f"see {log}"]
-    return "; ".join(dict.fromkeys(_in_a_sentence(each, folder, log) for each in reasons))
+    return "; ".join(dict.fromkeys(_in_a_sentence(reason, folder, log) for reason in reasons))
 
 
 def _told_of(folder: Path, plan: Plan) -> int:
     """Tell what came of a whole study, and return the exit status."""
     results = folder / plan.settings.results
-    made = [each for each in PRODUCTS if each.name in plan.products]
+    made = [product for product in PRODUCTS if product.name in plan.products]
     failures = read_table(FailureRow, results / "summary")
     verdicts = verdicts_of({record: folder / path for record, path in plan.outcomes().items()})
     comparison = read_rows(ComparisonRow, results / "summary" / ComparisonRow.table.file_name)
     falls = read_table(ExpectedFallsRow, results / "summary")
     remarks = read_rows(RemarkRow, results / "summary" / RemarkRow.table.file_name)
     told = [*closing_lines(verdicts, comparison, failures, falls, remarks)]
-    for each in made:
-        told += conclusion_lines(kept_conclusion(kept_of(results, each.name)))
-    opened = {results / each.folder / name: what for each in made for name, what in each.opened.items()}
+    for product in made:
+        told += conclusion_lines(kept_conclusion(kept_of(results, product.name)))
+    opened = {
+        results / product.folder / name: what for product in made for name, what in product.opened.items()
+    }
     for line in (*told, *paths_to_read(results, verdicts, plan.settings.reports, opened)):
         print(fitting(line, sys.stdout))
     return int(bool(failures))

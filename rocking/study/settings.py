@@ -339,7 +339,7 @@ class Settings(AssessmentSettings):
     @classmethod
     def changing_numbers(cls) -> list[str]:
         """Return the names of the settings, and of the sections, that change a number of a table."""
-        return [each.name for each in fields(cls) if _said_of(each.name, "changes_numbers", True)]
+        return [setting.name for setting in fields(cls) if _said_of(setting.name, "changes_numbers", True)]
 
     def told_in(self, names: Iterable[str]) -> dict[str, Any]:
         """Return the values of some settings by their names, those of a section as section.name.
@@ -353,7 +353,9 @@ class Settings(AssessmentSettings):
             if part:
                 chosen[name] = getattr(value, part)
             elif is_dataclass(value):
-                chosen |= {f"{name}.{each.name}": getattr(value, each.name) for each in fields(value)}
+                chosen |= {
+                    f"{name}.{setting.name}": getattr(value, setting.name) for setting in fields(value)
+                }
             else:
                 chosen[name] = value
         return chosen
@@ -383,7 +385,7 @@ class Settings(AssessmentSettings):
             name: asdict(value) if is_dataclass(value) else value  # type: ignore[arg-type]
             for name, value in vars(self).items()
         }
-        labels = {name: each.more.get("told", "") for name, each in described_values(Settings).items()}
+        labels = {name: setting.more.get("told", "") for name, setting in described_values(Settings).items()}
         facts = {label: vars(self).get(name) for name, label in labels.items() if label}
         # What was left blank is left out.
         return told | {"about": {label: str(fact) for label, fact in facts.items() if fact}}
@@ -393,7 +395,7 @@ class Settings(AssessmentSettings):
         """What documents print of them."""
         told = self.mapping()
         return PageSettings(
-            **{each.name: told[each.name] for each in fields(PageSettings) if each.name in told}
+            **{setting.name: told[setting.name] for setting in fields(PageSettings) if setting.name in told}
         )
 
 
@@ -408,7 +410,7 @@ class _Restricted(Settings):
         return object.__getattribute__(self, name)
 
 
-_FIELDS = frozenset(each.name for each in fields(Settings))
+_FIELDS = frozenset(setting.name for setting in fields(Settings))
 
 
 def _said_of(name: str, what: str, otherwise: Any) -> Any:
@@ -422,10 +424,10 @@ def _said_of(name: str, what: str, otherwise: Any) -> Any:
 @cache
 def file_settings() -> tuple[str, ...]:
     """Return the names of the settings that name a file which must be there; of a section as section.name."""
-    own = [name for name, each in described_values(Settings).items() if each.more.get("is_file")]
+    own = [name for name, setting in described_values(Settings).items() if setting.more.get("is_file")]
     for part in parts_of(Settings):
         values = described_values(getattr(Settings, part).__class__)
-        own += [f"{part}.{name}" for name, each in values.items() if each.more.get("is_file")]
+        own += [f"{part}.{name}" for name, setting in values.items() if setting.more.get("is_file")]
     return tuple(own)
 
 
@@ -564,7 +566,7 @@ of products says of one is the output of its rule and among its params."""
 
 def structure_hashes(scenes: Mapping[str, "Scene"]) -> dict[str, str]:
     """Return one hash for what each structure says of itself and its support, by its name."""
-    return {name: each.sha256 for name, each in scenes.items()}
+    return {name: scene.sha256 for name, scene in scenes.items()}
 
 
 def settings_sha256(settings: Settings, scenes: Mapping[str, "Scene"]) -> str:

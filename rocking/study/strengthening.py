@@ -83,49 +83,43 @@ of_tried = Columns(_TriedValue)
 class StrengtheningRow(RowOf[_TriedValue]):
     """One row per value that was tried, below the structure as it is given; written by rocking strengthen."""
 
-    structure: str = of_tried("Name of the structure", lambda each: each.structure)
-    key: str = of_tried("Key of the list of structures that is varied", lambda each: each.found.field.key)
+    structure: str = of_tried("Name of the structure", lambda of: of.structure)
+    key: str = of_tried("Key of the list of structures that is varied", lambda of: of.found.field.key)
     value: float = of_tried(
         "Value, in the unit at the end of its key; empty where the structure states none",
-        lambda each: float(each.found.field.outward(each.tried.value)),
+        lambda of: float(of.found.field.outward(of.tried.value)),
         unit="that of the key",
     )
-    is_given: bool = of_tried("Whether this is the structure as it is given", lambda each: each.is_given)
+    is_given: bool = of_tried("Whether this is the structure as it is given", lambda of: of.is_given)
     holds: bool = of_tried(
         "Whether this value and all larger ones can be shown to hold",
-        lambda each: each.holds,
+        lambda of: of.holds,
     )
     overturning_share: float = of_tried(
         "Share that overturns, the mean over the stations; what cannot be told counts as 1",
-        lambda each: each.tried.share,
+        lambda of: of.tried.share,
     )
-    share_low: float = of_tried("Its lower one-sided 90 % bound, by earthquakes", lambda each: each.share_low)
-    share_high: float = of_tried(
-        "Its upper one-sided 90 % bound, by earthquakes", lambda each: each.share_high
-    )
-    target_share: float = of_tried("Share that may overturn", lambda each: each.found.target)
+    share_low: float = of_tried("Its lower one-sided 90 % bound, by earthquakes", lambda of: of.share_low)
+    share_high: float = of_tried("Its upper one-sided 90 % bound, by earthquakes", lambda of: of.share_high)
+    target_share: float = of_tried("Share that may overturn", lambda of: of.found.target)
     stations: int = of_tried(
         "Number of stations under which this value was followed; one that cannot be shown to hold any more is given up",
-        lambda each: each.stations,
+        lambda of: of.stations,
     )
-    earthquakes: int = of_tried(
-        "Number of earthquakes of all stations that count", lambda each: each.earthquakes
-    )
+    earthquakes: int = of_tried("Number of earthquakes of all stations that count", lambda of: of.earthquakes)
     still_stations: int = of_tried(
         "Number of further stations at which nothing lifts it with any value, which do not count",
-        lambda each: each.still_stations,
+        lambda of: of.still_stations,
     )
     slides: bool = of_tried(
         "Whether the value is left out because it slides before it lifts and nothing can be told",
-        lambda each: each.slides,
+        lambda of: of.slides,
     )
-    untold: int = of_tried(
-        "Number of components under which it cannot be told", lambda each: each.tried.untold
-    )
-    governing: str = of_tried("The crack that overturns most often", lambda each: each.tried.governing)
+    untold: int = of_tried("Number of components under which it cannot be told", lambda of: of.tried.untold)
+    governing: str = of_tried("The crack that overturns most often", lambda of: of.tried.governing)
     static_tie: float = of_tried(
         "Least strength of a tie by the linear check of the code",
-        lambda each: each.found.static_tie / 1e3,
+        lambda of: of.found.static_tie / 1e3,
         unit="kN/m",
     )
 
@@ -183,8 +177,8 @@ def write_strengthening(
 
 
 def _rows(structure: str, found: Strengthening) -> Iterator[StrengtheningRow]:
-    for each in (found.given, *found.tried):
-        yield StrengtheningRow.of(_TriedValue(structure, found, each))
+    for trial in (found.given, *found.tried):
+        yield StrengtheningRow.of(_TriedValue(structure, found, trial))
 
 
 def _scene(scenes: Mapping[str, Scene], name: str, path: str) -> Scene:
@@ -198,7 +192,7 @@ def _scene(scenes: Mapping[str, Scene], name: str, path: str) -> Scene:
 
 def _size(scene: Scene, key: str, between: str) -> tuple[Field, tuple[float, float]]:
     """The size of that key, and the ends of the range in SI. Raises ConfigurationError."""
-    allowed = {each.key: each for each in sizes(scene.structure)}
+    allowed = {size.key: size for size in sizes(scene.structure)}
     if key not in allowed:
         raise ConfigurationError(
             f"key is {shown(key)}, but {article(scene.structure.type_name)} has no such size{nearest(key, allowed)}; "
@@ -231,8 +225,8 @@ def _records(study: Study) -> tuple[list[Accelerogram], Sample, list[str]]:
     if study.settings.vertical:
         notes.append("Vertical components do not act here, though the settings say vertical: true.")
     if spectrum is None:
-        of_pool = [(name, each) for name, pair in pool.items() for each in pair]
-        records = [each for _, each in of_pool]
+        of_pool = [(name, component) for name, pair in pool.items() for component in pair]
+        records = [component for _, component in of_pool]
         rows = [name for name, _ in of_pool]
         return records, Sample.of(records, rows=rows, each_unnamed=each_unnamed), notes
     limits = (checks.least_factor, checks.largest_factor)
@@ -245,6 +239,6 @@ def _records(study: Study) -> tuple[list[Accelerogram], Sample, list[str]]:
             f"{counted(beyond, 'record')} left out, which no factor from {limits[0]:g} to {limits[1]:g} brings to the "
             "design level."
         )
-    records = [each for place in within for each in scaled.scaled(place)]
+    records = [component for place in within for component in scaled.scaled(place)]
     stations = [scaled.stations[place] for place in within for _ in scaled.pairs[place]]
     return records, Sample.of(records, stations, each_unnamed=each_unnamed), notes

@@ -70,7 +70,7 @@ def summarise(job: Job) -> None:
     outcomes = read_outcomes(job.plan.outcomes())
     instead = [name for name, scene in study.scenes.items() if scene.variant_of]
     beside = [_read_beside(job, name) for name in job.task.beside]
-    faults = [fault for each in beside for fault in each.rows[FailureRow]]
+    faults = [fault for product in beside for fault in product.rows[FailureRow]]
     shown, pages, spectra, sums = write_summary(
         outcomes,
         study.structures,
@@ -82,7 +82,9 @@ def summarise(job: Job) -> None:
         study.remarks,
         study.settings.acceleration_scale,
     )
-    paths: dict[type[Row], str | list[str]] = {each: each.table.file_name for each in SUMMARY_TABLES}
+    paths: dict[type[Row], str | list[str]] = {
+        row_class: row_class.table.file_name for row_class in SUMMARY_TABLES
+    }
     write_whole(target / "datapackage.json", data_package("rocking-study", paths))
     provenance = {
         "versions": versions(),
@@ -130,11 +132,11 @@ def _documents(
     from rocking.reports.explore import explore_page  # matplotlib takes half a second to import
 
     study = job.study
-    sheets = {each: rows for each, rows in shown.items() if each not in _NOT_IN_THE_WORKBOOK}
+    sheets = {row_class: rows for row_class, rows in shown.items() if row_class not in _NOT_IN_THE_WORKBOOK}
     notes: dict[str, list[str]] = {}
-    for each in beside:
-        sheets |= {of_sheet: [*rows] for of_sheet in each.work.sheets if (rows := each.rows[of_sheet])}
-        for structure, note in each.work.notes(each.rows).items():
+    for product in beside:
+        sheets |= {of_sheet: [*rows] for of_sheet in product.work.sheets if (rows := product.rows[of_sheet])}
+        for structure, note in product.work.notes(product.rows).items():
             notes.setdefault(structure, []).append(note)
     drawn: list[Strip] = []
     if groups := variants_of(study.scenes):
@@ -142,8 +144,8 @@ def _documents(
 
         compared = variants(groups, worst_of_each(conclusions(rows_of(VerdictRow, shown), [])))
         drawn = strips(compared, study.structures, notes=notes)
-        sheets[VariantRow] = [VariantRow.of(each) for row in compared.values() for each in row]
-    told = [each.conclusion for each in beside if each.conclusion]
+        sheets[VariantRow] = [VariantRow.of(variant) for row in compared.values() for variant in row]
+    told = [product.conclusion for product in beside if product.conclusion]
     title = study.settings.study or ""
     figures = study.settings.figures
     pdf, scatter = target / "summary.pdf", target / SCATTER
@@ -187,8 +189,8 @@ def _report(
 
     level = study.settings.design_spectrum.spectrum()
     design = (level, spectra) if level is not None and spectra else None
-    panels = [panel for each in beside if (panel := each.work.panel(each.rows))]
-    told = [each.conclusion for each in beside if each.conclusion]
+    panels = [panel for product in beside if (panel := product.work.panel(product.rows))]
+    told = [product.conclusion for product in beside if product.conclusion]
     page = summary_data(rows, study.settings.for_pages, design, strips, told, panels)
     write_document(pdf, page, study.settings.figures)
 

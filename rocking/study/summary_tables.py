@@ -60,26 +60,26 @@ def write_summary(
     earthquake are of one each. remarks: on the study itself. scale: the block that predicts. Returned as the last are
     the hashes of the files of the records.
     """
-    kept: dict[type[Row], list[Row]] = {each: [] for each in SUMMARY_TABLES}
+    kept: dict[type[Row], list[Row]] = {row_class: [] for row_class in SUMMARY_TABLES}
     pages: list[dict[str, Any]] = []
     spectra: list[Sequence[float]] = []
     sums: dict[str, str] = {}
     falls_of_records: list[ExpectedFallsRow] = []
     cases: list[ComparisonRow] = []
     read: list[RecordRow] = []
-    of_records = [each for each in SUMMARY_TABLES if each in RECORD_TABLES]
+    of_records = [row_class for row_class in SUMMARY_TABLES if row_class in RECORD_TABLES]
     with written_together(), ExitStack() as stack:
         write = {
-            each: stack.enter_context(rows_written(each, target / each.table.file_name))
-            for each in of_records
+            row_class: stack.enter_context(rows_written(row_class, target / row_class.table.file_name))
+            for row_class in of_records
         }
         write[RemarkRow](remarks)  # what was typed, before what records say
         kept[RemarkRow] += remarks if reports else ()
         for outcome in outcomes:
-            for each in of_records:
-                write[each](outcome.rows[each])
+            for row_class in of_records:
+                write[row_class](outcome.rows[row_class])
                 if reports:
-                    kept[each] += outcome.rows[each]
+                    kept[row_class] += outcome.rows[row_class]
             read += rows_of(RecordRow, outcome.rows)[:1]
             verdicts = rows_of(VerdictRow, outcome.rows)
             cases += counted_cases(rows_of(ComparisonRow, outcome.rows), verdicts)
@@ -98,10 +98,10 @@ def write_summary(
         write[FailureRow](told)
         kept[FailureRow] += told if reports else ()
         names = named_records(read, each_unnamed)
-        of_all = falls_over(falls_of_records, Sample.named(names[each.record] for each in falls_of_records))
+        of_all = falls_over(falls_of_records, Sample.named(names[falls.record] for falls in falls_of_records))
         kept[ExpectedFallsRow] = [*falls_of_records, *([of_all] if of_all else [])]
         kept[AgreementRow] = list(agreement_rows(cases, names))
-        write_tables({each: rows for each, rows in kept.items() if each not in write}, target)
+        write_tables({row_class: rows for row_class, rows in kept.items() if row_class not in write}, target)
     return kept, pages, spectra, sums
 
 

@@ -50,18 +50,20 @@ def record_line(scenes: Iterable["SceneResult"], failures: Iterable[FailureRow])
     component. What could not be assessed comes first. Structures on supports stand at the end in a sentence each. At
     most _NAMED are named, the worst first.
     """
-    reasons = ((f"{each.structure}: " if each.structure else "") + each.message for each in failures)
+    reasons = (
+        (f"{failure.structure}: " if failure.structure else "") + failure.message for failure in failures
+    )
     parts: dict[Verdict, list[str]] = {word: [] for word in ORDER}
     scenes = sorted(scenes, key=lambda scene: scene.worst.severity, reverse=True)
     on_the_ground = [scene.worst for scene in scenes if not scene.scene.place.supports]
-    for each in on_the_ground:
-        decision = each.decision
+    for result in on_the_ground:
+        decision = result.decision
         share = decision.share_in_words
         number = f" ({share})" if share else ""
         if decision.word.stays_up:
-            number = f" {each.rotation_ratio:.2g}" if rocks(each.rotation_ratio) else ""
-        divided = "," in each.structure or ";" in each.structure
-        name = f'"{each.structure}"' if divided else each.structure
+            number = f" {result.rotation_ratio:.2g}" if rocks(result.rotation_ratio) else ""
+        divided = "," in result.structure or ";" in result.structure
+        name = f'"{result.structure}"' if divided else result.structure
         parts[decision.word].append(name + number)
     told = {"failed": " ".join(reasons)} | _named(parts, _NAMED)
     lines = [f"{word}: {text}" for word, text in told.items() if text]
@@ -88,10 +90,12 @@ def closing_lines(
     are named.
     """
     worst = worst_of_each(conclusions(verdicts, []))
-    records = len({each.record for each in verdicts})  # one that failed gives none
-    shown = {(each.verdict.record, each.verdict.structure): each for each in worst[:_WORST]}
+    records = len({verdict.record for verdict in verdicts})  # one that failed gives none
+    shown = {
+        (conclusion.verdict.record, conclusion.verdict.structure): conclusion for conclusion in worst[:_WORST]
+    }
     taken = worst_period_each(verdicts)
-    carried = any(each.support_period_s is not None for each in taken)
+    carried = any(verdict.support_period_s is not None for verdict in taken)
     of_shown: list[ComparisonRow] = []
     seen = false = 0
     missed = Counter[str]()
@@ -106,22 +110,28 @@ def closing_lines(
             false += integrated < predicted == math.inf
     if worst:
         count = f"{counted(records, 'record')}, {counted(len(worst), 'structure')}. "
-        words = {each.verdict.structure: each.verdict.decision.word for each in worst}
+        words = {conclusion.verdict.structure: conclusion.verdict.decision.word for conclusion in worst}
         for said in (count + conclusion_in_words(words, records), falls_in_words(expected)):
             yield from wrap(said, WIDTH)
         yield "Rotation over critical rotation of the worst structures, each under its worst record; the first by"
         yield "verdict, share, then reserve (5 and 50 % overturn at × the record):"
         yield f"{'':<16}  {'record':<18}  closed  block  integrated     reserve  verdict, share"
     own = (row for row in taken if (row.record, row.structure) in shown)
-    for each in conclusions(own, of_shown):
-        ratios = map(_rotation, each.ratios)
+    for conclusion in conclusions(own, of_shown):
+        ratios = map(_rotation, conclusion.ratios)
         marks = "  ".join(f"{text:>{width}}" for text, width in zip(ratios, (6, 5, 10), strict=True))
-        reserve = each.verdict.reserve.in_figures if each.verdict.reserve else "–"
-        line = f"{_cut(each.verdict.structure, 16):<16}  {_cut(each.verdict.record, 18):<18}  {marks}  {reserve:>10}  "
-        yield f"{line}{each.verdict.decision.word} {each.verdict.decision.share_in_words}".rstrip()
-    if any("–" in each.verdict.decision.share_in_words for each in worst[:_WORST]):
+        reserve = conclusion.verdict.reserve.in_figures if conclusion.verdict.reserve else "–"
+        line = (
+            f"{_cut(conclusion.verdict.structure, 16):<16}  {_cut(conclusion.verdict.record, 18):<18}  {marks}  "
+            f"{reserve:>10}  "
+        )
+        yield f"{line}{conclusion.verdict.decision.word} {conclusion.verdict.decision.share_in_words}".rstrip()
+    if any("–" in conclusion.verdict.decision.share_in_words for conclusion in worst[:_WORST]):
         yield "A range: two cracks, or the mechanism and contact dynamics, disagree."
-    others = [(each.verdict.decision.word, _cut(each.verdict.structure, 30)) for each in worst[_WORST:]]
+    others = [
+        (conclusion.verdict.decision.word, _cut(conclusion.verdict.structure, 30))
+        for conclusion in worst[_WORST:]
+    ]
     if names := {word: [name for its, name in others if its is word] for word, _ in others}:
         text = "; ".join(map(": ".join, _named(names, _NAMED - _WORST).items()))
         yield from wrap(text, WIDTH, initial_indent="Others  ", subsequent_indent=" " * 8)
@@ -149,10 +159,12 @@ def _closed_form_lines(seen: int, missed: Counter[str] | int, false: int, of_wha
 
 def _failing_lines(failures: Sequence[FailureRow]) -> Iterator[str]:
     """The records that failed, and the sentences on structures that did over all records."""
-    sentences = dict.fromkeys(f"{each.structure}: {each.message}" for each in failures if not each.record)
+    sentences = dict.fromkeys(
+        f"{failure.structure}: {failure.message}" for failure in failures if not failure.record
+    )
     for sentence in list(sentences)[:_NAMED]:
         yield from wrap(sentence.removeprefix(": "), WIDTH, subsequent_indent=" " * 8)
-    if failed := sorted({each.record for each in failures} - {""}):
+    if failed := sorted({failure.record for failure in failures} - {""}):
         text = f"{counted(len(failed), 'record')} failed, wholly or in part: {listed(failed, _NAMED)}"
         yield from wrap(text, WIDTH, subsequent_indent=" " * 8)
 
@@ -203,7 +215,7 @@ def paths_to_read(
     say.
     """
     summary = results / "summary"
-    records = worst_first((each.record, each.severity) for each in worst_period_each(verdicts))
+    records = worst_first((verdict.record, verdict.severity) for verdict in worst_period_each(verdicts))
     first = summary / "summary.pdf" if reports else summary
     files = {first: "all records"}
     if records and reports:

@@ -80,9 +80,9 @@ def write_catalogue(folder: Path, target: Path, unit: str | None, time_step: flo
         write_whole(target, catalogue_text([*found.existing, *rows], list(columns), target).encode())
     records = {file.record for file in files}
     of_folder = (
-        each for each in found.existing if not (each.get("source_repository") or "obspy:" in each["file"])
+        path for path in found.existing if not (path.get("source_repository") or "obspy:" in path["file"])
     )
     note = "{}: its row stays in the catalogue, but its file is not there; remove the row or add the file."
-    lost = [note.format(each["id"]) for each in of_folder if each["id"] not in records]
+    lost = [note.format(path["id"]) for path in of_folder if path["id"] not in records]
     count = f"{target}: {counted(len(existing) + len(rows), 'record')}, {len(rows)} of them new"
     return listing_text(files) + "\n".join(["", *map(str, found.remarks), *lost, *asked, count])
