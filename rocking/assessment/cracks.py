@@ -225,6 +225,11 @@ def cracked(structure: Structure, description: str) -> Structure:
     return next(described, structure) if description else structure
 
 
+def part_cracked(structure: Structure, description: str) -> str:
+    """Return the leaf that falls alone with the crack of this description, "" where it is no leaf's."""
+    return next((each.part for each in cracks(structure) if each.description == description), "")
+
+
 def ensemble_over_cracks(
     structure: Structure,
     motions: GroundMotions,

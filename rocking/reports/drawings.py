@@ -18,7 +18,7 @@ from rocking.records.measures import record_measures
 from rocking.reports.pages import Picture
 from rocking.reports.style import PULSE
 from rocking.structures import Structure
-from rocking.structures.drawing import Mark
+from rocking.structures.drawing import Bay, Mark
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -58,6 +58,14 @@ _LEAVES = {
     ),
 }
 """The faces between leaves, and the stones that hold these together."""
+_BESIDE = Line(
+    'fill="#f4f4f4" stroke="#b3b3b3" stroke-width="0.12"',
+    {"facecolor": "0.96", "edgecolor": "0.7", "linewidth": 0.5, "zorder": 0.5},
+)
+"""The rest of a wall beside a leaf of it that falls alone."""
+_FRONT: dict[str, Any] = {"fill": False, "edgecolor": "0.3", "linewidth": 0.6}
+_FALLS: dict[str, Any] = {"facecolor": "0.85", "edgecolor": "0.3", "linewidth": 0.8}
+"""The front of a wall, and what of it falls between two ties."""
 _SIDES = {"load": ("center", "bottom"), "thrust": ("right", "center")}
 """The side of its value that touches the end of an arrow, horizontally and vertically."""
 _FALLEN = 3.0
@@ -133,30 +141,38 @@ def thinned(times: np.ndarray, values: np.ndarray, most: int = MOST_POINTS) -> t
     return times[places], values[places]
 
 
-def room(structure: Structure, rotation: float, width: float, height: float) -> tuple[float, np.ndarray]:
+def room(
+    structure: Structure, rotation: float, width: float, height: float, beside: Sequence[np.ndarray] = ()
+) -> tuple[float, np.ndarray]:
     """Return the scale [mm/m] at which `sketch` fills a picture of that size in mm, and the middle (2,), m, of it."""
-    every = np.vstack([*structure.outline(rotation), *structure.outline()])
+    every = np.vstack([*structure.outline(rotation), *structure.outline(), *beside])
     bottom, top = every.min(axis=0), every.max(axis=0)
     scale = min((np.array([width, height]) - 1.3) / (top - bottom))  # circles stand over the edges
     return float(scale), (bottom + top) / 2
 
 
 def sketch(
-    structure: Structure, rotation: float, width: float, height: float, scale: float = 0.0
+    structure: Structure,
+    rotation: float,
+    width: float,
+    height: float,
+    scale: float = 0.0,
+    beside: Sequence[np.ndarray] = (),
 ) -> list[str]:
     """Return a structure at a signed `rotation` [rad] and dashed at rest, as shapes of SVG that fill a picture in mm.
 
     With its hinges (circles), loads (arrows), ties and supports (lines), as `draw_structure` draws them. scale: mm/m;
-    0: that at which it fills the picture.
+    0: that at which it fills the picture. beside: the rest of the wall of which it is a leaf, drawn lightly.
     """
-    largest, middle = room(structure, rotation, width, height)
+    largest, middle = room(structure, rotation, width, height, beside)
     scale = scale or largest
     filled = 'fill="#c7c7c7" stroke="#595959" stroke-width="0.18"'
     dashed = 'fill="none" stroke="#4d4d4d" stroke-width="0.18" stroke-dasharray="0.65 0.28"'
     circled = 'fill="white" stroke="black" stroke-width="0.21"'
     around = np.array([[np.cos(turn), np.sin(turn)] for turn in np.linspace(0, 2 * np.pi, 13)])
 
-    areas = [(each, filled) for each in structure.outline(rotation)]
+    areas = [(each, _BESIDE.by_hand) for each in beside]
+    areas += [(each, filled) for each in structure.outline(rotation)]
     areas += [(each, dashed) for each in structure.outline()]
     areas += [(hinge + 0.53 / scale * around, circled) for hinge in structure.hinges(rotation)]
     paths = [(points, look, True) for points, look in areas]
@@ -196,12 +212,13 @@ def draw_structure(
     values: bool = False,
     look: dict[str, Any] | None = None,
     place: Transform | None = None,
+    beside: Sequence[np.ndarray] = (),
 ) -> None:
     """Draw the parts at a signed `rotation` [rad], and the loads, thrusts (arrows) and ties (lines) that act on them.
 
     Displaced, it is drawn also at rest (dashed), and with the hinges (circles). values: write the value of each load
     and tie beside it. look: of the filled parts, as matplotlib.patches.Polygon takes it. place: from m to the units of
-    the axes.
+    the axes. beside: the rest of the wall of which it is a leaf, drawn lightly.
     """
     from matplotlib.patches import Polygon
 
@@ -209,6 +226,8 @@ def draw_structure(
     filled = {"facecolor": "0.85", "edgecolor": "0.3", "linewidth": 0.8, "transform": where} | (look or {})
     parts = structure.outline(rotation)
     at_rest = structure.outline() if rotation else []
+    for outline in beside:
+        axes.add_patch(Polygon(outline, closed=True, transform=where, **_BESIDE.on_axes))
     for outline in parts:
         axes.add_patch(Polygon(outline, closed=True, **filled))
     for outline in at_rest:
@@ -270,7 +289,7 @@ def draw_dimensions(
 
     front = structure.described.front
     if len(front):
-        axes.add_patch(Polygon(front, closed=True, fill=False, edgecolor="0.3", linewidth=0.6))
+        axes.add_patch(Polygon(front, closed=True, **_FRONT))
     for each in structure.dimensions():
         axes.plot(*each.line.T, **_THIN)  # type: ignore[arg-type]
         for end, before in ((0, 1), (-1, -2)):
@@ -281,6 +300,16 @@ def draw_dimensions(
         if values and each.line.shape[0] > 2:
             va = "top"  # within the arc, clear of the radius
         axes.text(place[0], place[1], f" {text} ", ha=ha, va=va, zorder=4, bbox=_PAPER)
+
+
+def draw_bay(axes: Axes, bay: Bay) -> None:
+    """Draw the front between two ties of a row, with what may fall there and the ties (crosses)."""
+    from matplotlib.patches import Polygon
+
+    axes.add_patch(Polygon(bay.outline, closed=True, **_FRONT))
+    for outline in bay.falls:
+        axes.add_patch(Polygon(outline, closed=True, **_FALLS))
+    axes.plot(*bay.ties.T, "x", color=_TIE, markersize=6, markeredgewidth=1.6, zorder=3)
 
 
 def _beside(line: np.ndarray, feet: np.ndarray) -> tuple[np.ndarray, str, str]:

@@ -20,7 +20,7 @@ from rocking.assessment.conclusion import (
     to_check,
     worst_cases,
 )
-from rocking.assessment.cracks import cracked, crushing_factor
+from rocking.assessment.cracks import cracked, crushing_factor, part_cracked
 from rocking.assessment.decide import ORDER, Verdict
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.methods import NEGLIGIBLE, Agreement, agreement
@@ -448,7 +448,8 @@ def _turned(verdict: VerdictRow, structure: Structure) -> Picture:
     broken = cracked(structure, verdict.crack)
     sign = -1 if verdict.peak_side == -1 else 1
     side = broken.mechanism().sides[0 if sign > 0 else -1]
-    shapes = sketch(broken, sign * _DRAWN * side.critical_rotation, *_ROOM)
+    beside = structure.beside(part_cracked(structure, verdict.crack))
+    shapes = sketch(broken, sign * _DRAWN * side.critical_rotation, *_ROOM, beside=beside)
     return drawn_by_hand(shapes, *_ROOM, f"{verdict.structure}, turned, and at rest.")
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from rocking.errors import DoesNotStandError, SizeError, StructureWarning
 from rocking.remarks import Remark
-from rocking.structures.drawing import Mark, Path, span
+from rocking.structures.drawing import Mark, Path, plane, rectangle, span
 from rocking.structures.fields import Value, length
 from rocking.structures.kinds import StructureKind
 from rocking.structures.structure import AS_GIVEN, CRACKS, Candidate, LeafAlone, Structure
@@ -203,6 +203,23 @@ class Leaved(Structure):
                 if foot < height <= top
             ]
         return (*super().marks(rotation), *marks)
+
+    def beside(self, leaf: str) -> list[np.ndarray]:
+        alone = dict(self.leaves_alone).get(leaf)
+        if alone is None:
+            return []
+        place = LEAVES[len(self.leaves)].index(leaf)
+        own_face = max(float(outline[:, 0].max()) for outline in alone.outline())
+        outlines = []
+        for foot, top, inner, outer in self._sections:
+            faces = self._faces(inner, outer)
+            aside = own_face - faces[place][0]
+            outlines += [
+                plane(rectangle(low + aside, high + aside, foot, top))
+                for number, (high, low) in enumerate(faces)
+                if number != place
+            ]
+        return outlines
 
     def _faces(self, inner: float, outer: float) -> list[tuple[float, float]]:
         """The outer and the inner face of each leaf from outside in, m; what the wall is thicker lies between them."""

@@ -557,15 +557,16 @@ class Restraint:
         return self.needed > self.gives
 
     @property
-    def slides_out(self) -> Remark | None:
-        """A remark where a tie may get more than the wall around it gives; None where not.
+    def most(self) -> float:
+        """The most that a tie may get, N per metre: the force at which it yields, or else that of the impacts."""
+        return self.ties if self.ties < float("inf") else IMPACTS * self.needed
 
-        More is the force at which it yields, or else that of the impacts of the wall.
-        """
-        most = self.ties if self.ties < float("inf") else IMPACTS * self.needed
-        if not most > self.grip:
+    @property
+    def slides_out(self) -> Remark | None:
+        """A remark where a tie may get more than the wall around it gives; None where not."""
+        if not self.most > self.grip:
             return None
-        facts = {"height_m": self.height, "most_kN_m": most / 1e3, "grip_kN_m": self.grip / 1e3}
+        facts = {"height_m": self.height, "most_kN_m": self.most / 1e3, "grip_kN_m": self.grip / 1e3}
         return Remark.of(StructureKind.ANCHOR_SLIDES, self.holds, **facts)
 
     @property

@@ -16,7 +16,7 @@ from rocking.quantities import GRAVITY, within
 from rocking.remarks import Remark
 from rocking.structures.capacity import StaticCapacity, StaticCurve
 from rocking.structures.description import Description
-from rocking.structures.drawing import Dimension, Mark, Path, plane
+from rocking.structures.drawing import Bay, Dimension, Mark, Path, plane
 from rocking.structures.fields import CompressiveStrength, PlainSignature, Value, constructor
 from rocking.structures.kinds import StructureKind
 from rocking.structures.linkage import (
@@ -388,6 +388,15 @@ class Structure(ABC):
     def marks(self, rotation: float = 0.0) -> tuple[Mark, ...]:
         """Return the loads, thrusts, ties and supports on it at a signed `rotation` [rad]."""
         return ()
+
+    @property
+    def bay(self) -> Bay | None:
+        """The front between two ties of a row, of a wall that may fall there; else None."""
+        return None
+
+    def beside(self, leaf: str) -> list[np.ndarray]:
+        """Return the outlines (k, 2) of its other leaves at rest, m, as a leaf of that name sees them alone."""
+        return []
 
     def thrust_line(self, count: int = 200) -> np.ndarray:
         """Return the line of thrust as it starts to rock to the positive side, about `count` points (k, 2) in m.

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from rocking.errors import DoesNotStandError, SizeError, StructureError, StructureWarning
 from rocking.quantities import GRAVITY
 from rocking.remarks import Remark
-from rocking.structures.drawing import Mark, plane
+from rocking.structures.drawing import Bay, Mark, plane, rectangle
 from rocking.structures.fields import Value
 from rocking.structures.held_wall import Chain, HeldWall, Hold, Opening
 from rocking.structures.kinds import StructureKind
@@ -58,6 +58,10 @@ FAR_APART = 3.0
 the least λ is that of a wall held all along up to there, and goes down to that of the triangle beyond."""
 
 
+_ASIDE = 0.5
+"""Distance of the front of a bay from the section, in heights of the wall: what stands between is the dimensions."""
+_BESIDE_A_BAY = 0.08
+"""What is drawn of the bays beside it, in spacings."""
 _RODS_SPREAD: dict[str, Any] = {
     "rod_diameter": None,
     "rod_length": None,
@@ -681,6 +685,40 @@ class Tied(CrackedAtHeight, Leaved):
             for height in self.held_at
         ]
         return (*super().marks(rotation), *marks)
+
+    @property
+    def bay(self) -> Bay | None:
+        if not self.ties_apart or self.tie_spacing is None:
+            return None
+        left = max(float(each[:, 0].max()) for each in self.outline()) + _ASIDE * self.height
+        ends = left + _BESIDE_A_BAY * self.tie_spacing + np.array([0.0, self.tie_spacing])
+        right = float(ends[1]) + _BESIDE_A_BAY * self.tie_spacing
+        top = self.height
+        openings = [self.opening]
+        if self.opening is None:
+            own = [each.structure for each in self.mechanisms() if not each.part]
+            openings = [wall.opening for wall in own if isinstance(wall, Tied)]
+        falls = []
+        for opening in openings:
+            if opening is None or not opening.between:
+                continue
+            # Not a triangle: all of the bay above its foot, as if no tie held it.
+            hold = opening.hold if opening.is_triangle and opening.hold is not None else opening.foot
+            falls.append(
+                np.array(
+                    [
+                        [float(ends.mean()), opening.foot],
+                        [ends[1], hold],
+                        [ends[1], top],
+                        [ends[0], top],
+                        [ends[0], hold],
+                    ]
+                )
+            )
+        if not falls:
+            return None
+        ties = np.array([[end, height] for end in ends for height in self.tie_heights])
+        return Bay(plane(rectangle(left, right, 0.0, top)), tuple(falls), ties)
 
     def _with_bonders(self, holds: Iterable[Hold]) -> list[Hold]:
         """What holds a leaf besides the rest of its wall, which gives to neither side where it does."""

@@ -12,12 +12,13 @@ from rocking.codes.check import Check, DynamicCheck, StructureCheck
 from rocking.codes.code_capacity import LIMIT_STATES, CodeCapacity
 from rocking.codes.selection import Selection
 from rocking.products.checks.rows import KINDS
-from rocking.reports.drawings import draw_dimensions, draw_structure
+from rocking.reports.drawings import draw_bay, draw_dimensions, draw_structure
 from rocking.reports.panels import ZERO, plot
 from rocking.reports.printing import unit_of
 from rocking.reports.sentences import Sentences
 from rocking.reports.style import PREDICTED, PULSE, new_figure, panel_at, room_for_texts, styled
 from rocking.structures import Structure
+from rocking.structures.tied import Tied
 
 _HEIGHT = 102.0
 """mm; of the mechanism beside its bars."""
@@ -39,22 +40,30 @@ _BAR = 0.24
 
 
 @styled
-def bars_figure(checked: StructureCheck, untied: StructureCheck | None, words: Sentences) -> Figure:
+def bars_figure(
+    structure: Structure, checked: StructureCheck, untied: StructureCheck | None, words: Sentences
+) -> Figure:
     """Draw the mechanism that governs, turned, and beside it capacity over demand of each check on one scale.
 
-    untied: the checks without ties, whose bars are outlined below the others.
+    structure: of which a leaf may be what falls. untied: the checks without ties, whose bars are outlined below the
+    others.
     """
     figure = new_figure(_HEIGHT)
     mechanism = checked.governing
-    drawn = panel_at(figure, 2, 6, 58, _HEIGHT - 10)
+    body = mechanism.candidate.structure
+    bay = body.bay if isinstance(body, Tied) and body.opening is not None else None
+    foot = 6 if bay is None else 6 + _HEIGHT / 3
+    drawn = panel_at(figure, 2, foot, 58, _HEIGHT - 4 - foot)
     rotation = mechanism.candidate.sign * _TURNED * mechanism.static.side.critical_rotation
     # The values beside loads and ties are English; on an Italian page they stand among the assumptions alone.
-    draw_structure(drawn, mechanism.candidate.structure, rotation, values=words.language == "en")
-    drawn.set_aspect("equal", adjustable="datalim")
-    drawn.margins(0.08)
-    drawn.autoscale_view()
-    drawn.set_axis_off()
-    room_for_texts(figure, drawn)
+    values = words.language == "en"
+    rest = structure.beside(mechanism.candidate.part)
+    draw_structure(drawn, body, rotation, values=values, beside=rest)
+    _to_scale(figure, drawn)
+    if bay is not None:
+        beside = panel_at(figure, 2, 6, 58, _HEIGHT / 3 - 6)
+        draw_bay(beside, bay)
+        _to_scale(figure, beside)
 
     axes = panel_at(figure, 92, 6, 76, _HEIGHT - 18)
     axes.axvspan(_LEAST, 1, color=_SIDE, zorder=0)
@@ -160,17 +169,28 @@ def _write_beside(axes: Axes, place: float, text: str, **look: Any) -> None:
 def basis_figure(structure: Structure, checked: StructureCheck, words: Sentences) -> Figure:
     """Draw the structure with its sizes and loads, and the capacity curve of the mechanism that governs."""
     figure = new_figure(_BASIS_HEIGHT)
-    drawn = panel_at(figure, 2, 4, 70, _BASIS_HEIGHT - 10)
+    bay = structure.bay
+    drawn = panel_at(figure, 2, 4, 70 if bay is None else 36, _BASIS_HEIGHT - 10)
     draw_structure(drawn, structure, values=words.language == "en")
     draw_dimensions(drawn, structure, values=True, written=words.decimal)
     drawn.set_title(words("sizes and loads"))
-    drawn.set_aspect("equal", adjustable="datalim")
-    drawn.margins(0.08)
-    drawn.autoscale_view()
-    drawn.set_axis_off()
-    room_for_texts(figure, drawn)
+    _to_scale(figure, drawn)
+    if bay is not None:
+        front = panel_at(figure, 41, 4, 36, _BASIS_HEIGHT - 10)
+        draw_bay(front, bay)
+        front.set_title(words("between two ties"))
+        _to_scale(figure, front)
     _draw_capacity(panel_at(figure, 94, 4, 74, _BASIS_HEIGHT - 13), checked.governing, words)
     return figure
+
+
+def _to_scale(figure: Figure, axes: Axes) -> None:
+    """Give a drawing one scale both ways, no axes, and room for what is written in it."""
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.margins(0.08)
+    axes.autoscale_view()
+    axes.set_axis_off()
+    room_for_texts(figure, axes)
 
 
 def _draw_capacity(axes: Axes, mechanism: CodeCapacity, words: Sentences) -> None:

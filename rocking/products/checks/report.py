@@ -196,7 +196,9 @@ def _sheets(
                     headline, details = _conclusion(page, checked, conclusion, spectrum, words)
                     # Once, with the structure that the others vary.
                     beside = (strip_of[name],) if name in strip_of else ()
-                    bars = picture(bars_figure(checked, page.untied, words), words("bars alt", name=name))
+                    bars = picture(
+                        bars_figure(page.structure, checked, page.untied, words), words("bars alt", name=name)
+                    )
                     answer = Answer(
                         way=opening_words(checked.governing, words),
                         bars=(bars,),

@@ -157,6 +157,21 @@ def test_triangle_joins_where_ties_stand_farther_apart_than_three_units():
     assert [StructureKind.TIES_ALL_ALONG in each for each in kinds] == [True, False, False]
 
 
+def test_the_front_between_two_ties_shows_the_triangle_and_what_stands_above_it():
+    """From the foot at mid-span to each tie at 2.9 m, and all above; none where a floor holds the wall all along."""
+    wall = replace(FRONT, tie_heights=(2.9,))
+    bay = wall.bay
+    (falls,) = bay.falls
+    left, right = bay.ties[:, 0]
+    assert right - left == pytest.approx(6.0)
+    corners = [((left + right) / 2, 0.0), (right, 2.9), (right, 3.2), (left, 3.2), (left, 2.9)]
+    assert falls == pytest.approx(np.array(corners))
+    assert bay.ties[:, 1].tolist() == [2.9, 2.9]
+    assert bay.outline[:, 0].min() > max(each[:, 0].max() for each in wall.outline())
+    assert triangle(wall).structure.bay.falls[0] == pytest.approx(falls)
+    assert replace(wall, held_between="floor").bay is None
+
+
 def test_wall_between_supports_falls_between_its_ties_as_without_them():
     values = {"top_load": 5e3, "one_sided": True, "restitution": 0.5}
     bare = LoadedWall.of_size(3.2, 0.25, 18e3, **values)
