@@ -131,6 +131,7 @@ class SetTrial(Row):
     split: int = column("Number of the split of the stations into two halves; each half is a pool once")
     pool: str = column("first or second half")
     stations: int = column("Stations of the pool")
+    earthquakes: int = column("Earthquakes of these stations")
     share: float = column("Share of the sets of this pool that meet the dynamic check")
     share_low: float = column("Lower end of its 90 % interval")
     share_high: float = column("Upper end of that interval")
@@ -149,7 +150,7 @@ class SetTrial(Row):
 
 _ONE_SET = 1 / SETS
 SET_STATIONS = 10
-SPLITS = 2
+SPLITS = 8
 """Partings of the earthquakes into two pools: more would be the same stations anew."""
 SET_WALLS = {
     f"{height:g} × {height / slenderness:.3g} m": Block.of_size(height / slenderness, height)
@@ -210,6 +211,7 @@ def _set_scores(trials: Sequence[SetTrial]) -> Iterator[Score]:
             "fewer meet it than the lower end": [
                 float(each.other_share < each.share_low - _ONE_SET) for each in own
             ],
+            "width of the interval": [each.share_high - each.share_low for each in own],
             "the other half calls it met": [float(each.other_share >= LEAST_SHARE) for each in own],
         }
         if own:
@@ -229,7 +231,8 @@ def _trials(selections: Sequence[Selection], split: int) -> Iterator[SetTrial]:
                 wall=name,
                 split=split,
                 pool=which,
-                stations=len(set(selections[place].stations)),
+                stations=selections[place].sample.count,
+                earthquakes=selections[place].sample.earthquakes,
                 share=own.share,
                 share_low=low,
                 share_high=high,

@@ -2,15 +2,16 @@
 
 Earthquakes are drawn, and stations of each: from populations whose truth is that of very many, and from real sites,
 whose truth is that of all of them, each earthquake with the same weight. The interval of a median, of an annual rate,
-of a share (its bounds) and of the structures expected to fall are those of the package; beside them stands what they
-were when every station counted as independent.
+of a share (its upper bound, by which a size is shown to hold; both, of shares over records, the trade and agreement)
+and of the structures expected to fall are those of the package; beside them stands what they were when every station
+counted as independent.
 """
 
 from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 
 import numpy as np
-from scipy.special import ndtr
+from scipy.special import ndtr, ndtri
 
 from docs.research import scores
 from docs.research.fragilities import RealSites, median_of, real_sites
@@ -36,6 +37,8 @@ MANY = 200_000
 STRUCTURES = 50
 """Of a class of which some fall."""
 TOLD = "rates that are told"
+BOUNDS = "upper bound", "both bounds"
+"""The one-sided one of 90 %, and an interval of 90 %."""
 _SHARES = (0.1, 0.3)
 """Shares that fall at the level of the bounds."""
 
@@ -72,7 +75,7 @@ def made_scores(name: str, draw: Draw) -> Iterator[scores.Score]:
     truths = {
         "median": float(np.exp(np.median(very_many))),
         "annual rate": float(np.exp(-SLOPE * very_many).mean()),
-        **{f"share of {share:g}, upper bound": share for share in _SHARES},
+        **{f"share of {share:g}, {which}": share for share in _SHARES for which in BOUNDS},
         "expected falls": float(_falls(very_many).mean()),
     }
     for earthquakes in EARTHQUAKES:
@@ -90,17 +93,27 @@ def made_scores(name: str, draw: Draw) -> Iterator[scores.Score]:
                     if trial < MEDIANS and not alone:
                         ends["median"] = sample.interval(partial(weighted_median, np.exp(logs)))
                     for share, level in zip(_SHARES, at_shares, strict=True):
-                        bound = sample.share_bounds((logs < level).astype(float), 0.1)[1]
-                        ends[f"share of {share:g}, upper bound"] = (0.0, float(bound))
+                        ends |= bounds_of(share, (logs < level).astype(float), sample)
                     for measure, (low, high) in ends.items():
                         held[measure][trial] = low <= truths[measure] <= high
                 yield from _told(name, earthquakes, stations, alone, held)
 
 
-def real_scores(name: str, pool: RealSites) -> Iterator[scores.Score]:
-    """Yield the coverage of the median and the rate for draws from real sites, as far as a study follows them.
+def bounds_of(
+    share: float, falls: np.ndarray, sample: Sample, tried: np.ndarray | None = None
+) -> dict[str, tuple[float, float]]:
+    """Return the ends by each of BOUNDS for a share at a level, from what falls at each station, (s,)."""
+    upper = sample.share_bounds(falls, 0.1, tried)[1]
+    low, high = sample.share_bounds(falls, tried=tried)
+    both = {BOUNDS[0]: (0.0, float(upper)), BOUNDS[1]: (float(low), float(high))}
+    return {f"share of {share:g}, {which}": ends for which, ends in both.items()}
 
-    A rate that is not told has the two ends beside it, which are scored by themselves.
+
+def real_scores(name: str, pool: RealSites) -> Iterator[scores.Score]:
+    """Yield the coverage of each interval for draws from real sites, as far as a study follows them.
+
+    A rate that is not told has the two ends beside it, which are scored by themselves. Shares are those at the levels
+    at which so many fall, and the class is of the one structure in strengths that scatter, at the second of them.
     """
     of_station = pool.sample.of_station
     of_events = [np.flatnonzero(of_station == event) for event in range(pool.sample.earthquakes)]
@@ -109,6 +122,9 @@ def real_scores(name: str, pool: RealSites) -> Iterator[scores.Score]:
     median = median_of(pool.levels, curve[None])
     rate = float(np.mean([rates[members].mean() for members in of_events]))
     hazard = hazard_of(pool.levels, SLOPE)
+    at_shares = {share: int(np.flatnonzero(curve >= share)[0]) for share in _SHARES}
+    falls = _falls_of_class(pool, at_shares[_SHARES[-1]])
+    mean_falls = float(np.mean([falls[members].mean() for members in of_events]))
     for earthquakes in EARTHQUAKES:
         for stations in STATIONS:
             rng = np.random.default_rng([earthquakes, stations])
@@ -120,13 +136,23 @@ def real_scores(name: str, pool: RealSites) -> Iterator[scores.Score]:
                 sample = sample_of(earthquakes, stations, alone)
                 held = {
                     measure: np.full(TRIALS, np.nan)
-                    for measure in ("median", "annual rate", "ends of a rate that is not told", TOLD)
+                    for measure in (
+                        *("median", "annual rate", "ends of a rate that is not told", TOLD),
+                        *(f"share of {share:g}, {which}" for share in _SHARES for which in BOUNDS),
+                        "expected falls",
+                    )
                 }
                 for trial, places in enumerate(draws):
                     told = rate_within(pool, places, sample, hazard)
                     measure = "annual rate" if told.is_told else "ends of a rate that is not told"
                     held[TOLD][trial] = told.is_told
                     held[measure][trial] = told.low <= rate <= told.high
+                    for share, level in at_shares.items():
+                        own = pool.curves[places, level]
+                        for which, (low, high) in bounds_of(share, own, sample).items():
+                            held[which][trial] = low <= curve[level] <= high
+                    low, high = interval_of_mean(falls[places], STRUCTURES, sample)
+                    held["expected falls"][trial] = low <= mean_falls <= high
                     if trial < MEDIANS and not alone:
                         low, high = sample.interval(
                             partial(_weighted_crossing, pool.levels, pool.within[places])
@@ -154,6 +180,15 @@ def _falls(logs: np.ndarray) -> np.ndarray:
     return falls
 
 
+def _falls_of_class(pool: RealSites, level: int) -> np.ndarray:
+    """How many structures of a class fall at each real site, (s,), where the one of middle strength meets a level."""
+    strengths = np.exp(0.3 * ndtri((np.arange(STRUCTURES) + 0.5) / STRUCTURES))
+    met = np.log(pool.levels[level] / strengths)
+    curves = [np.interp(met, np.log(pool.levels), own, left=0.0) for own in pool.curves]
+    falls: np.ndarray = np.sum(curves, axis=1)
+    return falls
+
+
 def _told(
     name: str, earthquakes: int, stations: int, alone: bool, held: Mapping[str, np.ndarray]
 ) -> Iterator[scores.Score]:
@@ -162,6 +197,7 @@ def _told(
     measures = {
         measure if measure == TOLD else f"{measure}: intervals that hold it": values
         for measure, values in held.items()
+        if not np.isnan(values).all()
     }
     yield from scores.scored(name, part, measures, range(TRIALS), 200)
 

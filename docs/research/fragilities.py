@@ -37,7 +37,7 @@ OPEN = (0.02, 0.98)
 """Probabilities between which the error of a curve counts."""
 STATIONS = (8, 20, 35)
 """Drawn for one interval."""
-TRIALS = 800
+TRIALS = 300
 """With an interval."""
 ESTIMATES = 20_000
 """Of the median alone, for its bias."""

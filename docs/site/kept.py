@@ -71,8 +71,11 @@ def _number(decimals: int) -> Callable[[Score], str]:
     """The value with its interval: "0.97 (0.90–1.02)"."""
 
     def words(kept: Score) -> str:
-        value, low, high = (f"{end:.{decimals}f}" for end in (kept.value, kept.value_low, kept.value_high))
-        return "–" if math.isnan(kept.value) else f"{value} ({low}–{high})"
+        value, low, high = (
+            f"{end:.{decimals}f}".replace("-", "−") for end in (kept.value, kept.value_low, kept.value_high)
+        )
+        between = " to " if kept.value_low < 0 else "–"
+        return "–" if math.isnan(kept.value) else f"{value} ({low}{between}{high})"
 
     return words
 
@@ -106,6 +109,8 @@ FORMS: Mapping[str, Callable[[Score], str]] = {
     ".2": _number(2),
     ".3": _number(3),
     "=.2": lambda kept: f"{kept.value:.2f}",
+    "=.3": lambda kept: f"{kept.value:.3f}",
+    "=n": lambda kept: f"{round(kept.value * kept.cases)}",
     "n": _count,
     "n%": _count_and_share,
     "sites": _sample,

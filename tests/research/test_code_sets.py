@@ -20,6 +20,7 @@ def trial(low: float, high: float, other: float) -> SetTrial:
         split=0,
         pool="first",
         stations=5,
+        earthquakes=3,
         share=high,
         share_low=low,
         share_high=high,
