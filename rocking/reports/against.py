@@ -18,7 +18,7 @@ from rocking.motion.response import Response
 from rocking.quantities import counted, listed, percents
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports.drawings import Trace, drawn_by_hand, sine_lines, svg_path, thinned
-from rocking.reports.pages import Against, Compared, ComparedWords, Ground, Picture, Tick
+from rocking.reports.pages import Against, AgainstHead, Compared, ComparedWords, Ground, Picture, Tick
 from rocking.reports.panels import rotation_ratios
 from rocking.reports.printing import NOTHING, number, quantity, unit_of
 from rocking.structures import Mechanism, Structure
@@ -38,6 +38,20 @@ _MARGIN = 0.04
 """Share of the window that is shown beyond the last of the largest rotations."""
 _MOST_NAMED = 30
 _STEPS = (1.0, 2.0, 5.0)
+TITLE = "Prediction against integration"
+HEADS = (
+    AgainstHead("paper", "Eqs. 15, 16"),
+    AgainstHead("closed form", "exact"),
+    AgainstHead("integrated", "whole record"),
+)
+"""The methods beside the strips."""
+LEGEND = (
+    "Black: the mechanism under the whole record, with the crack of its row in comparison.csv, under the component "
+    "that turns it farthest; a triangle where it falls. Band: closed form of the equivalent block under the sine. "
+    "Dotted: Eqs. 15 and 16 of the source paper as printed, with its block (λ by Eq. 7 in g, p by Eq. 11 in rad/s; "
+    "φ_cr in rad), grey outside of the regime in which Eq. 15 holds."
+)
+"""What the strips show."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,9 +158,13 @@ def against(
     ticks = _ticks(*span)
     shown = comparison.moving[:MOST_STRIPS]
     more = len(comparison.moving) - len(shown)
+    compared = tuple(_each_compared(shown, structures, span, ticks, comparison.several))
     return Against(
+        title=TITLE,
+        heads=HEADS,
+        legend=LEGEND if compared else "",
         grounds=tuple(_ground(each, span, ticks, pulses) for each in comparison.grounds),
-        compared=tuple(_each_compared(shown, structures, span, ticks, comparison.several)),
+        compared=compared,
         ticks=tuple(Tick(_across(at, span), f"{at:g}") for at in ticks),
         at_rest=comparison.at_rest,
         more=f"Another {counted(more, 'structure')} in comparison.csv." if more else "",

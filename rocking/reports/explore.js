@@ -283,7 +283,7 @@
   }
 
   // What stands beside page two's strip of a case, above its panel here
-  const HEADS = [["paper", "Eqs. 15, 16"], ["closed form", "exact"], ["integrated", "whole record"]];
+  const HEADS = content.against.heads;
   const LOOKS = (each) => [each.outside ? "outside" : "paper", "form", "whole"];
 
   function beside(each) {
@@ -313,7 +313,7 @@
   // Page two of a record: every structure that moves, the worst first, and those at rest
   function strips(record) {
     const [head, body] = at("strips").children;
-    head.textContent = `Prediction against integration: all structures under ${record.id}`;
+    head.textContent = `${content.against.title}: all structures under ${record.id}`;
     body.replaceChildren();
     if (!at("strips").open || !record.span.length) return;
     const moving = structures

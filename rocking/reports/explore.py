@@ -24,6 +24,9 @@ from rocking.quantities import GRAVITY, counted
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.processing import displacement
 from rocking.reports.against import (
+    HEADS,
+    LEGEND,
+    TITLE,
     Moving,
     compared_in_words,
     comparison_of,
@@ -35,7 +38,7 @@ from rocking.reports.against import (
 from rocking.reports.drawings import fallen_rotation
 from rocking.reports.pages import Strip
 from rocking.reports.panels import moving_span
-from rocking.reports.printing import LOOKS, band_text, cell_text, ratio
+from rocking.reports.printing import LOOKS, SHARES, band_text, cell_text, ratio
 from rocking.reports.record import warnings_of
 from rocking.reports.variants import strips_in_html
 from rocking.structures import Mechanism, Structure
@@ -51,6 +54,14 @@ PULSE_BINS = 60
 """Points of a pulse."""
 FRAMES = 24
 """Drawings of a structure for each side; between two of them the page interpolates."""
+_HOW_TO_READ = (
+    "A single run has no number, nor has a cell too narrow for it. The worst comes first; click a heading to sort by "
+    "its column. Arrow keys move between cells, Enter selects one."
+)
+_OF_DRAWING = (
+    f"The curves show the largest value in each of {BINS} intervals (acceleration: {GROUND_BINS}). The ground moves by "
+    "the record integrated twice, less a straight line, for the drawing only. Green: loads; blue: ties; rings: hinges."
+)
 _NONE = [-9.0, 0.0, 0.0, 0.0]
 """The severity of a case without a result."""
 _HERE = Path(__file__).parent
@@ -162,7 +173,8 @@ def explore_page(
         for record in of_records
         for name, case in record["cases"].items()
     ]
-    both = {
+    both: Content = {
+        "against": {"title": TITLE, "heads": [[head.name, head.below] for head in HEADS]},
         "records": _ranked(of_records, "id", worst_first((record, key) for record, _, key in cases)),
         "structures": _ranked(of_structures, "name", worst_first((name, key) for _, name, key in cases)),
     }
@@ -182,6 +194,9 @@ def explore_page(
         "count": f"{counted(len(_judged(of_records)), 'record')}, {counted(len(structures), 'structure')}",
         "verdicts": "".join(f"<option>{verdict}</option>" for verdict in LOOKS),
         "legend": "\n".join(legend),
+        "shares": escape(f"{SHARES} {_HOW_TO_READ}"),
+        "strip": escape(LEGEND),
+        "drawing": escape(_OF_DRAWING),
         "variants": strips_in_html(strips) if strips else "",
         "style": (_HERE / "explore.css").read_text(encoding="utf-8") + colours,
         "script": (_HERE / "explore.js").read_text(encoding="utf-8"),

@@ -57,7 +57,17 @@ def matrix(made: Sequence[Conclusion], records: Sequence[RecordRow], pulses: Seq
             )
             for name in shown
         ),
-        left_out=max(0, len(names) - MOST_STRUCTURES),
+        note=" ".join(filter(None, _note(in_words, len(names) - len(shown)))),
+    )
+
+
+def _note(in_words: bool, more: int) -> tuple[str, ...]:
+    """What the cells mean, and how many structures have no row."""
+    share = "Share: the largest that overturns, of members or stacks." if in_words else ""
+    return (
+        share,
+        "Range: cracks or models disagree.",
+        f"Another {more} in verdicts.csv." if more > 0 else "",
     )
 
 

@@ -137,20 +137,36 @@ class Strip:
     cells: tuple[VariantCell, ...]
 
 
-# A plain document ----------------------------------------------------------------------------------------
+@dataclass(frozen=True)
+class Topic:
+    """What there is to know of one thing."""
+
+    topic: str
+    texts: tuple[str, ...]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Part:
-    """One part of a plain document: what of this there is stands in this order, the caption under picture or table."""
+    """One part of a document: what of this there is stands in this order, the caption under picture or table.
+
+    level: of the heading. size: of the letters of the table, pt. last: rows that stay together at its end.
+    """
 
     heading: str = ""
+    level: int = 1
     notice: str = ""
     text: str = ""
     sentences: tuple[str, ...] = ()
     pictures: tuple[Picture, ...] = ()
     table: Table = Table()
     caption: str = ""
+    size: float = 7.5
+    last: int = 4
+    topics: tuple[Topic, ...] = ()
+    strips: tuple[Strip, ...] = ()
+
+
+# A plain document ----------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -227,14 +243,6 @@ class Others:
     names: str
 
 
-@dataclass(frozen=True)
-class Topic:
-    """What there is to know of one thing."""
-
-    topic: str
-    texts: tuple[str, ...]
-
-
 @dataclass(frozen=True, kw_only=True)
 class PageOne:
     """The page to look at, below its title: the record as a strip, and a row for each structure."""
@@ -245,9 +253,7 @@ class PageOne:
     rows: tuple[Row, ...]
     others: tuple[Others, ...]
     uncertain: tuple[str, ...]
-    reserve_in_words: str
-    untold: bool
-    left_out: str = ""
+    legend: str
 
 
 @dataclass(frozen=True)
@@ -294,10 +300,21 @@ class Compared(ComparedWords):
     picture: Picture
 
 
+@dataclass(frozen=True)
+class AgainstHead:
+    """A method of prediction or integration, and in brief what it is."""
+
+    name: str
+    below: str
+
+
 @dataclass(frozen=True, kw_only=True)
 class Against:
     """Prediction against integration: the ground, and a strip for each structure that moves, the worst first."""
 
+    title: str
+    heads: tuple[AgainstHead, ...]
+    legend: str
     grounds: tuple[Ground, ...]
     compared: tuple[Compared, ...]
     ticks: tuple[Tick, ...]
@@ -306,47 +323,20 @@ class Against:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Assumed:
-    """What was assumed, as far as it differs from study to study.
-
-    vertical: what the vertical component does, in words. measured: figures of campaigns, by name.
-    """
-
-    friction: str
-    vertical: str
-    arch: bool
-    tapering: bool
-    supported: bool
-    times: str
-    files: str
-    settings: str
-    version: str
-    tolerance: str
-    acceleration_scale: str
-    stones_farther: str
-    arch_momentum: str
-    missed_on_supports: str
-
-
-@dataclass(frozen=True, kw_only=True)
 class Details:
     """The figures and tables behind the pages of a record, with the sentences on what they leave out."""
 
-    histories: tuple[Picture, ...]
-    histories_note: str
-    reserve: tuple[Picture, ...]
-    reserve_note: str
-    supports: tuple[Picture, ...]
-    design: tuple[Picture, ...]
-    design_words: str
-    pulse_figures: tuple[Picture, ...]
-    comparison: tuple[Picture, ...]
-    comparison_note: str
-    verdicts: Table
-    facts: Table
-    pulses: Table
-    structures: Table
-    methods: Table
+    histories: Part
+    reserve: Part
+    supports: Part
+    design: Part
+    pulse_figures: Part
+    comparison: Part
+    verdicts: Part
+    facts: Part
+    pulses: Part
+    structures: Part
+    methods: Part
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -359,15 +349,13 @@ class RecordPage(Page):
     running: str
     conclusion: str
     at_design_level: str
-    scale_note: str
     notices: tuple[Notice, ...]
     page_one: PageOne
     against: tuple[Against, ...]
-    strips: tuple[Strip, ...]
-    advice: tuple[str, ...]
-    components: Table
-    known: tuple[Topic, ...]
-    assumed: Assumed
+    variants: Part
+    advice: Part
+    known: Part
+    assumed: Part
     details: tuple[Details, ...]
 
 
@@ -393,13 +381,14 @@ class MatrixRow:
 
 @dataclass(frozen=True)
 class Matrix:
-    """A column for each record, a row for each structure, both the worst first. left_out: structures without a row."""
+    """A column for each record, a row for each structure, both the worst first. note: what its cells mean, and what has
+    no row."""
 
     heads: tuple[MatrixHead, ...] = ()
     rows: tuple[MatrixRow, ...] = ()
     legend: tuple[Chip, ...] = ()
     upright: bool = False
-    left_out: int = 0
+    note: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -422,13 +411,13 @@ class MapRow:
 
 @dataclass(frozen=True)
 class SeverityMap:
-    """A line for each record, a column for each structure."""
+    """A line for each record, a column for each structure. record_heads: of the record and its peaks. words: what its
+    cells mean, and what has no row."""
 
-    peak_heads: tuple[str, ...]
+    record_heads: tuple[str, ...]
     heads: tuple[str, ...]
     rows: tuple[MapRow, ...]
-    legend: str
-    note: str
+    words: str
 
 
 @dataclass(frozen=True)
@@ -441,14 +430,6 @@ class Scatter:
     heading: str
     picture: Picture
     counted: str = ""
-
-
-@dataclass(frozen=True)
-class DesignSpectra:
-    """Spectra beside that of the design level, and what that is."""
-
-    picture: Picture
-    words: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -466,22 +447,19 @@ class SummaryPage(Page):
     map: SeverityMap
     whole_map: SeverityMap
     scatter: tuple[Scatter, ...]
-    outcomes: tuple[Picture, ...]
-    structures: Table
+    outcomes: Part
+    structures: Part
+    strips_title: str
     strips: tuple[Strip, ...]
-    supports: tuple[Picture, ...]
-    design: tuple[DesignSpectra, ...]
+    supports: Part
+    design: Part
     panels: tuple[Panel, ...]
-    failures: Table
-    failures_note: str
-    agreement: Table
-    methods: Table
-    unsafe: Table
-    unsafe_note: str
-    records: Table
-    records_note: str
-    tolerance: str
-    acceleration_scale: str
+    failures: Part
+    agreement: Part
+    lists: Part
+    methods: Part
+    unsafe: Part
+    records: Part
 
 
 # What a template receives --------------------------------------------------------------------------------

@@ -64,6 +64,11 @@ what cannot be told stands apart, hatched.
 """
 LEGEND = ", ".join(f"{sign} {verdict}" for verdict, (sign, *_) in LOOKS.items())
 """The signs of a map."""
+SHARES = (
+    "The number is the share of the ensemble that overturns, in %: a range where cracks, or the members and contact "
+    "dynamics, disagree; ≥ where something doubtful or missing may add to it."
+)
+"""What stands beside these signs."""
 METHODS = {
     Method.CLOSED_FORM: "Closed form, block",
     Method.MECHANISM_ON_PULSE: "Mechanism, pulse",

@@ -40,12 +40,12 @@ from rocking.reports.design_figure import design_summary_figure
 from rocking.reports.matrix import MOST_RECORDS as MOST_RECORDS_BESIDE
 from rocking.reports.matrix import MOST_WITH_ALL, matrix
 from rocking.reports.pages import (
-    DesignSpectra,
     MapCell,
     MapRow,
     Notice,
     PageSettings,
     Panel,
+    Part,
     Scatter,
     SeverityMap,
     Strip,
@@ -91,6 +91,10 @@ _HIGH, _LOW = 112.0, 76.0
 """Heights of the scatter, mm."""
 _BESIDE = 30
 """Letters of a name beside a bar."""
+_LETTERS = 8.0
+"""Of the tables, pt."""
+_TOGETHER = 14
+"""Rows of the list of the records that stay together, so that no last page is nearly empty."""
 _UNKNOWN = [(math.nan, math.nan)]
 """The peaks of a record of which there is no row."""
 _HEAD = 26
@@ -145,8 +149,7 @@ def _page(
         title="Summary over the records",
         about=printing.facts_of(settings),
         footer=printing.footer_of(settings),
-        tolerance=plain(settings.tolerance),
-        acceleration_scale=settings.acceleration_scale,
+        strips_title="The variants: word and share under the worst record of each" if strips else "",
         strips=tuple(strips),
         subtitle=f"{counted(len(judged), 'record')}, "
         f"{counted(len(rows_of(StructureRow, rows)), 'structure')}",
@@ -158,32 +161,107 @@ def _page(
             *_notices(records, comparison, len(failures)),
             *map(Notice, to_check(rows_of(RemarkRow, rows))),
         ),
-        outcomes=pictures(
-            outcomes_figure,
-            shown if many else (),
-            "Number of records under which each structure has each verdict.",
+        outcomes=Part(
+            pictures=pictures(
+                outcomes_figure,
+                shown if many else (),
+                "Number of records under which each structure has each verdict.",
+            ),
+            caption="Under how many records each structure has each verdict, the worst structures first.",
         ),
         map=severity_map(shown if many else (), records, MOST_ON_PAGE_ONE),
-        whole_map=severity_map(shown if len(judged) > MOST_ON_PAGE_ONE else (), records, MOST_MAPPED),
-        supports=pictures(
-            shares_by_period_figure,
-            rows_of(SupportRow, rows),
-            "Mean share of members that overturn against the period of the support, by structure.",
+        whole_map=severity_map(
+            shown if len(judged) > MOST_ON_PAGE_ONE else (), records, MOST_MAPPED, caption=_WHOLE_MAP
         ),
-        methods=method_table(comparison),
-        structures=structure_table(shown),
+        supports=Part(
+            pictures=pictures(
+                shares_by_period_figure,
+                rows_of(SupportRow, rows),
+                "Mean share of members that overturn against the period of the support, by structure.",
+            ),
+            caption=_OF_SUPPORTS,
+        ),
+        structures=Part(table=structure_table(shown), caption=_STRUCTURE_TABLE, size=_LETTERS),
         scatter=_scatter(comparison, pulses, agreed[0], _LOW if low else _HIGH),
-        agreement=table_of(agreed, *AGREEMENT_COLUMNS),
-        unsafe=table_of(unsafe[:MOST_LISTED], *UNSAFE_COLUMNS),
-        unsafe_note=remainder(len(unsafe) - MOST_LISTED, "case", "comparison.csv"),
         panels=tuple(panels),
-        failures=table_of(failures[:MOST_LISTED], *FAILURE_COLUMNS),
-        failures_note=remainder(len(failures) - MOST_LISTED, "failure", "failures.csv"),
-        records=record_table(records[:MOST_RECORDS], pulses),
-        records_note=remainder(len(records) - MOST_RECORDS, "component", "record.csv"),
+        failures=Part(
+            heading="Failures" if failures else "",
+            table=table_of(failures[:MOST_LISTED], *FAILURE_COLUMNS),
+            caption="What gave no result, and why."
+            + remainder(len(failures) - MOST_LISTED, "failure", "failures.csv"),
+            size=_LETTERS,
+        ),
+        agreement=Part(
+            heading="How the closed form compares",
+            table=table_of(agreed, *AGREEMENT_COLUMNS),
+            caption=_AGREEMENT_TABLE,
+            size=_LETTERS,
+        ),
+        lists=Part(heading="Appendix: the lists"),
+        methods=Part(
+            heading="What each method is worth",
+            level=2,
+            table=method_table(comparison),
+            caption=_METHOD_TABLE,
+            size=_LETTERS,
+        ),
+        unsafe=Part(
+            heading="Cases in which the closed form is on the unsafe side",
+            level=2,
+            text="" if unsafe else "None.",
+            table=table_of(unsafe[:MOST_LISTED], *UNSAFE_COLUMNS),
+            caption="Cases in which more happens than the closed form says: overturning or rocking missed, the worst "
+            f"first.{remainder(len(unsafe) - MOST_LISTED, 'case', 'comparison.csv')}",
+            size=_LETTERS,
+        ),
+        records=Part(
+            heading="The records and how the numbers were made",
+            level=2,
+            text=_how_made(settings, bool(records)),
+            table=record_table(records[:MOST_RECORDS], pulses),
+            caption="The records, one row per component. A declared factor other than 1 means that the accelerations "
+            f"are not those recorded.{remainder(len(records) - MOST_RECORDS, 'component', 'record.csv')}",
+            size=_LETTERS,
+            last=_TOGETHER,
+        ),
         design=_design(design),
     )
 
+
+def _how_made(settings: PageSettings, any_record: bool) -> str:
+    """How the numbers of the summary were made."""
+    made = (
+        "The closed form is the exact largest rotation of the equivalent block (acceleration scale "
+        f"“{settings.acceleration_scale}”) under the dominant sine pulse of the record. The full integration follows "
+        "the nonlinear mechanism under the whole record with a relative tolerance of "
+        f"{plain(settings.tolerance)}. All numbers are in the tables of the summary folder."
+    )
+    return made if any_record else f"{made} No record could be read."
+
+
+_WHOLE_MAP = "The verdict on each structure under each record, both the worst first: "
+_STRUCTURE_TABLE = (
+    "The structures: under how many records each has each verdict; the record that is worst for it, the share that "
+    "overturns there, and the largest rotation over the critical rotation, as given and of 5 to 95 % of the members "
+    "(up to “overturns”: more than 5 % of them do; “rests”: at most a thousandth)."
+)
+_OF_SUPPORTS = (
+    "Mean over the records of the share of members that overturn, for each structure on a support against the period "
+    "of that support. The periods are not random: results of different periods are never averaged. In the tables "
+    "above, such a structure is listed once for each record, with its worst period; verdicts.csv holds all periods."
+)
+_AGREEMENT_TABLE = (
+    "How often the closed form was right, by structure; the first row is all of them. A structure on a support counts "
+    "once under each component, at the period of its verdict, here as in the tables of methods and of what the closed "
+    "form misses. The ratio is that of predicted over integrated rotation where both rock. Overturning: cases that "
+    "overturn in the integration, those of them in which the closed form overturns too (hits) and in which it does not "
+    "(misses, the dangerous ones), and cases in which it alone overturns (false alarms)."
+)
+_METHOD_TABLE = (
+    "What each method is worth here, against the integration of the mechanism under the whole record. Less than "
+    "happens: it predicts rest or rocking where more happens, which is unsafe. Within a factor 2: of the cases that "
+    "rock in both."
+)
 
 _COUNTED = (
     "A structure on a support counts once, at the period of its verdict and with the closed form there."
@@ -204,13 +282,17 @@ def _scatter(
     return (Scatter(heading, picture(figure, alt), _COUNTED if carried else ""),)
 
 
-def _design(design: Design | None) -> tuple[DesignSpectra, ...]:
+def _design(design: Design | None) -> Part:
     """The figure of the spectra beside the design level, and what that is."""
     if design is None:
-        return ()
+        return Part()
     level, spectra = design
     alt = "Spectra of all components and their mean beside the design spectrum."
-    return (DesignSpectra(picture(design_summary_figure(spectra, level), alt), level.words),)
+    caption = (
+        "The spectra of the records as they acted, for the damping of the design level, each component on its own, and "
+        f"their mean beside that of the design level: {level.words}."
+    )
+    return Part(pictures=(picture(design_summary_figure(spectra, level), alt),), caption=caption)
 
 
 def _notices(
@@ -285,11 +367,14 @@ def outcomes_figure(verdicts: Sequence[VerdictRow]) -> Figure:
 
 
 def severity_map(
-    verdicts: Sequence[VerdictRow], records: Sequence[RecordRow], most: int = MOST_MAPPED
+    verdicts: Sequence[VerdictRow],
+    records: Sequence[RecordRow],
+    most: int = MOST_MAPPED,
+    caption: str = "",
 ) -> SeverityMap:
     """Return verdict and share by record and structure, both the worst first.
 
-    verdicts: the worst first. most: records.
+    verdicts: the worst first. most: records. caption: what stands before the meaning of the cells.
     """
     names = [
         worst_first((getattr(row, which), row.severity) for row in verdicts)
@@ -307,7 +392,7 @@ def severity_map(
             accelerations = row.peak_acceleration_m_s2 / GRAVITY
             peaks[row.record].append((accelerations, row.peak_velocity_m_s / velocity.size))
     return SeverityMap(
-        peak_heads=("PGA [g]", f"PGV [{velocity.name}]"),
+        record_heads=("Record, the worst first", "PGA [g]", f"PGV [{velocity.name}]"),
         heads=tuple(elided(name, _HEAD) for name in columns),
         rows=tuple(
             MapRow(
@@ -317,8 +402,8 @@ def severity_map(
             )
             for name in rows
         ),
-        legend=printing.LEGEND,
-        note=f" Not shown, but in verdicts.csv: {rest}." if rest else "",
+        words=f"{caption}{printing.LEGEND}. {printing.SHARES} A single run has none; at … s: the worst period of a "
+        f"support.{f' Not shown, but in verdicts.csv: {rest}.' if rest else ''}",
     )
 
 

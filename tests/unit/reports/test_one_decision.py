@@ -128,7 +128,7 @@ def test_the_terminal_says_it(report, decisions):
 def test_page_one_says_it(report, decisions):
     data = detailed(report).page()
     rows = {row.name: row for row in data.page_one.rows}
-    table = {row[1]: row[2:4] for row in data.details[0].verdicts.rows}
+    table = {row[1]: row[2:4] for row in data.details[0].verdicts.table.rows}
     for name, decision in decisions.items():
         assert rows[name].chip.word.removeprefix("? ") == decision.word
         assert rows[name].chip.share == decision.share_in_words
@@ -143,7 +143,7 @@ def test_the_summary_says_it(report, decisions):
     data = summary_data(summarised(report.tables, report.structures), SETTINGS)
     assert data.conclusion == "2 of 5 structures overturn or probably do; 1 is uncertain, 1 cannot be told."
     cells = {row.name: row.cells[0] for row in data.matrix.rows}
-    table = {line[0].text: line for line in data.structures.rows}
+    table = {line[0].text: line for line in data.structures.table.rows}
     for name, decision in decisions.items():
         assert cells[name].word.removeprefix("? ") == decision.word
         assert cells[name].share in ("", decision.share_in_words)
@@ -209,7 +209,7 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
     report = detailed(RecordReport(result, tables, study.structures, study.settings.for_pages))
     data = report.page()
     told = [line for each in result.periods for line in _told(each, 1.0)]
-    of_all = zip(report.result.worst_first, data.details[0].verdicts.rows, strict=True)
+    of_all = zip(report.result.worst_first, data.details[0].verdicts.table.rows, strict=True)
     lines = workbook_lines(tables)
     stations = {row.record: (row.station, row.event) for row in tables.record}
     for station, cells in of_all:

@@ -184,10 +184,10 @@ def test_every_count_is_of_each_structure_once_at_the_period_of_its_verdict():
     text = " ".join(" ".join(closing_lines(verdicts, comparison, [])).split())
     assert f"Closed form against integration{COUNTED}: 1 of 3 falls seen, 2 missed, 1 false alarm" in text
     page = summary_data(summarised(RecordRows(comparison=comparison, verdicts=verdicts), {}), SETTINGS)
-    (method, *counts) = page.methods.rows[0]
+    (method, *counts) = page.methods.table.rows[0]
     assert counts[0] == "4", method
-    assert page.agreement.rows[0][2] == "4"
-    assert len(page.unsafe.rows) == 2
+    assert page.agreement.table.rows[0][2] == "4"
+    assert len(page.unsafe.table.rows) == 2
 
 
 @pytest.mark.usefixtures("undrawn")

@@ -7,13 +7,16 @@ itself), so that each place where it is bound, read or handed on can be held aga
 import re
 from dataclasses import fields, is_dataclass
 from functools import cache
+from pathlib import Path
 from typing import Any, get_args, get_origin, get_type_hints
 
 import pytest
 
+import rocking
 from rocking.products.checks.pages import StructuresPage
 from rocking.reports.pages import FOLDER, Page, PlainPage, RecordPage, SummaryPage, Table
 
+TEMPLATES = set(Path(rocking.__file__).parent.rglob("*.typ"))
 PATH = r"[a-z_]+(?:\.[a-z_]+)+"
 
 
@@ -136,8 +139,8 @@ def test_a_template_reads_each_field_of_its_page_and_no_other(page: type[Page]) 
         ("row.remark", "row.name"),
         ("for picture in page_one.trace", "for row in page_one.trace"),
         ("page_one.rows.map(row =>", "page_one.others.map(row =>"),
-        ("tabled(data.components)", "tabled(data.known)"),
-        ("assumed.friction", "assumed.frictions"),
+        ("page_one.legend", "page_one.legends"),
+        ("details.facts", "details.fact"),
     ],
 )
 def test_a_mistake_in_a_template_is_found(before: str, after: str) -> None:
@@ -145,6 +148,97 @@ def test_a_mistake_in_a_template_is_found(before: str, after: str) -> None:
     source = source_of(page)
     assert before in source
     assert faults(page, source.replace(before, after))
+
+
+KEYWORDS = {
+    "let",
+    "set",
+    "show",
+    "if",
+    "else",
+    "for",
+    "in",
+    "import",
+    "include",
+    "while",
+    "not",
+    "and",
+    "or",
+    "return",
+    "context",
+    "as",
+    "none",
+    "auto",
+}
+"""Of Typst, which stand between words of code."""
+LABELS = {
+    "record.typ": set(),
+    "structures.typ": set(),
+    "plain.typ": set(),
+    "layout.typ": set(),
+    "against.typ": {
+        "rotation over critical rotation": "of the axis that the template draws",
+        "time s": "of the axis below, with its unit",
+        "cr": "index of a symbol",
+    },
+    "page_one.typ": {
+        "of energy in one sine": "of the figure beside it",
+        "share that overturns": "heads a column",
+        "rotation over critical rotation": "of the scale that the template draws",
+        "falls": "of the grey zone of the scale",
+        "falls at the record times": "heads a column",
+        "to do or know": "heads a column",
+        "closed form": "of the ring that the template draws",
+        "block under record": "of its diamond",
+        "full motion; line: 5–95 % of members": "of its dot and line",
+    },
+    "summary.typ": {"to know": "heads a column", "% that overturns": "of the legend of the colours"},
+}
+"""What templates say themselves, with what it stands at: no sentence, of whose fact another place would know."""
+
+
+FONTS = {"Libertinus Serif", "DejaVu Sans"}
+
+
+def words_of_a_template(text: str) -> set[str]:
+    """What a template itself says: the words of its content, and texts of several words in its code."""
+    text = re.sub(r"^\s*//.*$|\s//\s.*$|^#import .*$", "", text, flags=re.M)
+    text = text.replace("\\[", "").replace("\\]", "")
+    code = re.sub(r'"[^"\n]*"', '""', text)
+    said = set()
+    for content in re.findall(r"\[([^\[\]]*)\]", code):
+        # a line that begins with a # is code, as is what follows one up to a blank, or to the end of its brackets
+        plain = re.sub(r"^\s*#.*$|#\w+\([^()]*\)|#\S+", "", content, flags=re.M).strip()
+        if re.search(r"[A-Za-z]{2}", plain) and not re.search(r"[{}=]|^\w+[(.]|\.\w+\(", plain):
+            said.add(plain)
+    for literal in re.findall(r'"([^"\n]*)"', text):
+        if re.search(r"[A-Za-z]{2,} [A-Za-z]{2,}", literal) and literal not in FONTS:
+            said.add(literal)
+    for run in re.findall(r"(?<![\w.#-])[A-Za-z]{2,}(?: [A-Za-z]{2,})+(?![\w-])", code):
+        pairs = zip(run.split(), run.split()[1:], strict=False)
+        if any(not {one, other} & KEYWORDS for one, other in pairs) and not any(run in each for each in said):
+            said.add(run)
+    return said
+
+
+@pytest.mark.parametrize("path", sorted(TEMPLATES), ids=lambda path: path.name)
+def test_a_template_holds_layout_and_no_prose(path: Path) -> None:
+    """Its sentences are data: each stands where its fact is known, or beside the page that alone prints it."""
+    assert words_of_a_template(path.read_text(encoding="utf-8")) == set(LABELS[path.name])
+
+
+@pytest.mark.parametrize(
+    "prose",
+    [
+        "  small[Black: the mechanism under the whole record.]",
+        "= What to know",
+        '  #let note = text(8pt, "None of them.")',
+        "[Failures]",
+    ],
+)
+def test_prose_in_a_template_is_found(prose: str) -> None:
+    template = PlainPage.template.read_text(encoding="utf-8")
+    assert len(words_of_a_template(f"{template}\n{prose}\n")) == 1
 
 
 def test_a_field_that_no_template_reads_is_found() -> None:

@@ -17,7 +17,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.remarks import Remark
 from rocking.reports import printing
 from rocking.reports.kinds import ReportKind
-from rocking.reports.pages import RecordPage, Table, TableCell
+from rocking.reports.pages import Part, RecordPage, Table, TableCell
 from rocking.reports.printing import MEASURED, compile_document
 from rocking.reports.record import RecordReport, failure_page
 from rocking.structures import Arch, ArchOnPiers, Block, Facade, LoadedWall, Spire, Wall
@@ -55,17 +55,17 @@ def csv_numbers(example: RecordReport) -> np.ndarray:
 
 def known(data: RecordPage) -> list[str]:
     """Every sentence of the second page, whatever its topic."""
-    return [text for each in data.known for text in each.texts]
+    return [text for topic in data.known.topics for text in topic.texts]
 
 
 def texts_of(data: RecordPage) -> list[str]:
     """Every table cell but the running numbers of the structures, every sentence, and the figures of page one."""
-    texts = [*known(data), *data.advice, data.page_one.sine.share]
+    texts = [*known(data), *data.advice.sentences, data.page_one.sine.share]
     texts += [peak.value for peak in data.page_one.peaks]
     for row in data.page_one.rows:
         texts += [row.below, row.chip.share, row.reserve, row.remark]
     (rest,) = data.details
-    for table in (data.components, *(getattr(rest, name) for name in TABLES)):
+    for table in (data.known.table, *(getattr(rest, name).table for name in TABLES)):
         first = 1 if table.heads[0] == "No." else 0
         for cells in (row[first:] for row in table.rows):
             texts += [each.text if isinstance(each, TableCell) else each for each in cells]
@@ -176,7 +176,7 @@ def test_an_outcome_that_processing_decides_is_told_but_of_what_its_network_has_
         (example, example.tables.variations, False),
         (of_network, variations, False),
     ):
-        told = {each.topic: each.texts for each in with_tables(report, variations=rows).known}
+        told = {topic.topic: topic.texts for topic in with_tables(report, variations=rows).known.topics}
         assert ("Processing" in told) is decides
         assert not decides or told["Processing"][0].endswith(" arch 20 m.")
 
@@ -205,7 +205,7 @@ def test_the_report_is_a_tagged_archive_document_of_at_most_six_pages_and_the_sa
 
 def test_every_picture_has_an_alternative_text_and_no_type_under_seven_points(data):
     (rest,) = data.details
-    pictures = [picture for name in PICTURES for picture in getattr(rest, name)]
+    pictures = [picture for name in PICTURES for picture in getattr(rest, name).pictures]
     assert len(pictures) == len(PICTURES)
     on_page_one = [*data.page_one.trace, *(picture for row in data.page_one.rows for picture in row.drawing)]
     assert len(on_page_one) == 1 + len(data.page_one.rows)
@@ -242,7 +242,7 @@ def test_nothing_that_lifts_no_structure_and_no_pulse_are_told_first():
     for notice, (records, structures) in cases.items():
         report = detailed(assessed("one", records, structures))
         data = report.page()
-        assert any(notice in each.text for each in data.notices) and data.details[0].histories == ()
+        assert any(notice in each.text for each in data.notices) and data.details[0].histories.pictures == ()
         assert report.pdf().startswith(b"%PDF")
 
 
@@ -250,11 +250,11 @@ def test_of_a_hundred_structures_all_are_in_the_tables_and_few_are_drawn(example
     names = [f"block {place}" for place in range(100)]
     data = detailed(of_structures(example, dict.fromkeys(names, "block 4 m"))).page()
     (rest,) = data.details
-    assert len(rest.verdicts.rows) == len(rest.methods.rows) == 100
+    assert len(rest.verdicts.table.rows) == len(rest.methods.table.rows) == 100
     assert len(data.page_one.rows) == 12
     assert data.page_one.others[0].names.endswith(" and 68 others")
     assert data.conclusion == "All 100 structures overturn or probably do."
-    assert "Another 90 structures" in rest.histories_note
+    assert "Another 90 structures" in rest.histories.caption
 
 
 @pytest.mark.process
@@ -276,7 +276,7 @@ def test_a_contact_that_fails_is_told(example):
     assert any(failing in sentence for sentence in known(data))
     slides = Remark.of(AssessmentKind.CONTACT_SLIDES, lifting=0.2, largest=0.7).brief
     assert slides in {row.remark for row in data.page_one.rows}
-    assert data.details[0].methods.rows[0][-2:] == ("yes", "yes")
+    assert data.details[0].methods.table.rows[0][-2:] == ("yes", "yes")
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -318,7 +318,7 @@ def test_an_arch_that_stands_on_its_friction_is_no_model_that_fails(example):
 def test_a_reserve_that_may_be_too_high_is_told_as_such(example):
     """Of a structure whose contacts open the mechanism knows too little; of the others nothing is said."""
     name = next(each.structure for each in example.result.worst_first if each.reserve is not None)
-    assert detailed(example).page().details[0].reserve_note == ""
+    assert "may be too high" not in detailed(example).page().details[0].reserve.caption
     scene = example.result.scenes[name]
     station = scene.worst
     cases = {
@@ -329,7 +329,7 @@ def test_a_reserve_that_may_be_too_high_is_told_as_such(example):
     result = replace(example.result, scenes={**example.result.scenes, name: in_doubt})
     doubtful = replace(detailed(example), result=result, tables=rows_of_record(result, "cd" * 32, "CC0-1.0"))
     data = doubtful.page()
-    assert f"may be too high for {name}" in data.details[0].reserve_note
+    assert f"may be too high for {name}" in data.details[0].reserve.caption
     assert [row.name for row in data.page_one.rows if row.alone] == [name], "grey on page one"
 
 
@@ -373,15 +373,15 @@ def test_a_report_in_g_and_centimetres_prints_the_same_numbers_in_them(example):
     settings = replace(example.settings, display_units="g and cm")
     plain, shown = detailed(example).page(), detailed(replace(example, settings=settings)).page()
     (plain_rest,), (rest,) = plain.details, shown.details
-    assert "m/s²" not in str(rest.facts) + str(rest.pulses) + str(shown.components) + str(shown.known)
+    assert "m/s²" not in str(rest.facts) + str(rest.pulses) + str(shown.known)
     sizes = {"[m/s²]": ("[g]", 9.80665), "[m/s]": ("[cm/s]", 0.01), "[m]": ("[cm]", 0.01)}
     (row,) = example.tables.record
     pulse = next(each for each in example.tables.pulses if each.rank == 1)
-    components = dict(_columns(shown.components))
+    components = dict(_columns(shown.known.table))
     assert components["PGV [cm/s]"] == (printing.number(row.peak_velocity_m_s / 0.01),)
     assert components["Sine: amplitude [g]"] == (printing.number(abs(pulse.amplitude_m_s2) / 9.80665),)
-    pairs = [*zip(_head_and_value(plain_rest.facts), _head_and_value(rest.facts), strict=True)]
-    pairs += zip(_columns(plain_rest.pulses), _columns(rest.pulses), strict=True)
+    pairs = [*zip(_head_and_value(plain_rest.facts.table), _head_and_value(rest.facts.table), strict=True)]
+    pairs += zip(_columns(plain_rest.pulses.table), _columns(rest.pulses.table), strict=True)
     for (head, before), (new_head, after) in pairs:
         unit = next((each for each in sizes if each in head), None)
         if unit is None:
@@ -404,7 +404,7 @@ def test_the_report_says_what_to_do_and_by_how_much_the_record_may_be_stronger()
     shaking = [shaken("NS", scale_factor=3.0), shaken("EW", scale_factor=2.0)]
     unasked = assessed("two", shaking, structures, fidelity="auto")
     data = unasked.page()
-    assert data.advice == (f"To learn more of spire: {Remark(AssessmentKind.CONTACT_DYNAMICS)}.",)
+    assert data.advice.sentences == (f"To learn more of spire: {Remark(AssessmentKind.CONTACT_DYNAMICS)}.",)
     remarks = {row.name: row.remark for row in data.page_one.rows}
     assert remarks["spire"] == Remark(AssessmentKind.CONTACT_DYNAMICS).brief
     first = "".join(word[4] for word in pages(unasked.pdf())[0])
@@ -412,7 +412,7 @@ def test_the_report_says_what_to_do_and_by_how_much_the_record_may_be_stronger()
 
     report = assessed("two", shaking, structures)
     data = report.page()
-    assert data.advice == (), "contact dynamics was asked"
+    assert data.advice == Part(), "contact dynamics was asked"
     (block,) = (row for row in report.tables.verdicts if row.structure == "block")
     reserves = {row.name: row.reserve for row in data.page_one.rows}
     assert reserves["block"].startswith(printing.number(block.reserve_low, 2))
@@ -451,7 +451,7 @@ def test_page_one_tells_what_was_typed_and_what_crushing_would_change_before_pag
     seen = set()
     for factor in (2.0, 4.3):
         report = assessed("one", [shaken("NS").scaled(factor)], {"typed": typed, "wall": wall})
-        told = report.page().page_one.left_out
+        told = report.page().page_one.legend
         assert f"typed: restitution 0.6 typed, {own:.2g} by geometry" in told
         (verdict,) = (row for row in report.tables.verdicts if row.structure == "wall")
         tells = "wall: crushing at 2 MPa would matter" in told

@@ -34,7 +34,7 @@ from rocking.reports.design_figure import (
     design_summary_figure,
     spectrum_periods,
 )
-from rocking.reports.pages import TableCell
+from rocking.reports.pages import Part, TableCell
 from rocking.reports.scatter import prediction_scatter
 from rocking.reports.style import svg
 from rocking.reports.summary import outcomes_figure, severity_map, summary_data
@@ -75,7 +75,7 @@ def summary_tables(comparison, **tables):
 def test_agreement_counts_all_and_each_structure():
     rows = {row.structure: row for row in agreement_rows(CASES, {})}
     assert {name: row.cases for name, row in rows.items()} == {"": 5, "pier": 2, "arch": 1, "wall": 2}
-    content = summary_data(summary_tables(CASES), SETTINGS).agreement.rows
+    content = summary_data(summary_tables(CASES), SETTINGS).agreement.table.rows
     # records, cases, both rock, within a factor 2, median ratio; overturning, found, missed, false
     assert list(content[0]) == ["all", "3", "5", "2", "1", "0.696", "2", "1", "1", "1"]
     assert rows[""].median_ratio == (0.5 / 0.4 + 0.1 / 0.7) / 2 and rows["pier"].median_ratio == 1.25
@@ -100,8 +100,8 @@ def test_the_summary_counts_the_verdicts_of_each_structure_and_names_its_worst_r
         verdict("three", "wall", 0.7, 12),
     ]
     data = summary_data(summary_tables(CASES, verdicts=judged), SETTINGS)
-    rows = {row[0].text: row[1:] for row in data.structures.rows}
-    assert list(data.structures.heads[1:5]) == [
+    rows = {row[0].text: row[1:] for row in data.structures.table.rows}
+    assert list(data.structures.table.heads[1:5]) == [
         "Overturns",
         "Uncertain",
         "Probably stands",
@@ -113,7 +113,7 @@ def test_the_summary_counts_the_verdicts_of_each_structure_and_names_its_worst_r
         data.conclusion
         == "1 of 3 structures overturns or probably does under some record; under its worst record 1 is uncertain."
     )
-    assert data.outcomes == (), "three records stand beside each other"
+    assert data.outcomes.pictures == (), "three records stand beside each other"
     drawn = re.findall(
         r">(wall|pier|arch|▲ overturns|≈ uncertain|○ probably stands|● stands)<", svg(outcomes_figure(judged))
     )
@@ -173,7 +173,7 @@ def test_each_method_is_held_against_the_integration_and_no_time_is_told(example
     tables = summarised(example.tables, example.structures)
     timings = [TimingRow.of(TimedStage("one", "closed form", 0.002))]
     assert summary_report(tables | {TimingRow: timings}, SETTINGS) == summary_report(tables, SETTINGS)
-    table = summary_data(tables, SETTINGS).methods
+    table = summary_data(tables, SETTINGS).methods.table
     rows = {row[0]: row[1:] for row in table.rows}
     assert rows["Mechanism, record"][0] == "5" and rows["Mechanism, record"][1] == "5\u00a0of\u00a05"
     missed = [row for row in example.tables.comparison if row.agreement is Agreement.TOO_LOW]
@@ -202,12 +202,12 @@ def test_long_lists_are_cut_and_say_how_much_was_left_out():
     names = [f"r{place}" for place in range(250)]
     records = [filled(RecordRow, record=each, component="EW", scale_factor=2.0, samples=1) for each in names]
     data = summary_data(summary_tables([*unsafe, *fallen], record=records), SETTINGS)
-    names = [row[0] for row in data.unsafe.rows]
+    names = [row[0] for row in data.unsafe.table.rows]
     assert names[0] == "fallen" and len(names) == 20
-    assert data.unsafe.rows[1][4] == "0.101", "the worst first"
-    assert data.unsafe_note == " Another 81 cases in comparison.csv."
-    assert len(data.records.rows) == 200
-    assert data.records_note == " Another 50 components in record.csv."
+    assert data.unsafe.table.rows[1][4] == "0.101", "the worst first"
+    assert data.unsafe.caption.endswith(" Another 81 cases in comparison.csv.")
+    assert len(data.records.table.rows) == 200
+    assert data.records.caption.endswith(" Another 50 components in record.csv.")
     assert "and 230 others" in data.notices[-1].text
 
 
@@ -216,7 +216,7 @@ def test_a_record_is_listed_with_its_dominant_pulse(example):
     (dominant,) = (row for row in example.tables.pulses if row.kind == "alternative" and row.rank == 1)
     others = [replace(row, period_s=9.0) for row in example.tables.pulses if row is not dominant]
     tables = summarised(replace(example.tables, pulses=[*others, dominant]), example.structures)
-    (row,) = summary_data(tables, SETTINGS).records.rows
+    (row,) = summary_data(tables, SETTINGS).records.table.rows
     assert {"9.00", "9.0", "9"}.isdisjoint(row)
     assert any(cell.startswith(f"{dominant.period_s:.1f}") for cell in row)
 
@@ -231,9 +231,9 @@ def test_the_design_level_stands_beside_the_spectra_of_the_records():
         spectrum, response_spectrum(record, periods, 0.05).pseudo_acceleration, rtol=1e-3
     )
     tables = summary_tables(CASES)
-    assert summary_data(tables, SETTINGS).design == ()
-    (drawn,) = summary_data(tables, SETTINGS, design=(level, [spectrum, spectrum])).design
-    assert drawn.words == level.words
+    assert summary_data(tables, SETTINGS).design == Part()
+    drawn = summary_data(tables, SETTINGS, design=(level, [spectrum, spectrum])).design
+    assert len(drawn.pictures) == 1 and level.words in drawn.caption
     for count, label in ((2, "components"), (MOST_LINES + 1, "5 to 95 % of the components")):
         (axes,) = design_summary_figure([spectrum] * count, level).axes
         assert axes.get_legend().get_texts()[0].get_text() == label
