@@ -22,6 +22,7 @@ def targets() -> "dict[str, Callable[[Target], None]]":
         cracks,
         earthquakes,
         ensembles,
+        estimates,
         floors,
         fragilities,
         fronts,
@@ -34,13 +35,12 @@ def targets() -> "dict[str, Callable[[Target], None]]":
         stability,
         stacks,
         tie_forces,
-        tiers,
         worth,
     )
     from docs.research.comparison import table
 
     return {
-        "calibrate": tiers.calibrate,
+        "calibrate": estimates.calibrate,
         "calibrate_ensemble": ensembles.calibrate_ensemble,
         "trade_fragility": fragilities.trade_fragility,
         "cover": fragilities.cover,

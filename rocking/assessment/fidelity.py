@@ -3,21 +3,17 @@
 1. Nothing: |ü_g| / (g + ü_v) never exceeds λ, so it stays at rest. Exact.
 2. Peak velocity: from p PGV/(gλ) the structure stands, where the estimate's 90 % interval lies within the risk. Of a
    structure unlike those of the calibration, and with vertical motion, it says nothing.
-3. Block on record at five scales, where an ensemble would follow: whether it stands or overturns, likewise. It costs
-   twice as much as the mechanism once, but a fortieth of an ensemble.
-4. Mechanism on record, which settles what happens as recorded.
-5. The ensemble, where the settings have one, which ends after 16 members that all stay far from overturning.
+3. Mechanism on record, which settles what happens as recorded.
+4. The ensemble, where the settings have one, which ends after 16 members that all stay far from overturning.
 
-The estimates of 2 and 3 are tiers, each a logistic regression of the share of members that overturn, fitted by the
-target `calibrate` to the ensembles of mechanisms under real records; tiers.json holds the coefficients. The interval of
-an estimate is that of the fit, by resampling sites in the large (a sandwich of their scores).
+The estimate is a logistic regression of the share of members that overturn, fitted by the target `calibrate` to the
+ensembles of mechanisms under real records; estimate.json holds the coefficients. Its interval is that of the fit, by
+resampling sites in the large (a sandwich of their scores).
 """
 
 import json
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from enum import StrEnum
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -27,7 +23,7 @@ import numpy as np
 
 from rocking.assessment.methods import Method
 from rocking.errors import StructureError
-from rocking.motion.integration import Members, integrate, integrate_members
+from rocking.motion.integration import integrate
 from rocking.motion.response import Response
 from rocking.motion.table import forcing_of
 from rocking.quantities import GRAVITY
@@ -35,40 +31,25 @@ from rocking.records import Accelerogram
 from rocking.records.measures import record_measures
 from rocking.structures import EquivalentBlock, Mechanism, Outcome
 
-NUDGES = (0.75, 0.875, 1.0, 1.125, 1.25)
-"""Factors on the ground motion at which the block is tried around the motion as given."""
 _SMALLEST = 1e-3
 """Least ratio whose logarithm is taken."""
 _LARGEST = 1e3
 """Largest p PGV/(gλ) whose logarithm is taken."""
-_FARTHEST = 2.0
-"""Largest rotation ratio whose logarithm is taken; a block that stays up hardly turns beyond its critical rotation."""
 STRUCTURE = ("restitution", "restoring_defect", "forcing_defect")
-"""Terms of the structure, which every tier has last."""
+"""Terms of the structure."""
+TERMS = ("peak_velocity", *STRUCTURE)
+"""Terms of the estimate."""
 NORMAL_95 = 1.6449
 """95 % quantile of the normal distribution."""
-SHIPPED = Path(__file__).with_name("tiers.json")
-"""File of the tiers that the package ships."""
+SHIPPED = Path(__file__).with_name("estimate.json")
+"""File of the fit that the package ships."""
 _SLACK = 0.05
 """Share of the range of a property by which a structure may lie beyond those behind the fit."""
 
 
-class Tier(StrEnum):
-    """The figure of a case from which an estimate follows."""
-
-    PEAK_VELOCITY = "peak velocity"
-    BLOCK_AT_FIVE_SCALES = "block at five scales"
-
-    @property
-    def terms(self) -> tuple[str, ...]:
-        """Names of its terms, those of the structure last."""
-        own = ("peak_velocity",) if self is Tier.PEAK_VELOCITY else tuple(from_nudged(np.zeros(len(NUDGES))))
-        return (*own, *STRUCTURE)
-
-
 @dataclass(frozen=True, kw_only=True)
 class Estimate:
-    """Share of the members that overturn, estimated from a tier, and its 90 % interval."""
+    """Share of the members that overturn, as it is estimated, and its 90 % interval."""
 
     share: float
     low: float
@@ -76,15 +57,14 @@ class Estimate:
 
 
 @dataclass(frozen=True, eq=False)
-class TierFit:
-    """One fitted tier.
+class EstimateFit:
+    """The fitted estimate of the share that overturns.
 
     centre, spread: (k,) of the terms. coefficients: (k + 1,) and their covariance (k + 1, k + 1), intercept first.
     ranges: least and largest value behind the fit of each property of a structure. lapse: share of the members that
     stand whatever the terms, so that no estimate of strong motions is too sure.
     """
 
-    tier: Tier
     centre: np.ndarray
     spread: np.ndarray
     coefficients: np.ndarray
@@ -105,10 +85,10 @@ class TierFit:
         return np.insert((terms - self.centre) / self.spread, 0, 1.0, axis=-1)
 
     def estimate(self, measures: Mapping[str, float]) -> Estimate | None:
-        """Return what the tier says of a case; None of a structure unlike all behind it."""
+        """Return the estimate of a case; None of a structure unlike all behind the fit."""
         if self.unlike(measures):
             return None
-        design = self.design(np.array([measures[term] for term in self.tier.terms]))
+        design = self.design(np.array([measures[term] for term in TERMS]))
         error = np.sqrt(max(design @ self.covariance @ design, 0.0))
         ends = design @ self.coefficients + NORMAL_95 * error * np.array([0.0, -1.0, 1.0])
         most = np.array([1 - self.lapse, 1 - self.lapse, 1.0])  # the upper end decides what stands
@@ -117,16 +97,13 @@ class TierFit:
 
 
 @lru_cache(maxsize=1)
-def read_tiers(path: Path = SHIPPED) -> dict[Tier, TierFit]:
-    """Return the tiers in a file that the target `calibrate` made; by default of the shipped one."""
-    fits = {}
-    for name, tier in json.loads(path.read_text(encoding="utf-8"))["tiers"].items():
-        del tier["terms"]
-        values: dict[str, Any] = {
-            key: np.array(value) if isinstance(value, list) else value for key, value in tier.items()
-        }
-        fits[Tier(name)] = TierFit(Tier(name), **values)
-    return fits
+def read_fit(path: Path = SHIPPED) -> EstimateFit:
+    """Return the fit in a file that the target `calibrate` made; by default the shipped one."""
+    fitted = json.loads(path.read_text(encoding="utf-8"))["fit"]
+    values: dict[str, Any] = {
+        name: np.array(value) if isinstance(value, list) else value for name, value in fitted.items()
+    }
+    return EstimateFit(**values)
 
 
 def of_structure(mechanism: Mechanism) -> dict[str, float]:
@@ -161,24 +138,6 @@ def of_velocity(record: Accelerogram, block: EquivalentBlock) -> dict[str, float
     return {"peak_velocity": float(np.log(np.clip(severity, _SMALLEST, _LARGEST)))}
 
 
-def from_nudged(rotation_ratios: np.ndarray) -> dict[str, float]:
-    """Return the terms of the block at NUDGES: of the middle rotation ratio, of the last one, and how many overturn.
-
-    A block that cannot be followed counts as one that overturns.
-    """
-    overturns = ~(rotation_ratios < math.inf)
-    share = float(overturns.mean())
-    logs = np.log(np.clip(np.where(overturns, 1.0, rotation_ratios), _SMALLEST, _FARTHEST)).tolist()
-    return {
-        "block": logs[len(NUDGES) // 2],
-        "block_overturns": float(overturns[len(NUDGES) // 2]),
-        "block_high": logs[-1],
-        "block_overturning_share": share,
-        "block_never_overturns": float(share == 0),
-        "block_always_overturns": float(share == 1),
-    }
-
-
 @dataclass(frozen=True)
 class MethodAnswer:
     """The method that settled a case, its outcome, and why no dearer one followed. response: of an integration."""
@@ -204,48 +163,35 @@ def cheapest_answer(
     tolerance: float = 1e-6,
     vertical: Accelerogram | None = None,
     history: bool = False,
-    ensemble_follows: bool = False,
-    fits: Mapping[Tier, TierFit] | None = None,
+    fit: EstimateFit | None = None,
 ) -> MethodAnswer:
     """Return the first answer that settles whether `mechanism` overturns; the mechanism's own where nothing else does.
 
     risk: largest probability of the opposite outcome; 0: no estimate is trusted. tolerance, history: of the
-    integration. ensemble_follows: whether an ensemble follows the integration, so that the block at five scales is
-    cheaper. fits: other tiers than those that the package ships. Raises MotionError as `integrate` does.
+    integration. fit: another one than the package ships. Raises MotionError as `integrate` does.
     """
     if stays_at_rest(mechanism, record, vertical):
         reason = "the ground never reaches the uplift acceleration"
         still = Response(rotation_ratio=0.0, outcome=Outcome.NO_UPLIFT)
         return MethodAnswer(Method.NOTHING_TO_INTEGRATE, Outcome.NO_UPLIFT, reason, still)
-    tiers = {Tier.PEAK_VELOCITY: (Method.PEAK_VELOCITY, "p PGV/(gλ)")}
-    if ensemble_follows:
-        tiers[Tier.BLOCK_AT_FIVE_SCALES] = (Method.BLOCK_ON_RECORD, f"the block at {len(NUDGES)} scales")
-    for tier, (method, name) in tiers.items() if vertical is None and risk > 0 else ():
-        if (estimate := estimated(tier, mechanism, record, fits)) is not None:
-            reason = f"{name} settles it at a risk of {100 * risk:g} %"
-            if estimate.high <= risk:
-                return MethodAnswer(method, Outcome.ROCKS, reason)
-            if estimate.low >= 1 - risk and tier is Tier.BLOCK_AT_FIVE_SCALES:
-                return MethodAnswer(method, Outcome.OVERTURNS, reason)
+    if vertical is None and risk > 0:
+        estimate = estimated(mechanism, record, fit)
+        if estimate is not None and estimate.high <= risk:
+            reason = f"p PGV/(gλ) settles it at a risk of {100 * risk:g} %"
+            return MethodAnswer(Method.PEAK_VELOCITY, Outcome.ROCKS, reason)
     whole = integrate(mechanism, record, tolerance, history=history, vertical=vertical, repeat_fragile=True)
-    reason = f"{'the block' if ensemble_follows else 'the peak velocity'} does not settle it"
+    reason = "the peak velocity does not settle it"
     return MethodAnswer(Method.MECHANISM_ON_RECORD, whole.outcome, reason, whole)
 
 
-def estimated(
-    tier: Tier, mechanism: Mechanism, record: Accelerogram, fits: Mapping[Tier, TierFit] | None = None
-) -> Estimate | None:
-    """Return the share that overturns, as `tier` has it; None of a structure unlike those of the calibration."""
+def estimated(mechanism: Mechanism, record: Accelerogram, fit: EstimateFit | None = None) -> Estimate | None:
+    """Return the estimated share that overturns; None of a structure unlike those of the calibration."""
     if not all(side.can_overturn for side in mechanism.sides):
         return None
-    fit = (fits or read_tiers())[tier]
+    fit = fit or read_fit()
     try:
         own = of_structure(mechanism)
         block = mechanism.equivalent_block("rest")
     except StructureError:
         return None
-    if fit.unlike(own):
-        return None
-    if tier is Tier.PEAK_VELOCITY:
-        return fit.estimate(own | of_velocity(record, block))
-    return fit.estimate(own | from_nudged(integrate_members(block, record, Members(NUDGES)).rotation_ratio))
+    return fit.estimate(own | of_velocity(record, block))

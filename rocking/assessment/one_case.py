@@ -23,7 +23,7 @@ from rocking.assessment.cracks import (
     sliding_first,
 )
 from rocking.assessment.decide import Verdict, decide
-from rocking.assessment.fidelity import MethodAnswer, Tier, cheapest_answer, estimated
+from rocking.assessment.fidelity import MethodAnswer, cheapest_answer, estimated
 from rocking.assessment.inputs import CaseInputs, PairInputs, PulseInputs, ReserveInputs
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.ladder import reserve
@@ -124,7 +124,7 @@ def _under_component(inputs: CaseInputs, clock: Clock) -> CaseResult:
         responses = _integrated(mechanism, inputs, clock)
         members = settings.ensemble.members if inputs.alone else 0
         if settings.fidelity == "auto":
-            answer = _cheapest(inputs, ensemble_follows=members > 0)
+            answer = _cheapest(inputs)
             if answer.response is not None:
                 responses[Method.MECHANISM_ON_RECORD] = answer.response
         else:
@@ -141,7 +141,7 @@ def _under_component(inputs: CaseInputs, clock: Clock) -> CaseResult:
             case = replace(case, ensembles=ensemble_over_cracks(structure, motions, settings))
             return with_contacts(case, structure, motions, settings, check.bounces)
         if vertical is None and inputs.motion.support is None:
-            case = replace(case, overturning_estimate=estimated(Tier.PEAK_VELOCITY, mechanism, record))
+            case = replace(case, overturning_estimate=estimated(mechanism, record))
         return with_contacts(case, structure, motions, settings, check.bounces)
     except RockingError as error:
         return CaseResult(component=record.component, failures=(Failure("responses", str(error)),))
@@ -258,7 +258,7 @@ def _integrated(mechanism: Mechanism, inputs: CaseInputs, clock: Clock) -> dict[
     return responses
 
 
-def _cheapest(inputs: CaseInputs, ensemble_follows: bool) -> MethodAnswer:
+def _cheapest(inputs: CaseInputs) -> MethodAnswer:
     """Return what settles the verdict with the least work, at the settings' risk of the opposite outcome.
 
     Where other cracks may form, nothing cheaper than the mechanism settles it unless all of them rest, or stand by
@@ -276,14 +276,13 @@ def _cheapest(inputs: CaseInputs, ensemble_follows: bool) -> MethodAnswer:
     alone = len(several) == 1 and not several[0].bulges
     of_statics = mechanism if alone else mechanisms[0]
     if not alone:
-        estimates = (estimated(Tier.PEAK_VELOCITY, mechanism, record) for mechanism in mechanisms)
+        estimates = (estimated(mechanism, record) for mechanism in mechanisms)
         if not all(estimate is not None and estimate.high <= risk for estimate in estimates):
             risk = 0.0
     answer = cheapest_answer(
         of_statics,
         record,
         risk=risk,
-        ensemble_follows=ensemble_follows,
         tolerance=settings.tolerance,
         vertical=vertical,
         history=True,

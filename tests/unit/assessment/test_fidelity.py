@@ -8,20 +8,17 @@ import pytest
 from scipy.constants import g
 
 from rocking.assessment import fidelity
-from rocking.assessment.decide import Verdict
-from rocking.assessment.ensemble import ensemble
 from rocking.assessment.fidelity import (
-    NUDGES,
-    Tier,
-    TierFit,
+    TERMS,
+    EstimateFit,
     cheapest_answer,
     estimated,
-    read_tiers,
+    read_fit,
     stays_at_rest,
 )
 from rocking.assessment.inputs import CaseInputs
 from rocking.assessment.methods import Method
-from rocking.assessment.motions import GroundMotions, Motion
+from rocking.assessment.motions import Motion
 from rocking.assessment.one_case import compute_case
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.motion.integration import integrate
@@ -77,32 +74,12 @@ def test_what_it_does_not_settle_is_integrated():
         assert answer.response.rotation_ratio == integrate(MECHANISM, motion).rotation_ratio
 
 
-def test_where_an_ensemble_would_follow_the_block_may_settle_it():
-    """A motion that the peak velocity leaves open, far from what the block's five scales leave in doubt."""
+def test_an_estimate_settles_up_to_the_risk():
+    """The upper end of the estimate is the risk at which it begins to settle that the structure stands."""
     motion = record(1.1)
-    assert cheapest_answer(MECHANISM, motion).method is Method.MECHANISM_ON_RECORD
-    answer = cheapest_answer(MECHANISM, motion, ensemble_follows=True)
-    assert answer.method is Method.BLOCK_ON_RECORD and answer.response is None
-    assert ensemble(MECHANISM, GroundMotions.of(motion)).facts().step(0.05) is Verdict.STANDS
-    falls = cheapest_answer(MECHANISM, record(40.0), ensemble_follows=True, risk=0.1)
-    assert falls.method is Method.BLOCK_ON_RECORD and falls.outcome is Outcome.OVERTURNS
-    settings = AssessmentSettings(fidelity="auto")
-    case = compute_case(CaseInputs(motion=Motion((motion,)), structure=BLOCK, settings=settings))
-    assert case.answer.method is Method.BLOCK_ON_RECORD and case.ensembles is None
-
-
-def test_an_estimate_settles_up_to_the_risk_and_on_the_side_where_it_lies():
-    """The ends of the estimate are the risks at which it begins to settle: its upper end that it stands."""
-    motion = record(1.1)
-    high = estimated(Tier.PEAK_VELOCITY, MECHANISM, motion).high
+    high = estimated(MECHANISM, motion).high
     for risk, method in ((high, Method.PEAK_VELOCITY), (0.99 * high, Method.MECHANISM_ON_RECORD)):
         assert cheapest_answer(MECHANISM, motion, risk=risk).method is method
-    strong = record(40.0)
-    doubt = 1 - estimated(Tier.BLOCK_AT_FIVE_SCALES, MECHANISM, strong).low
-    answer = cheapest_answer(MECHANISM, strong, risk=1.001 * doubt, ensemble_follows=True)
-    assert (answer.method, answer.outcome) == (Method.BLOCK_ON_RECORD, Outcome.OVERTURNS)
-    assert np.isinf(integrate(MECHANISM, strong).rotation_ratio)
-    assert cheapest_answer(MECHANISM, strong, risk=0.99 * doubt, ensemble_follows=True).response is not None
 
 
 def test_a_block_unlike_its_mechanism_settles_nothing_and_gets_no_estimate():
@@ -112,7 +89,7 @@ def test_a_block_unlike_its_mechanism_settles_nothing_and_gets_no_estimate():
     mechanism = tied.mechanism()
     assert mechanism.block_defects.restoring > 1
     strong = record(40.0 * mechanism.uplift_multiplier / MECHANISM.uplift_multiplier)
-    answer = cheapest_answer(mechanism, strong, ensemble_follows=True)
+    answer = cheapest_answer(mechanism, strong)
     assert answer.method is Method.MECHANISM_ON_RECORD
     settings = AssessmentSettings(fidelity="auto", ensemble=EnsembleSettings(members=0))
     case = compute_case(CaseInputs(motion=Motion((strong,)), structure=tied, settings=settings))
@@ -124,10 +101,7 @@ def pulse_record(factor: float) -> Accelerogram:
 
 
 def measured(factor: float = 1.0) -> dict[str, float]:
-    motions = [pulse_record(factor * nudge) for nudge in NUDGES]
-    ratios = np.array([integrate(EQUIVALENT, motion).rotation_ratio for motion in motions])
-    velocity = fidelity.of_velocity(pulse_record(factor), EQUIVALENT)
-    return fidelity.of_structure(MECHANISM) | velocity | fidelity.from_nudged(ratios)
+    return fidelity.of_structure(MECHANISM) | fidelity.of_velocity(pulse_record(factor), EQUIVALENT)
 
 
 def test_the_peak_velocity_is_that_of_a_sine():
@@ -138,16 +112,15 @@ def test_the_peak_velocity_is_that_of_a_sine():
     assert measured()["peak_velocity"] == pytest.approx(math.log(severity), abs=1e-3)
 
 
-@pytest.mark.parametrize("tier", Tier)
-def test_an_estimate_grows_with_the_motion_and_lies_in_its_interval(tier):
-    estimates = [read_tiers()[tier].estimate(measured(factor)) for factor in (0.5, 1.0, 3.0)]
+def test_an_estimate_grows_with_the_motion_and_lies_in_its_interval():
+    estimates = [read_fit().estimate(measured(factor)) for factor in (0.5, 1.0, 3.0)]
     assert all(each.low <= each.share <= each.high for each in estimates)
     assert estimates[0].share < estimates[1].share < estimates[2].share
 
 
 @pytest.mark.parametrize("odd", [{"forcing_defect": 2.0}, {"frequency_parameter": 6.0}, {"restitution": 0.1}])
 def test_nothing_is_said_of_a_structure_unlike_those_behind_it(odd):
-    fit = read_tiers()[Tier.PEAK_VELOCITY]
+    fit = read_fit()
     assert fit.estimate(measured()) is not None and fit.estimate(measured() | odd) is None
     assert fit.unlike(measured() | odd)
 
@@ -155,7 +128,7 @@ def test_nothing_is_said_of_a_structure_unlike_those_behind_it(odd):
 @pytest.mark.parametrize("share, beyond", [(0.04, False), (0.06, True)])
 @pytest.mark.parametrize("name", ["restitution", "restoring_defect", "forcing_defect", "frequency_parameter"])
 def test_a_structure_is_like_those_behind_it_within_a_twentieth_of_their_range(name, share, beyond):
-    fit = read_tiers()[Tier.PEAK_VELOCITY]
+    fit = read_fit()
     measures = {each: sum(ends) / 2 for each, ends in fit.ranges.items()}
     assert not fit.unlike(measures)
     least, largest = fit.ranges[name]
@@ -163,42 +136,23 @@ def test_a_structure_is_like_those_behind_it_within_a_twentieth_of_their_range(n
         assert fit.unlike(measures | {name: outside}) is beyond
 
 
-def test_a_block_that_stays_up_counts_as_turned_to_twice_its_critical_rotation_at_most():
-    at, beyond = (fidelity.from_nudged(np.array([0.1, 0.2, each, 0.3, each])) for each in (2.0, 2.5))
-    assert at == beyond and at["block"] == at["block_high"] == pytest.approx(math.log(2.0), rel=1e-12)
-
-
-def test_a_block_that_overturns_counts_as_turned_to_its_critical_rotation():
-    """That it overturns is a term of its own; of what cannot be followed nothing else is known, either."""
-    for fallen in (math.inf, math.nan):
-        terms = fidelity.from_nudged(np.array([0.1, 0.2, fallen, 0.3, fallen]))
-        assert terms["block"] == terms["block_high"] == 0.0  # ln 1
-        assert (terms["block_overturns"], terms["block_overturning_share"]) == (1.0, 0.4)
-
-
 def test_an_estimate_is_the_logistic_curve_with_its_ends_on_either_side():
     """By hand: log odds 0.4 + 1.5 (3 − 2)/0.5 = 3.4, of which the variance is 0.04 + 2 · 2 · 0.01 + 4 · 0.09 = 0.44."""
-    tier = Tier.PEAK_VELOCITY
-    terms = len(tier.terms)
+    terms = len(TERMS)
     centre, spread = np.full(terms, 2.0), np.full(terms, 0.5)
     slopes, covariance = np.zeros(terms + 1), np.zeros((terms + 1, terms + 1))
     slopes[:2] = 0.4, 1.5
     covariance[:2, :2] = [[0.04, 0.01], [0.01, 0.09]]
-    fit = TierFit(tier, centre, spread, slopes, covariance, {}, lapse=0.1)
-    measures = dict.fromkeys(tier.terms, 2.0) | {tier.terms[0]: 3.0}
+    fit = EstimateFit(centre, spread, slopes, covariance, {}, lapse=0.1)
+    measures = dict.fromkeys(TERMS, 2.0) | {TERMS[0]: 3.0}
     found = fit.estimate(measures)
     reach = 1.6448536269514722 * math.sqrt(0.44)
     share, low, high = (1 / (1 + math.exp(-(3.4 + side * reach))) for side in (0, -1, 1))
     assert found.share == pytest.approx(0.9 * share, rel=1e-12)
     # The quantile of the normal distribution has five digits.
     assert (found.low, found.high) == pytest.approx((0.9 * low, high), rel=1e-5)
-    outside = TierFit(tier, centre, spread, slopes, covariance, {tier.terms[0]: (1.0, 1.5)})
+    outside = EstimateFit(centre, spread, slopes, covariance, {TERMS[0]: (1.0, 1.5)})
     assert outside.estimate(measures) is None
-
-
-def test_the_block_is_tried_evenly_on_both_sides_of_the_motion_as_given():
-    """The fit that is shipped was made at these factors: its terms are those of as many responses."""
-    assert np.diff(NUDGES) == pytest.approx(0.125) and NUDGES[len(NUDGES) // 2] == 1.0
 
 
 def test_the_velocity_counts_against_the_side_that_lifts_first():

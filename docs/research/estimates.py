@@ -1,6 +1,6 @@
-"""The tiers: what a cheap figure says of overturning, fitted to real records and judged by leaving sites out.
+"""What the peak velocity says of overturning, fitted to real records and judged by leaving sites out.
 
-And what `fidelity: auto` does with them on those sites: where it stops, what it costs, where it errs.
+And what `fidelity: auto` does with it on those sites: where it stops, what it costs, where it errs.
 """
 
 import json
@@ -14,15 +14,14 @@ from scipy.special import expit, logit
 
 from docs.research import scores, sites
 from docs.research.report import Target
-from rocking import Accelerogram, Mechanism, Outcome, Verdict, integrate, integrate_batch
+from rocking import Accelerogram, Mechanism, Outcome, Verdict, integrate
 from rocking.assessment import fidelity
 from rocking.assessment.decide import Facts, decide
 from rocking.assessment.ensemble import drawn, ensemble, lattice
 from rocking.assessment.fidelity import (
-    NUDGES,
     STRUCTURE,
-    Tier,
-    TierFit,
+    TERMS,
+    EstimateFit,
     cheapest_answer,
     peak_velocity,
     stays_at_rest,
@@ -44,41 +43,38 @@ RISK = 0.01
 ANSWERED_FACTORS = (0.5, 1.0, 2.0)
 """On each record for these."""
 LEFT_OUT = "sites left out"
+SUBJECT = "peak velocity"
+"""What is judged, as the table names it."""
 
 
 def calibrate(target: Target) -> None:
-    """Fit and judge every tier on the records of the target; tiers.json is what ships."""
+    """Fit and judge the estimate on the records of the target; estimate.json is what ships."""
     records = list(sites.independent(target.records))
-    cases = pd.DataFrame(tier_cases(records, sites.structures_tried()))
-    rows = [*tier_scores(cases), *answer_scores(pd.DataFrame(try_answers(records, cases)))]
+    cases = pd.DataFrame(estimated_cases(records, sites.structures_tried()))
+    rows = [*estimate_scores(cases), *answer_scores(pd.DataFrame(try_answers(records, cases)))]
     about: dict[str, object] = {"records": cases.record.nunique(), "sites": cases.site.nunique()}
     about["cases"] = len(cases)
     subtitle = ", ".join(f"{many} {name}" for name, many in about.items())
     target.publish("What a cheap figure says of overturning", f"{subtitle}.", {scores.Score: rows})
     hashes = "\n".join(sorted({component.accelerogram.source.sha256 for component in records}))
     about["records_sha256"] = sha256_of_bytes(hashes.encode())
-    fits = {tier: {"terms": tier.terms, **vars(fit(tier, cases))} for tier in Tier}
-    for each in fits.values():
-        del each["tier"]
-    text = json.dumps({"about": about, "tiers": fits}, indent=1, default=np.ndarray.tolist)
-    write_whole(target.folder / "tiers.json", (text + "\n").encode())
+    text = json.dumps({"about": about, "fit": vars(fit(cases))}, indent=1, default=np.ndarray.tolist)
+    write_whole(target.folder / "estimate.json", (text + "\n").encode())
 
 
-def tier_cases(
+def estimated_cases(
     records: Iterable[sites.SiteRecord], structures: Mapping[str, Structure]
 ) -> Iterator[dict[str, object]]:
     """Yield the cases of each record but those that rest as given, which is certain: what is measured of each.
 
-    share: of the members of its ensemble that overturn. The other columns name the case and are the terms of the tiers.
+    share: of the members of its ensemble that overturn. The others name the case and are the terms of the estimate.
     """
     mechanisms = {name: each.mechanism() for name, each in structures.items()}
     blocks = [mechanism.equivalent_block("rest") for mechanism in mechanisms.values()]
-    nudged = np.outer(FACTORS, NUDGES)
     for component in records:
         record = component.accelerogram
-        on_block = integrate_batch(blocks, record, nudged.ravel()).reshape(len(blocks), *nudged.shape)
         for k, (structure, mechanism) in enumerate(mechanisms.items()):
-            for i, factor in enumerate(FACTORS):
+            for factor in FACTORS:
                 motion = record.scaled(factor)
                 if stays_at_rest(mechanism, motion):
                     continue
@@ -93,56 +89,55 @@ def tier_cases(
                         "share": members.overturning_share,
                     }
                     terms = fidelity.of_structure(mechanism) | fidelity.of_velocity(motion, blocks[k])
-                    yield case | terms | fidelity.from_nudged(on_block[k, i])
+                    yield case | terms
 
 
-def fit(tier: Tier, cases: pd.DataFrame) -> TierFit:
-    """Return `tier` fitted to `cases`, one of which weighs as much as another."""
-    terms, shares = _terms(tier, cases), cases.share.to_numpy()
+def fit(cases: pd.DataFrame) -> EstimateFit:
+    """Return the estimate fitted to `cases`, one of which weighs as much as another."""
+    terms, shares = _terms(cases), cases.share.to_numpy()
     centre, spread = terms.mean(axis=0), terms.std(axis=0)
     spread = np.where(spread > 0, spread, 1.0)
     design = np.column_stack([np.ones(len(terms)), (terms - centre) / spread])
     fitted = scores.logistic(design, shares, cases.site.to_numpy())
     lapse = scores.lapse(expit(design @ fitted[0]), shares)
     ranges = cases[[*STRUCTURE, "frequency_parameter"]].agg(["min", "max"]).to_dict("list")
-    return TierFit(tier, centre, spread, *fitted, ranges, lapse)
+    return EstimateFit(centre, spread, *fitted, ranges, lapse)
 
 
-def _terms(tier: Tier, cases: pd.DataFrame) -> np.ndarray:
-    return np.ascontiguousarray(cases[list(tier.terms)].to_numpy())
+def _terms(cases: pd.DataFrame) -> np.ndarray:
+    return np.ascontiguousarray(cases[list(TERMS)].to_numpy())
 
 
-def left_out(tier: Tier, cases: pd.DataFrame) -> np.ndarray:
-    """Return the share (n,) that `tier` estimates of each case when it is fitted without the site of the case."""
+def left_out(cases: pd.DataFrame) -> np.ndarray:
+    """Return the share (n,) that is estimated of each case when the estimate is fitted without the site of the case."""
 
     def estimates(others: np.ndarray, own: np.ndarray) -> np.ndarray:
-        without = fit(tier, cases.iloc[others])
-        odds = without.design(_terms(tier, cases.iloc[own])) @ without.coefficients
+        without = fit(cases.iloc[others])
+        odds = without.design(_terms(cases.iloc[own])) @ without.coefficients
         stated: np.ndarray = (1 - without.lapse) * expit(odds)
         return stated
 
     return scores.left_out(cases.site.to_numpy(), estimates)
 
 
-def tier_scores(cases: pd.DataFrame) -> Iterator[scores.Score]:
-    """Yield the scores and the reliability of each tier on sites left out."""
+def estimate_scores(cases: pd.DataFrame) -> Iterator[scores.Score]:
+    """Yield the scores and the reliability of the estimate on sites left out."""
     overturned = cases.share.to_numpy()
     sample = sites.sample_of(cases.site, cases.earthquake)
-    for tier in Tier:
-        stated = left_out(tier, cases)
-        measures = {
-            "Brier skill": scores.brier_skill(stated, overturned),
-            "Brier skill of the shares themselves": scores.brier_skill(overturned, overturned),
-            "calibration slope": scores.logit_slope(logit(stated), overturned),
-        }
-        yield from scores.scored(tier, LEFT_OUT, measures, sample)
-        yield from scores.reliability(tier, LEFT_OUT, stated, overturned, sample, BINS)
+    stated = left_out(cases)
+    measures = {
+        "Brier skill": scores.brier_skill(stated, overturned),
+        "Brier skill of the shares themselves": scores.brier_skill(overturned, overturned),
+        "calibration slope": scores.logit_slope(logit(stated), overturned),
+    }
+    yield from scores.scored(SUBJECT, LEFT_OUT, measures, sample)
+    yield from scores.reliability(SUBJECT, LEFT_OUT, stated, overturned, sample, BINS)
 
 
 def try_answers(records: Iterable[sites.SiteRecord], cases: pd.DataFrame) -> Iterator[dict[str, object]]:
-    """Yield a trial of each structure at each factor on the first component of each site, with tiers fitted without it.
+    """Yield a trial of each structure at each factor on the first component of each site, by a fit without that site.
 
-    cases: those of `tier_cases` under `records`.
+    cases: those of `estimated_cases` under `records`.
     """
     mechanisms = [structure.mechanism() for structure in sites.structures_tried().values()]
     first = sites.one_of_each(records)
@@ -150,40 +145,37 @@ def try_answers(records: Iterable[sites.SiteRecord], cases: pd.DataFrame) -> Ite
         integrate(mechanism, first[0].accelerogram)
     for component in first:
         others = cases[cases.site != component.site]
-        fits = {tier: fit(tier, others) for tier in Tier}
+        own_fit = fit(others)
         for motion in map(component.accelerogram.scaled, ANSWERED_FACTORS):
             _, velocity_s = sites.timed(partial(peak_velocity, motion))
             for mechanism in mechanisms:
-                trial = _answer_trial(mechanism, motion, fits, velocity_s / len(mechanisms))
+                trial = _answer_trial(mechanism, motion, own_fit, velocity_s / len(mechanisms))
                 yield {"site": component.site, "earthquake": component.earthquake, **trial}
 
 
 def _answer_trial(
-    mechanism: Mechanism, record: Accelerogram, fits: Mapping[Tier, TierFit], velocity_s: float
+    mechanism: Mechanism, record: Accelerogram, fitted: EstimateFit, velocity_s: float
 ) -> dict[str, object]:
     """What answered, the truths, and the CPU time of each [s].
 
-    alone: where the mechanism is the last that is asked. beside: where an ensemble follows. mechanism: the case as
-    given. whole: its ensemble. quick: one that may end early.
+    cheapest: the first answer that settles the case. mechanism: the case as recorded. whole: its ensemble. quick: one
+    that may end early.
     """
     motions = GroundMotions.of(record)
-    answer = partial(cheapest_answer, mechanism, record, risk=RISK, fits=fits)
     runs: dict[str, Callable[[], Any]] = {
         "mechanism": partial(integrate, mechanism, record),
-        "alone": answer,
-        "beside": partial(answer, ensemble_follows=True),
+        "cheapest": partial(cheapest_answer, mechanism, record, risk=RISK, fit=fitted),
         "whole": partial(ensemble, mechanism, motions),
         "quick": partial(ensemble, mechanism, motions, verdict_only=True),
     }
     answers, times = {}, {}
     for name, run in runs.items():
         answers[name], times[f"{name}_s"] = sites.timed(run)
-    for name in ("alone_s", "beside_s"):
-        times[name] += velocity_s
+    times["cheapest_s"] += velocity_s
     return times | {
-        "method": answers["beside"].method,
+        "method": answers["cheapest"].method,
         "overturns": answers["mechanism"].outcome is Outcome.OVERTURNS,
-        "beside_overturns": answers["beside"].outcome is Outcome.OVERTURNS,
+        "settled_overturns": answers["cheapest"].outcome is Outcome.OVERTURNS,
         "overturning_share": answers["whole"].overturning_share,
         "verdict": decide(Facts(cracks=(answers["whole"].facts(),))).word,
         "quick_verdict": decide(Facts(cracks=(answers["quick"].facts(),))).word,
@@ -192,20 +184,16 @@ def _answer_trial(
 
 def answer_scores(trials: pd.DataFrame) -> Iterator[scores.Score]:
     """Yield every measure of the trials with its interval."""
-    by_velocity = trials.method == Method.PEAK_VELOCITY
-    by_block = trials.method == Method.BLOCK_ON_RECORD
-    settled = by_velocity | by_block
-    wrong = trials.beside_overturns != trials.overturns
-    against = trials.overturning_share.where(~trials.beside_overturns, 1 - trials.overturning_share)
-    opposite = trials.beside_overturns.map({True: Verdict.STANDS, False: Verdict.OVERTURNS})
+    settled = trials.method == Method.PEAK_VELOCITY
+    wrong = trials.settled_overturns != trials.overturns
+    against = trials.overturning_share.where(~trials.settled_overturns, 1 - trials.overturning_share)
+    opposite = trials.settled_overturns.map({True: Verdict.STANDS, False: Verdict.OVERTURNS})
     paid = trials.mechanism_s + trials.whole_s
-    spent = trials.beside_s + trials.quick_s * (trials.method == Method.MECHANISM_ON_RECORD)
+    spent = trials.cheapest_s + trials.quick_s * (trials.method == Method.MECHANISM_ON_RECORD)
     measures = {
         "share at rest": trials.method == Method.NOTHING_TO_INTEGRATE,
-        "share settled by the peak velocity": by_velocity,
-        "share settled by the block": by_block,
-        "members against the verdict of the peak velocity": against.where(by_velocity),
-        "members against the verdict of the block": against.where(by_block),
+        "share settled by the peak velocity": settled,
+        "members against the verdict of the peak velocity": against.where(settled),
         "wrong verdicts among those settled": wrong.where(settled),
         "opposite verdict of the ensemble among those settled": (trials.verdict == opposite).where(settled),
         "open in the ensemble among those settled": (~trials.verdict.map(lambda word: word.is_sure)).where(
@@ -213,7 +201,7 @@ def answer_scores(trials: pd.DataFrame) -> Iterator[scores.Score]:
         ),
         "verdicts of the ensemble that its early end changes": trials.quick_verdict != trials.verdict,
         "CPU saved of the mechanism for all": scores.share_of(
-            trials.mechanism_s - trials.alone_s, trials.mechanism_s
+            trials.mechanism_s - trials.cheapest_s, trials.mechanism_s
         ),
         "CPU saved of mechanism and ensemble for all": scores.share_of(paid - spent, paid),
     }
