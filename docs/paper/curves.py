@@ -181,7 +181,7 @@ def envelope_cracks() -> tuple[Candidate, ...]:
 
 def overturning_spectra() -> np.ndarray:
     """Return the least amplitude [m/s²] of one sine of each of PERIODS that overturns each crack, (cracks, periods)."""
-    blocks = [each.structure.mechanism().equivalent_block("rest") for each in envelope_cracks()]
+    blocks = [each.structure.mechanism().equivalent_block("exact_at_rest") for each in envelope_cracks()]
     return overturning_amplitudes(blocks, 2 * np.pi / PERIODS)
 
 

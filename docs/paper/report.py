@@ -128,14 +128,14 @@ def _periods(name: str, caption: str, sides: Sides, uplift: curves.Curve) -> Pap
         ": (a) natural period, linearised as in the paper, (b) uplift, linearised; (c) natural period of the block "
         "exact at rest, whose uplift has no error."
     )
-    lines = [*curves.period_curves(sides, "a"), uplift, *curves.period_curves(sides, "c", "rest")]
+    lines = [*curves.period_curves(sides, "a"), uplift, *curves.period_curves(sides, "c", "exact_at_rest")]
     return _made(name, caption, lines)
 
 
 def _overturning(name: str, caption: str, sides: Sides) -> PaperFigure:
     """Errors in the time to overturn."""
     caption += ": (a) with a_sc and (b) with a_sc,alt as in the paper, (c) exact at rest."
-    scales: tuple[tuple[Scale, str], ...] = (("linearised", "a"), ("uplift", "b"), ("rest", "c"))
+    scales: tuple[tuple[Scale, str], ...] = (("linearised", "a"), ("uplift", "b"), ("exact_at_rest", "c"))
     lines = [curve for scale, panel in scales for curve in curves.overturning_curves(sides, scale, panel)]
     return _made(name, caption, lines)
 

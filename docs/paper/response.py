@@ -68,7 +68,7 @@ def predicted_levels(mechanism: Mechanism, pulse: Pulse) -> Mapping[str, float]:
     values = (
         printed_maximum(paper, pulse),
         predict_maximum(paper, pulse).rotation_ratio,
-        predict_maximum(mechanism.equivalent_block("rest"), pulse).rotation_ratio,
+        predict_maximum(mechanism.equivalent_block("exact_at_rest"), pulse).rotation_ratio,
     )
     return dict(zip(_STYLES, values, strict=True))
 
@@ -118,7 +118,7 @@ def prediction_rows(accelerogram: Accelerogram) -> list[PredictionRow]:
                 printed_rotation_ratio=printed_maximum(linearised, pulse),
                 printed_uplift_rotation_ratio=printed_maximum(uplift, pulse),
                 predicted_rotation_ratio=predict_maximum(
-                    mechanism.equivalent_block("rest"), pulse
+                    mechanism.equivalent_block("exact_at_rest"), pulse
                 ).rotation_ratio,
                 integrated_rotation_ratio=integrate(mechanism, accelerogram).rotation_ratio,
             )

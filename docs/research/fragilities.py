@@ -74,7 +74,7 @@ def method_scores(
     levels, exact = reference.levels, np.isinf(reference.rotation_ratios).mean(axis=2)
     factors = levels / reference.intensities[:, None]
     _, curve_s = sites.timed(reference.fragility)
-    block = structure.mechanism().equivalent_block("rest")
+    block = structure.mechanism().equivalent_block("exact_at_rest")
 
     def on_block() -> np.ndarray:
         pairs = zip(records, factors, strict=True)

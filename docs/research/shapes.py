@@ -105,7 +105,7 @@ def compared(
     explained = {name: fit.explained for name, fit in fits.items()}
     for structure in structures.values():
         mechanism = structure.mechanism()
-        block = mechanism.equivalent_block("rest")
+        block = mechanism.equivalent_block("exact_at_rest")
         integrated = integrate(mechanism, component.accelerogram).rotation_ratio
         predicted = {name: predict_maximum(block, fit.pulse).rotation_ratio for name, fit in fits.items()}
         if not all(map(rests, (integrated, *predicted.values()))):

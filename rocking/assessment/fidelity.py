@@ -113,7 +113,7 @@ def of_structure(mechanism: Mechanism) -> dict[str, float]:
         "restitution": min(side.restitution for side in mechanism.sides),
         "restoring_defect": defects.restoring,
         "forcing_defect": defects.forcing,
-        "frequency_parameter": mechanism.equivalent_block("rest").frequency_parameter,
+        "frequency_parameter": mechanism.equivalent_block("exact_at_rest").frequency_parameter,
     }
 
 
@@ -191,7 +191,7 @@ def estimated(mechanism: Mechanism, record: Accelerogram, fit: EstimateFit | Non
     fit = fit or read_fit()
     try:
         own = of_structure(mechanism)
-        block = mechanism.equivalent_block("rest")
+        block = mechanism.equivalent_block("exact_at_rest")
     except StructureError:
         return None
     return fit.estimate(own | of_velocity(record, block))

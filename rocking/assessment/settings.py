@@ -85,8 +85,8 @@ class AssessmentSettings:
     """
 
     acceleration_scale: Scale = described(
-        "rest",
-        "equivalent block: rest (exact as it lifts, in arc length), or linearised about the critical rotation "
+        "exact_at_rest",
+        "equivalent block: exact_at_rest (as it lifts, in arc length), or linearised about the critical rotation "
         "with uplift (a_sc,alt), linearised (a_sc) or mean",
     )
     tolerance: float = described(

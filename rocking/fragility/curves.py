@@ -626,7 +626,7 @@ def _spread_levels(mechanism: Mechanism, records: Sequence[Accelerogram], scalin
     within_reach = uplifts <= scaling.largest_factor
     reach = scaling.highest
     lowest = float((scaling.intensities * uplifts**scaling.power)[within_reach].min(initial=reach / 2))
-    severities = per_velocity(mechanism.equivalent_block("rest")) * np.array(
+    severities = per_velocity(mechanism.equivalent_block("exact_at_rest")) * np.array(
         list(map(peak_velocity, records))
     )
     highest = min(float((scaling.intensities * (SEVERE / severities) ** scaling.power).max()), reach)

@@ -229,7 +229,11 @@ INTENSITY_MEASURES: dict[str, IntensityMeasure] = {
             openquake="PGA",
         ),
         IntensityMeasure(
-            "p_pgv", "", "p·PGV/(gλ)", peak_velocity, lambda m: 1 / per_velocity(m.equivalent_block("rest"))
+            "p_pgv",
+            "",
+            "p·PGV/(gλ)",
+            peak_velocity,
+            lambda m: 1 / per_velocity(m.equivalent_block("exact_at_rest")),
         ),
         IntensityMeasure(
             "arias",
@@ -378,7 +382,7 @@ def _from_structure(stem: str, mechanism: Mechanism | None) -> IntensityMeasure:
             f"intensity_measure is {stem!r}, but must say its {'period' if count == 1 else 'periods'} here, as in "
             f"{stem}({'0.5' if count == 1 else '0.2,2.0'}).",
         )
-    period = 2 * math.pi / mechanism.equivalent_block("rest").frequency_parameter
+    period = 2 * math.pi / mechanism.equivalent_block("exact_at_rest").frequency_parameter
     shares = RANGE_BY_PERIOD if stem == "AvgSA" else (FIV3_BY_PERIOD,)
     return made(*(_three_digits(share * period) for share in shares))
 

@@ -24,7 +24,7 @@ class PageSettings:
     display_units: str = "SI"
     details: bool = False
     tolerance: float = 1e-6
-    acceleration_scale: str = "rest"
+    acceleration_scale: str = "exact_at_rest"
     friction_coefficient: float | None = None
 
 

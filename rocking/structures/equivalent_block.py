@@ -192,7 +192,7 @@ def _evaluated(coefficients: np.ndarray, share: np.ndarray) -> np.ndarray:
     return result
 
 
-Scale = Literal["rest", "linearised", "uplift", "mean"]
+Scale = Literal["exact_at_rest", "linearised", "uplift", "mean"]
 """The kind of equivalent block: exact at rest, or linearised about φ_cr with a_sc, a_sc,alt = φ_cr/λ or their mean."""
 
 

@@ -289,12 +289,12 @@ class Side:
             "must be to be followed, or for a block exact at rest; take the block linearised about φ_cr."
         )
 
-    def equivalent_block(self, scale: Scale = "rest") -> EquivalentBlock:
+    def equivalent_block(self, scale: Scale = "exact_at_rest") -> EquivalentBlock:
         """Return the linear block that stands for this side alone; see Mechanism.equivalent_block."""
         linearised = self.acceleration_scale
         alternative = self.critical_rotation / self.uplift_multiplier  # a_sc,alt (Eq. 13)
         mean = (linearised + alternative) / 2
-        scales = {"rest": alternative, "linearised": linearised, "uplift": alternative, "mean": mean}
+        scales = {"exact_at_rest": alternative, "linearised": linearised, "uplift": alternative, "mean": mean}
         if scale not in scales:
             raise StructureError(f"scale is {scale!r}, but must be one of {', '.join(scales)}.")
         block = EquivalentBlock(
@@ -303,7 +303,7 @@ class Side:
             acceleration_scale=scales[scale],
             restitution=self.restitution,
         )
-        if scale != "rest":
+        if scale != "exact_at_rest":
             return block
         # p² = g G(0)/(I(0) q_cr) in x = q/q_cr with the arc q (theory: section 9)
         arc, inverse = self.arc
@@ -420,12 +420,12 @@ class Mechanism(Drawn):
         """η of the positive side."""
         return self.positive.restitution
 
-    def equivalent_block(self, scale: Scale = "rest") -> EquivalentBlock:
+    def equivalent_block(self, scale: Scale = "exact_at_rest") -> EquivalentBlock:
         """Return the linear block that stands for this mechanism.
 
-        scale: "rest", exact as it lifts and in the place of its unstable equilibrium (theory: section 9); or the
-        paper's, linearised about φ_cr (Eqs. 9–13), with the acceleration scale "linearised", "uplift"
-        or "mean" (Eq. 13).
+        scale: "exact_at_rest", exact as it lifts and in the place of its unstable equilibrium (theory: section 9);
+        or the paper's, linearised about φ_cr (Eqs. 9–13), with the acceleration scale "linearised", "uplift" or
+        "mean" (Eq. 13).
         The same object at every call, as what it computes of itself is kept.
         Raises StructureError for another scale.
         """

@@ -50,7 +50,7 @@ def write_summary(
     faults: Collection[Row] = (),
     each_unnamed: bool = False,
     remarks: Collection[Row] = (),
-    scale: Scale = "rest",
+    scale: Scale = "exact_at_rest",
 ) -> tuple[dict[type[Row], list[Row]], list[dict[str, Any]], list[Sequence[float]], dict[str, str]]:
     """Write the tables of the summary into `target`, record by record.
 

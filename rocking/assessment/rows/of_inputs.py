@@ -371,7 +371,7 @@ class ListedStructure(Named):
     """One structure of the list. block_used: the block that predicts, as the settings name it."""
 
     body: Structure
-    block_used: Scale = "rest"
+    block_used: Scale = "exact_at_rest"
 
     @property
     def block_printed(self) -> Scale:
@@ -399,7 +399,7 @@ class ListedStructure(Named):
 of_listed = Columns(ListedStructure)
 of_side = of_listed.optional(lambda of: of.side)
 of_block_defects = of_listed.optional(
-    lambda of: None if of.block("rest") is None else of.body.mechanism().block_defects
+    lambda of: None if of.block("exact_at_rest") is None else of.body.mechanism().block_defects
 )
 of_crushing = of_listed.optional(lambda of: of.body.crushing(WEAK_MASONRY))
 
@@ -432,7 +432,7 @@ class StructureRow(StructureNameRow[ListedStructure]):
         lambda side: side.frequency_parameter,
         equation="Eq. 11",
     )
-    frequency_parameter_at_rest_rad_s: float = of_block("rest")(
+    frequency_parameter_at_rest_rad_s: float = of_block("exact_at_rest")(
         "p of the block exact at rest, which is used unless the settings name another one",
         lambda block: block.frequency_parameter,
     )
@@ -470,7 +470,9 @@ class StructureRow(StructureNameRow[ListedStructure]):
     )
 
 
-def structure_rows(structures: Mapping[str, Structure], scale: Scale = "rest") -> Iterator[StructureRow]:
+def structure_rows(
+    structures: Mapping[str, Structure], scale: Scale = "exact_at_rest"
+) -> Iterator[StructureRow]:
     """Yield the row of each structure. scale: the block that predicts."""
     for entry in structures.items():
         yield StructureRow.of(ListedStructure(*entry, scale))

@@ -137,7 +137,7 @@ def _runs(
     mechanism: Mechanism, record: Accelerogram, sines: Sequence[PulseEvidence], settings: AssessmentSettings
 ) -> dict[TradeMethod, Callable[[], float]]:
     """The computation of the largest rotation by each method; no closed form for a record without pulses."""
-    block = mechanism.equivalent_block("rest")
+    block = mechanism.equivalent_block("exact_at_rest")
 
     def worst(some: Sequence[PulseEvidence]) -> float:
         return max(predict_maximum(block, each.pulse).rotation_ratio for each in some)

@@ -252,7 +252,7 @@ def test_a_row_of_the_comparison_speaks_of_the_crack_that_governs_alone(several,
     statics, *_ = wall.candidates()
     assert crack != statics.description, "another crack than that of statics governs"
     (body,) = (each.structure for each in wall.candidates() if each.description == crack)
-    block = body.mechanism().equivalent_block("rest")
+    block = body.mechanism().equivalent_block("exact_at_rest")
     rows = rows_of_record(result).comparison
     assert len(rows) == several
     for row, motion in zip(rows, motions, strict=True):

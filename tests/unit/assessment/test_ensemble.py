@@ -257,7 +257,7 @@ def test_a_mechanism_is_assessed_as_its_structure_and_members_are_those_asked_fo
         ([1.0, 2.0], BLOCK, "record"),
         (3, BLOCK, "record"),
         (_record(4.0), [BLOCK], "structure"),
-        (_record(4.0), BLOCK.mechanism().equivalent_block("rest"), "structure"),
+        (_record(4.0), BLOCK.mechanism().equivalent_block("exact_at_rest"), "structure"),
     ],
 )
 def test_wrong_types_are_refused(record, structure, field):

@@ -30,7 +30,7 @@ STEP = 0.01
 TIMES = np.arange(400) * STEP
 BLOCK = Block(2.0, 0.2)
 MECHANISM = BLOCK.mechanism()
-EQUIVALENT = MECHANISM.equivalent_block("rest")
+EQUIVALENT = MECHANISM.equivalent_block("exact_at_rest")
 PULSE = Pulse(amplitude=3.0, circular_frequency=2 * np.pi / 0.8, start_time=2.0)
 
 

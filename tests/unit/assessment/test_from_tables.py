@@ -33,7 +33,7 @@ def cells(path: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(stream))
 
 
-@pytest.fixture(scope="module", params=["rest", "linearised", "uplift", "mean"])
+@pytest.fixture(scope="module", params=["exact_at_rest", "linearised", "uplift", "mean"])
 def folder(request, tmp_path_factory) -> Path:
     """Tables of a pulse of 0.45 g and 0.45 s, by each kind of equivalent block."""
     folder = tmp_path_factory.mktemp(request.param)
@@ -72,7 +72,7 @@ def block_of(folder: Path, structure: str) -> tuple[float, float]:
     uplift = float(row["acceleration_scale_uplift"])
     p = float(row["frequency_parameter_rad_s"])
     kinds = {
-        "rest": (float(row["uplift_multiplier"]), float(row["frequency_parameter_at_rest_rad_s"])),
+        "exact_at_rest": (float(row["uplift_multiplier"]), float(row["frequency_parameter_at_rest_rad_s"])),
         "linearised": (critical / linearised, p),
         "uplift": (critical / uplift, p),
         "mean": (critical / ((linearised + uplift) / 2), p),
@@ -147,7 +147,7 @@ def test_the_closed_form_follows_from_the_tables(folder):
         x = largest_rotation(1.0, eta, a, w)
         assert 0.01 < x < math.inf
         rotation = float(row["predicted_rotation_ratio"])
-        if folder.name.startswith("rest"):
+        if folder.name.startswith("exact_at_rest"):
             side = STRUCTURES[row["structure"]].mechanism().positive
             assert arc(side, rotation) / arc(side, 1.0) == pytest.approx(x, rel=1e-7)
         else:

@@ -71,7 +71,7 @@ def test_the_governing_crack_goes_down_the_spire_as_the_sine_grows_longer():
     assert all(heights[period] == cracks[-1].position for period in (0.4, 1.0, 1.5))
     assert heights[2.4] == pytest.approx(3.8, abs=0.36)  # the cracks are 0.356 m apart
     assert heights[4.0] == 0
-    blocks = [each.structure.mechanism().equivalent_block("rest") for each in cracks]
+    blocks = [each.structure.mechanism().equivalent_block("exact_at_rest") for each in cracks]
     for place in (20, 40, 72):
         period, least = envelope.x[place], envelope.y[place] * GRAVITY
         pulses = [
@@ -147,7 +147,7 @@ def test_the_page_holds_the_numbers_of_figure_8(real_records):
     columns = []
     for radius in RADII.values():
         mechanism = example_arch(radius).mechanism()
-        paper, ours = (mechanism.equivalent_block(scale) for scale in ("uplift", "rest"))
+        paper, ours = (mechanism.equivalent_block(scale) for scale in ("uplift", "exact_at_rest"))
         runs = ((mechanism, pulse), (paper, record), (ours, record), (mechanism, record))
         integrated = [integrate(structure, motion).rotation_ratio for structure, motion in runs]
         columns.append([*predicted_levels(mechanism, pulse).values(), *integrated])

@@ -127,5 +127,5 @@ def test_its_samples_are_those_of_the_sine_within_it(shape):
     followed = integrate(
         Block(2.0, 0.2), Accelerogram(pulse.acceleration(times[inside]), times[1] - times[0])
     )
-    predicted = predict_maximum(Block(2.0, 0.2).mechanism().equivalent_block("rest"), pulse)
+    predicted = predict_maximum(Block(2.0, 0.2).mechanism().equivalent_block("exact_at_rest"), pulse)
     assert followed.outcome is predicted.outcome
