@@ -152,7 +152,7 @@ def positive(error: type[RockingError], field: str, value: float, unit: str = ""
 
 
 def within(
-    error: type[RockingError], field: str, value: float, low: float, high: float, unit: str = ""
+    error: type[RockingError], field: str, value: float, *, low: float, high: float, unit: str = ""
 ) -> float:
     """Return `value` as a float in [low, high], or raise `error` naming `field`."""
     number = finite(error, field, value, unit)

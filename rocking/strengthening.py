@@ -49,7 +49,7 @@ _MOST_NEEDED = 10_000
 _TIE = "tie_strength"
 
 
-def stations_needed(share: float, target: float) -> float:
+def stations_needed(*, share: float, target: float) -> float:
     """Return the number of stations, each of another earthquake, from which on the upper bound of this `share` is at
     or below the target.
 
@@ -228,7 +228,7 @@ class Strengthening(Drawn):
 
         nan where the share there is not below the target, so that no number of stations shows it.
         """
-        return stations_needed((self.chosen or self.told[-1]).share, self.target)
+        return stations_needed(share=(self.chosen or self.told[-1]).share, target=self.target)
 
     @property
     def monotone(self) -> bool:

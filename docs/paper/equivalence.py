@@ -103,7 +103,7 @@ def _check_amplitude(ratio: float) -> None:
 
 
 def _check_acceleration(ratio: float) -> None:
-    if within(StructureError, "acceleration_ratio", ratio, 1, 1e9) == 1:
+    if within(StructureError, "acceleration_ratio", ratio, low=1, high=1e9) == 1:
         raise StructureError(
             f"acceleration_ratio is {ratio!r}, but must exceed 1, at which the structure lifts."
         )

@@ -130,8 +130,8 @@ def _scored(subject: str, part: str, cases: Sequence[Case], shapes: Sequence[str
     pairs = [(case.predicted[name], case.integrated) for case, name in zip(cases, shapes, strict=True)]
     if not pairs:
         return
-    outcomes = [agreement(*pair) for pair in pairs]
-    errors = [abs(ratio(*pair) - 1) for pair in pairs]
+    outcomes = [agreement(predicted=predicted, integrated=integrated) for predicted, integrated in pairs]
+    errors = [abs(ratio(predicted=predicted, integrated=integrated) - 1) for predicted, integrated in pairs]
     measures: dict[str, Measured] = {
         "wrong verdicts": [float(each is not Agreement.SAME) for each in outcomes],
         "unsafe verdicts": [float(each is Agreement.TOO_LOW) for each in outcomes],

@@ -74,7 +74,9 @@ def worth_scores(cases: Sequence[Case]) -> Iterator[Score]:
             continue
         falls = np.isinf([each.integrated for each in own])
         said = np.isinf([each.predicted for each in own])
-        alike = [agreement(each.predicted, each.integrated) is Agreement.SAME for each in own]
+        alike = [
+            agreement(predicted=each.predicted, integrated=each.integrated) is Agreement.SAME for each in own
+        ]
         measures: dict[str, Measured] = {
             "same outcome": np.array(alike, dtype=float),
             "falls found": np.where(falls, said, np.nan),

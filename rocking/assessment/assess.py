@@ -143,7 +143,11 @@ class StructureAssessment(PeriodResult, Drawn):
             ratios |= {method: response.rotation_ratio for method, response in case.responses.items()}
             for method, ratio in ratios.items():
                 whole = method is Method.MECHANISM_ON_RECORD
-                words = "" if whole else ratio_in_words(ratio, case.integrated_rotation_ratio)
+                words = (
+                    ""
+                    if whole
+                    else ratio_in_words(predicted=ratio, integrated=case.integrated_rotation_ratio)
+                )
                 rows.append((component, str(method), ratio, words, str(self.verdict)))
         return DataFrame(rows, columns=["component", "method", "rotation_ratio", "in_words", "verdict"])
 

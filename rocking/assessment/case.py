@@ -454,7 +454,7 @@ class PeriodResult:
     def severity(self) -> Severity:
         """Key by which the worst of several comes last."""
         factor = self.reserve.low if self.reserve else math.nan
-        return severity(self.decision, factor, self.rotation_ratio)
+        return severity(self.decision, factor=factor, rotation_ratio=self.rotation_ratio)
 
     @property
     def crack(self) -> str:

@@ -315,7 +315,8 @@ def _share_of(
                 falls += it_falls
                 left = len(cases) - followed
                 words = [
-                    step_of(count, len(cases), risk=settings.ensemble.risk) for count in (falls, falls + left)
+                    step_of(falls=count, members=len(cases), risk=settings.ensemble.risk)
+                    for count in (falls, falls + left)
                 ]
                 if words[0] is words[1]:
                     break

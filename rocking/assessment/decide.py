@@ -88,7 +88,7 @@ def better(*words: Verdict) -> Verdict:
     return min(words, key=lambda word: word.badness)
 
 
-def share_error(falls: int, members: int, farthest: float = math.inf) -> float:
+def share_error(*, falls: int, members: int, farthest: float = math.inf) -> float:
     """Return the most by which the share of `members` that fall differs from that of very many.
 
     It is inversely proportional to the number of members, not to its root, because they are points of a lattice. It
@@ -99,7 +99,7 @@ def share_error(falls: int, members: int, farthest: float = math.inf) -> float:
     return 0.0 if many_agree or farthest <= FAR else LATTICE_ERROR / max(members, 1)
 
 
-def step(falls: int, members: int, farthest: float = math.inf, risk: float = 0.05) -> Verdict:
+def step(*, falls: int, members: int, farthest: float = math.inf, risk: float = 0.05) -> Verdict:
     """Return the word of `members` of which `falls` overturn: where the error counts, it counts on the unsafe side.
 
     risk: largest probability of the opposite outcome.
@@ -107,7 +107,9 @@ def step(falls: int, members: int, farthest: float = math.inf, risk: float = 0.0
     >>> [str(step(falls, 64)) for falls in (0, 1, 20, 41, 64)]
     ['stands', 'probably stands', 'uncertain', 'probably overturns', 'overturns']
     """
-    error = share_error(falls, members, farthest) * members  # in members, so that no edge hangs on rounding
+    error = (
+        share_error(falls=falls, members=members, farthest=farthest) * members
+    )  # in members, so that no edge hangs on rounding
     if falls + error <= risk * members:
         return Verdict.STANDS
     if members - falls + error <= risk * members:
@@ -173,13 +175,18 @@ class CrackFacts:
     def step(self, risk: float) -> Verdict:
         """Return the word of its members, those that failed counted as falling."""
         return step(
-            self.falls + self.failed, self.members, self.farthest if not self.failed else math.inf, risk
+            falls=self.falls + self.failed,
+            members=self.members,
+            farthest=self.farthest if not self.failed else math.inf,
+            risk=risk,
         )
 
     def is_near_an_edge(self, risk: float) -> bool:
         """Whether one of the four edges between words lies within the error, so that more members may change it."""
         error = share_error(
-            self.falls + self.failed, self.members, math.inf if self.failed else self.farthest
+            falls=self.falls + self.failed,
+            members=self.members,
+            farthest=math.inf if self.failed else self.farthest,
         )
         edges = risk, 1 / 3, 2 / 3, 1 - risk  # those of `step`
         return error > 0 and any(abs(self.share - edge) <= error for edge in edges)
@@ -191,7 +198,7 @@ class CrackFacts:
         """
         if not self.followed:
             return Verdict.UNCERTAIN
-        word = step(self.falls, self.followed, self.farthest, risk)
+        word = step(falls=self.falls, members=self.followed, farthest=self.farthest, risk=risk)
         return better(word, Verdict.UNCERTAIN) if self.failed and self.falls <= LATTICE_ERROR else word
 
     def severity(self, risk: float) -> tuple[int, float, float]:
@@ -346,7 +353,7 @@ Severity = tuple[int, float, float, float]
 """Key of a case by which the worst of several comes last."""
 
 
-def severity(decision: Decision, factor: float = math.nan, rotation_ratio: float = math.nan) -> Severity:
+def severity(decision: Decision, *, factor: float = math.nan, rotation_ratio: float = math.nan) -> Severity:
     """Return the key of a case: its word, its share, the smallest reserve, then the largest rotation.
 
     Every order by what is worst is of this key. factor: on the motion, at which 5 % of the members overturn; nan where
@@ -516,7 +523,7 @@ def decide(facts: Facts) -> Decision:
         beside = (*beside, *limits)
         tells = (*tells, *contact_dynamics, *([Remark(AssessmentKind.FRICTION)] if slides else []))
     if facts.stacks is not None:
-        of_stacks = step(fallen, runs, risk=risk)
+        of_stacks = step(falls=fallen, members=runs, risk=risk)
         if of_stacks.badness > word.badness and runs < UNANIMOUS and not fallen:
             tells = (
                 *tells,

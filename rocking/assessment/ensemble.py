@@ -21,7 +21,7 @@ from rocking.assessment.methods import NEGLIGIBLE
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import SIZES, EnsembleSettings
 from rocking.errors import MotionError
-from rocking.motion.integration import TOLERANCES, Rocking, Runs, follow_runs, reduce
+from rocking.motion.integration import LARGEST_TOLERANCE, LEAST_TOLERANCE, Rocking, Runs, follow_runs, reduce
 from rocking.motion.table import forcing_of
 from rocking.quantities import within
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
@@ -337,7 +337,7 @@ def drawn(
 ) -> Ensemble:
     """Return the members at `points`, (m, c) in (0, 1): one coordinate for each of CAUSES, used where it varies."""
     reduced = reduce(structure)
-    tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
+    tolerance = within(MotionError, "tolerance", tolerance, low=LEAST_TOLERANCE, high=LARGEST_TOLERANCE)
     situation = Situation.of(reduced, motions, settings)
     values = draw(situation, points)
     followed = followed_at(reduced, motions, values, np.ones(1), tolerance=tolerance)

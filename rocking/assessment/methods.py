@@ -57,7 +57,7 @@ def rocks(rotation_ratio: float) -> bool:
     return _severity(rotation_ratio) == 1
 
 
-def agreement(predicted: float, integrated: float) -> Agreement:
+def agreement(*, predicted: float, integrated: float) -> Agreement:
     """Compare two rotation ratios (inf: overturns, nan: missing)."""
     if math.isnan(predicted) or math.isnan(integrated):
         return Agreement.UNKNOWN
@@ -65,12 +65,12 @@ def agreement(predicted: float, integrated: float) -> Agreement:
     return Agreement.SAME if difference == 0 else Agreement.TOO_HIGH if difference > 0 else Agreement.TOO_LOW
 
 
-def ratio(predicted: float, integrated: float) -> float:
+def ratio(*, predicted: float, integrated: float) -> float:
     """Return predicted over integrated rotation ratio where both are lifted and stay up, else nan."""
     return predicted / integrated if 0 < predicted < math.inf and 0 < integrated < math.inf else math.nan
 
 
-def ratio_in_words(predicted: float, integrated: float) -> str:
+def ratio_in_words(*, predicted: float, integrated: float) -> str:
     """Say how a predicted rotation ratio stands to the integrated one: "20 × too low", "within 10 %".
 
     Two digits at the most; "" where one of them is missing.
@@ -99,9 +99,9 @@ _WORDS = {
 """The agreement by predicted and integrated severity: rests, rocks, overturns."""
 
 
-def within_factor_two(predicted: float, integrated: float) -> bool | None:
+def within_factor_two(*, predicted: float, integrated: float) -> bool | None:
     """Whether two rotation ratios lie within a factor two of each other; None where they have no ratio."""
-    quotient = ratio(predicted, integrated)
+    quotient = ratio(predicted=predicted, integrated=integrated)
     return None if math.isnan(quotient) else 0.5 <= quotient <= 2
 
 

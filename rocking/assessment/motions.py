@@ -364,7 +364,7 @@ def horizontal_motions(accelerograms: Sequence[Accelerogram]) -> list[Horizontal
             pulse = velocity_pulse(first, *others)
             azimuth = first.azimuth
             for second in others:
-                azimuth = azimuth_of_axis(first.azimuth, second.azimuth, pulse.orientation)
+                azimuth = azimuth_of_axis(first=first.azimuth, second=second.azimuth, angle=pulse.orientation)
             motion = HorizontalMotion(pulse, None if azimuth is None else azimuth % 180, peaks)
         motions += [motion] * (1 + len(others))
     return motions

@@ -65,7 +65,7 @@ def floor_spectrum(
     Above the first period of the support it is no less than the ground's. A rigid mode, of period 0, adds nothing to
     the ground. Raises RecordError for a damping of 0 of support or structure, of which the code's formula has no value.
     """
-    damping_ratio = within(RecordError, "damping_ratio", damping_ratio, LEAST_DAMPING, 0.999)
+    damping_ratio = within(RecordError, "damping_ratio", damping_ratio, low=LEAST_DAMPING, high=0.999)
     periods = np.array([finite(RecordError, "period", period, "s") for period in np.atleast_1d(periods)])
     of_modes = [_of_mode(mode, periods, damping_ratio, ground) for mode in support.modes]
     spectrum = np.sqrt(sum(np.square(of_mode) for of_mode in of_modes))
@@ -90,7 +90,7 @@ def amplification(mode: Mode, periods: np.ndarray, damping_ratio: float) -> np.n
     """
     if mode.period == 0:
         return np.zeros(np.shape(periods))
-    within(RecordError, "damping_ratio of the support", mode.damping_ratio, LEAST_DAMPING, 0.999)
+    within(RecordError, "damping_ratio of the support", mode.damping_ratio, low=LEAST_DAMPING, high=0.999)
     a = LOWER_PERIOD
     b = UPPER_PERIOD
     p = 1.1 / math.sqrt(mode.damping_ratio) * damping_factor(damping_ratio)

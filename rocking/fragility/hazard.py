@@ -457,7 +457,7 @@ def rate_interval(of_stations: np.ndarray, sample: Sample) -> tuple[float, float
     variance = logs.deviation**2
     middle = math.log(share) + logs.mean + variance / 2
     error = math.sqrt((1 - share) / count + variance / count + variance**2 / (2 * (count - 1)))
-    reach = students(count - 1) * error
+    reach = students(freedom=count - 1) * error
 
     mean = of_earthquakes.mean
     own_reach = of_earthquakes.reach() / mean

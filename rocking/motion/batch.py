@@ -13,7 +13,8 @@ from rocking.drawn import Drawn
 from rocking.errors import MotionError, RockingError
 from rocking.motion.integration import (
     LARGEST_GROWTH,
-    TOLERANCES,
+    LARGEST_TOLERANCE,
+    LEAST_TOLERANCE,
     Members,
     Rocking,
     Runs,
@@ -79,7 +80,7 @@ def integrate_batch(
     >>> integrate_batch(blocks, Pulse(amplitude=3.0, circular_frequency=6.0), [0.5, 1.0, 2.0]).shape
     (2, 3)
     """
-    tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
+    tolerance = within(MotionError, "tolerance", tolerance, low=LEAST_TOLERANCE, high=LARGEST_TOLERANCE)
     if not isinstance(structures, Sequence) or isinstance(structures, str):
         raise MotionError.naming(
             "structures",
@@ -202,7 +203,7 @@ def rocking_spectrum(
         )
     frequencies = _positive("frequency_parameters", frequency_parameters)
     multipliers = _positive("uplift_multipliers", uplift_multipliers)
-    restitution = within(MotionError, "restitution", restitution, 0, 1)
+    restitution = within(MotionError, "restitution", restitution, low=0, high=1)
     step = accelerogram.time_step
     if frequencies.size and frequencies.max() * step > LARGEST_GROWTH:
         raise MotionError.naming(

@@ -41,7 +41,8 @@ Rocking = Mechanism | EquivalentBlock | HasMechanism
 Start = tuple[float, float, int]
 """Magnitude of the rotation, its rate (> 0 outward), and the side; side 0 is rest."""
 
-TOLERANCES = (1e-13, 0.1)
+LEAST_TOLERANCE = 1e-13
+LARGEST_TOLERANCE = 0.1
 """Smallest and largest relative tolerance."""
 STEP_SHARE = 0.03
 """Share of the tolerance that one step may spend: each flight amplifies the errors of those before it."""
@@ -157,7 +158,7 @@ def integrate(
     >>> integrate(Block(semi_diagonal=2.0, slenderness=0.2), Pulse(amplitude=3.0, circular_frequency=9.0)).outcome
     <Outcome.ROCKS: 'rocks'>
     """
-    tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
+    tolerance = within(MotionError, "tolerance", tolerance, low=LEAST_TOLERANCE, high=LARGEST_TOLERANCE)
     rotation = finite(MotionError, "initial_rotation", initial_rotation, "rad")
     velocity = finite(MotionError, "initial_velocity", initial_velocity, "rad/s")
     leading = rotation or velocity
@@ -176,7 +177,7 @@ def integrate(
     if not (sensitivity or repeat_fragile):
         return response
 
-    change = within(MotionError, "fragile_change", fragile_change, 0, 0.5)
+    change = within(MotionError, "fragile_change", fragile_change, low=0, high=0.5)
     fragile = _is_fragile(response, reduced, forcing, tolerance, start, change)
     if fragile and response.tolerance > strict(tolerance):
         response = _response(reduced, forcing, strict(tolerance), start, history)
@@ -580,7 +581,7 @@ def integrate_members(
             members,
             f"members is {kind_of(members)}, but must be Members, as Members([0.9, 1.0, 1.1]).",
         )
-    tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
+    tolerance = within(MotionError, "tolerance", tolerance, low=LEAST_TOLERANCE, high=LARGEST_TOLERANCE)
     forcing = forcing_of(motion, vertical)
     lift = np.where(members.vertical, members.scale_factor, 0.0) if forcing.vertical else None
     several = Runs(members.scale_factor * members.polarity, lift, members.restitution)

@@ -67,9 +67,11 @@ class Pulse(Drawn):
         frequency = positive(PulseError, "circular_frequency", self.circular_frequency, "rad/s")
         object.__setattr__(self, "circular_frequency", frequency)
         object.__setattr__(self, "start_time", finite(PulseError, "start_time", self.start_time, "s"))
-        cycles = within(PulseError, "cycles", positive(PulseError, "cycles", self.cycles), 0, MOST_CYCLES)
+        cycles = within(
+            PulseError, "cycles", positive(PulseError, "cycles", self.cycles), low=0, high=MOST_CYCLES
+        )
         object.__setattr__(self, "cycles", cycles)
-        object.__setattr__(self, "phase", within(PulseError, "phase", self.phase, 0, 2 * np.pi))
+        object.__setattr__(self, "phase", within(PulseError, "phase", self.phase, low=0, high=2 * np.pi))
 
     def __repr__(self) -> str:
         size = f"{four_digits(self.amplitude, 'm/s²')} = {four_digits(self.amplitude / GRAVITY, 'g')}"

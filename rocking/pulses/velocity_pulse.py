@@ -121,7 +121,7 @@ def _searched(accelerations: np.ndarray, step: float) -> tuple[np.ndarray, np.nd
     return velocities, searched_scales(step, velocities.shape[1])
 
 
-def pulse_indicator(peak_ratio: float, energy_ratio: float, peak_velocity: float) -> float:
+def pulse_indicator(*, peak_ratio: float, energy_ratio: float, peak_velocity: float) -> float:
     """Return PI of Shahi & Baker (2014) from the residual's shares of PGV and of energy; peak_velocity in m/s.
 
     A quadratic in the principal component PC and in PGV [cm/s], both centred on the data it was fitted to.
@@ -192,7 +192,9 @@ def _judged(velocities: np.ndarray, step: float, scales: np.ndarray, row: int, c
         period=PERIOD_OF_SCALE * scale * step,
         orientation=orientation,
         peak_velocity=float(peak),
-        indicator=float(pulse_indicator(remainder / peak, energy, peak)),
+        indicator=float(
+            pulse_indicator(peak_ratio=remainder / peak, energy_ratio=energy, peak_velocity=peak)
+        ),
         late=_late(velocity, pulse),
         centre_time=centre * step,
     )

@@ -145,12 +145,12 @@ class CatalogueRecord:
     @property
     def station_place(self) -> Place | Remark | None:
         """Where the station stands, or what is wrong with its coordinates; None without them."""
-        return place_of(self.station_latitude, self.station_longitude)
+        return place_of(latitude=self.station_latitude, longitude=self.station_longitude)
 
     @property
     def epicentre(self) -> Place | Remark | None:
         """Where the earthquake began, or what is wrong with its coordinates; None without them."""
-        return place_of(self.epicentre_latitude, self.epicentre_longitude, "epicentre")
+        return place_of(latitude=self.epicentre_latitude, longitude=self.epicentre_longitude, of="epicentre")
 
     @property
     def example_name(self) -> str | None:

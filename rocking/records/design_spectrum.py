@@ -163,7 +163,7 @@ class DesignSpectrum(ABC):
     def _damping(self, damping: float | None) -> float:
         if damping is None:
             return self.damping
-        return within(ConfigurationError, "damping", damping, 0, 0.5)
+        return within(ConfigurationError, "damping", damping, low=0, high=0.5)
 
     def _checked(self, period: ArrayLike) -> np.ndarray:
         periods = np.asarray(period, dtype=float)
@@ -196,8 +196,10 @@ class NtcSpectrum(DesignSpectrum):
             "ag": positive(ConfigurationError, "ag", self.ag, "m/s²"),
             "f0": positive(ConfigurationError, "f0", self.f0),
             "tc_star": positive(ConfigurationError, "tc_star", self.tc_star, "s"),
-            "topography": within(ConfigurationError, "topography", self.topography, *TOPOGRAPHIES),
-            "damping": within(ConfigurationError, "damping", self.damping, 0, 0.5),
+            "topography": within(
+                ConfigurationError, "topography", self.topography, low=TOPOGRAPHIES[0], high=TOPOGRAPHIES[1]
+            ),
+            "damping": within(ConfigurationError, "damping", self.damping, low=0, high=0.5),
         }
         for name, number in numbers.items():
             object.__setattr__(self, name, number)
@@ -292,7 +294,9 @@ class PointSpectrum(DesignSpectrum):
     accelerations: tuple[float, ...]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "damping", within(ConfigurationError, "damping", self.damping, 0, 0.5))
+        object.__setattr__(
+            self, "damping", within(ConfigurationError, "damping", self.damping, low=0, high=0.5)
+        )
         _check_points(self.periods, self.accelerations)
 
     @property

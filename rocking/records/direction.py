@@ -371,7 +371,7 @@ def rotate(first: Accelerogram, second: Accelerogram, angle: float) -> Accelerog
         f"Rotated by {degrees:.2f}° from component {one} towards component {second.component or 'two'}."
     )
     changes: dict[str, Any] = {"component": f"{degrees:.0f}° from {one}"}
-    changes["azimuth"] = azimuth_of_axis(first.azimuth, second.azimuth, angle)
+    changes["azimuth"] = azimuth_of_axis(first=first.azimuth, second=second.azimuth, angle=angle)
     short, long = sorted((first.acceleration.size, second.acceleration.size))
     cut = [Remark.of(RecordKind.CUT_TO_THE_SHORTER, short=short, long=long)] if short < long else []
     warnings = dict.fromkeys((*first.warnings, *second.warnings, *cut))
@@ -381,7 +381,7 @@ def rotate(first: Accelerogram, second: Accelerogram, angle: float) -> Accelerog
     return first.processed_by(shares[0] * a + shares[1] * b, sentence, **changes)
 
 
-def azimuth_of_axis(first: float | None, second: float | None, angle: float) -> float | None:
+def azimuth_of_axis(*, first: float | None, second: float | None, angle: float) -> float | None:
     """Return the azimuth of an axis at `angle` [rad] from the first component; None unless they are square, to 1°."""
     if first is None or second is None:
         return None

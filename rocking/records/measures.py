@@ -167,7 +167,7 @@ def response_spectrum(
     periods = np.array(PERIODS if periods is None else periods, dtype=float)
     for period in periods:
         positive(RecordError, "period", period, "s")
-    damping = within(RecordError, "damping", damping, 0, 0.999)
+    damping = within(RecordError, "damping", damping, low=0, high=0.999)
     largest = np.array([_largest_displacement(accelerogram, period, damping) for period in periods])
     for values in (periods, largest):
         values.flags.writeable = False

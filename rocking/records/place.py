@@ -29,7 +29,9 @@ class Place:
         return 2 * _RADIUS * math.asin(math.sqrt(min(part, 1.0)))
 
 
-def place_of(latitude: float | None, longitude: float | None, of: str = "station") -> Place | Remark | None:
+def place_of(
+    *, latitude: float | None, longitude: float | None, of: str = "station"
+) -> Place | Remark | None:
     """Return the place of two cells of a catalogue, in degrees, or what is wrong with them; None where both are empty.
 
     of: what the names of their columns begin with.

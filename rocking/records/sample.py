@@ -218,10 +218,10 @@ class Spread:
         """Return how far the mean may be from the truth, with this risk to either side (Student); inf of one."""
         if self.values.size < 2:
             return math.inf
-        return students(self.count - 1, tail) * self.error
+        return students(freedom=self.count - 1, tail=tail) * self.error
 
 
-def students(freedom: float, tail: float = TAIL) -> float:
+def students(*, freedom: float, tail: float = TAIL) -> float:
     """Return the quantile of Student's law that is exceeded with the risk `tail`; inf where nothing is free."""
     from scipy.special import stdtrit  # slow to import for the main job of a study
 

@@ -213,7 +213,7 @@ def _place(channel: Accelerogram, record: CatalogueRecord) -> tuple[Place | None
     doubts = [doubt for doubt in (given, record.epicentre) if isinstance(doubt, Remark)]
     if not isinstance(given, Place):
         return None, doubts
-    stated = place_of(channel.latitude, channel.longitude)
+    stated = place_of(latitude=channel.latitude, longitude=channel.longitude)
     if isinstance(stated, Place) and (distance := stated.distance_to(given)) > _NEAR:
         doubts.append(
             Remark.of(

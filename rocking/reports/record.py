@@ -828,7 +828,7 @@ def _doubts(rows: Sequence[ComparisonRow], several: bool) -> list[str]:
     for row in sorted(compared, key=lambda row: -row.integrated_rotation_ratio):
         if row.agreement is Agreement.TOO_LOW:
             same = tuple(
-                agreement(simpler, row.integrated_rotation_ratio) is Agreement.SAME
+                agreement(predicted=simpler, integrated=row.integrated_rotation_ratio) is Agreement.SAME
                 for simpler in (row.block_on_record_rotation_ratio, row.mechanism_on_pulse_rotation_ratio)
             )
             # At several periods of a support it is named once.

@@ -265,7 +265,9 @@ def comparison_figure(cases: Sequence[ComparisonRow], labels: Mapping[str, str],
         component = f", {_component(case.component)}" if several else ""
         label = placed(labels[case.structure], case.support_period_s)
         names.append(elided(label, _BESIDE_CASES - len(component)) + component)
-        remark = ratio_in_words(case.predicted_rotation_ratio, case.integrated_rotation_ratio)
+        remark = ratio_in_words(
+            predicted=case.predicted_rotation_ratio, integrated=case.integrated_rotation_ratio
+        )
         panel.text(1.02, place, remark, transform=panel.get_yaxis_transform(), va="center", fontsize=7)
     panel.set(xscale="log", xlim=(0.7 * _SMALLEST, 1.5 * _FALLEN), ylim=(len(cases) - 0.5, -0.5))
     panel.set_yticks(rows, names)

@@ -471,8 +471,12 @@ def _worth(method: Method, comparison: Sequence[ComparisonRow]) -> _Worth:
     """Count the cases that have both rotation ratios."""
     of_all = [(getattr(row, RATIO_COLUMNS[method]), row.integrated_rotation_ratio) for row in comparison]
     pairs = [pair for pair in of_all if not any(map(math.isnan, pair))]
-    outcomes = Counter(agreement(*pair) for pair in pairs)
-    closeness = [within_factor_two(*pair) for pair in pairs]
+    outcomes = Counter(
+        agreement(predicted=predicted, integrated=integrated) for predicted, integrated in pairs
+    )
+    closeness = [
+        within_factor_two(predicted=predicted, integrated=integrated) for predicted, integrated in pairs
+    ]
     return _Worth(
         method=method,
         cases=len(pairs),
@@ -500,7 +504,9 @@ UNSAFE_COLUMNS: list[Column] = [
         "Closed form beside integration",
         "1.6",
         "l",
-        lambda row: ratio_in_words(row.predicted_rotation_ratio, row.integrated_rotation_ratio),
+        lambda row: ratio_in_words(
+            predicted=row.predicted_rotation_ratio, integrated=row.integrated_rotation_ratio
+        ),
     ),
 ]
 FAILURE_COLUMNS = columns_of(FailureRow, "record component=auto structure stage=0.6 message=3")

@@ -244,7 +244,7 @@ def sides_under(block: EquivalentBlock, pulse: Pulse) -> list["sine_pulse.kernel
     for row in _rows_of(block):
         frequency_ratio = pulse.circular_frequency / row.frequency_parameter
         amplitude_ratio = abs(pulse.amplitude) / row.uplift_acceleration
-        check_ratios(frequency_ratio, amplitude_ratio)
+        check_ratios(frequency_ratio=frequency_ratio, amplitude_ratio=amplitude_ratio)
         side = sine_pulse.kernel.PulseSide(
             frequency_ratio, amplitude_ratio, row.restitution, row.velocity_scale, row.end, row.exists
         )
@@ -269,7 +269,7 @@ def _rows_of(block: EquivalentBlock) -> tuple[_SideRow, _SideRow]:
     return rows[0], rows[-1]._replace(exists=not block.one_sided)
 
 
-def check_ratios(frequency_ratio: float, amplitude_ratio: float) -> None:
+def check_ratios(*, frequency_ratio: float, amplitude_ratio: float) -> None:
     """Raise PulseError when the frequency ratio ω, or the amplitude ratio a, lies outside LARGEST_RATIO."""
     if not 1 / LARGEST_RATIO <= frequency_ratio <= LARGEST_RATIO:
         raise PulseError.naming(
@@ -440,8 +440,12 @@ def _rows(blocks: Sequence[EquivalentBlock], frequencies: np.ndarray, amplitudes
         softest = min(side.frequency_parameter for side in sides)
         weakest = min(side.uplift_acceleration for side in sides)
         largest_amplitude_ratio = float(amplitudes.max()) / weakest
-        check_ratios(float(frequencies.min()) / stiffest, largest_amplitude_ratio)
-        check_ratios(float(frequencies.max()) / softest, largest_amplitude_ratio)
+        check_ratios(
+            frequency_ratio=float(frequencies.min()) / stiffest, amplitude_ratio=largest_amplitude_ratio
+        )
+        check_ratios(
+            frequency_ratio=float(frequencies.max()) / softest, amplitude_ratio=largest_amplitude_ratio
+        )
     return rows
 
 
@@ -457,7 +461,7 @@ def pulse_spectrum(
     """
     frequencies = _axis("frequency_ratios", frequency_ratios, 1 / LARGEST_RATIO)
     amplitudes = _axis("amplitude_ratios", amplitude_ratios, 0.0)
-    eta = within(StructureError, "restitution", restitution, 0, 1)
+    eta = within(StructureError, "restitution", restitution, low=0, high=1)
     rows = np.tile([1.0, 1.0, eta, 1.0, math.inf, 1.0], (1, 2, 1))  # p = gλ = 1
     omegas, strengths = (axis.ravel() for axis in np.meshgrid(frequencies, amplitudes, indexing="ij"))
     peaks = np.empty((1, omegas.size, 2))
@@ -533,7 +537,12 @@ def printed_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> float:
     if side.amplitude_ratio <= 1:
         return 0.0
     eta = side.restitution
-    drop = 0.0 if eta == 0 else eta**2 * pulse_end_energy(side.frequency_ratio, side.amplitude_ratio)
+    drop = (
+        0.0
+        if eta == 0
+        else eta**2
+        * pulse_end_energy(frequency_ratio=side.frequency_ratio, amplitude_ratio=side.amplitude_ratio)
+    )
     if drop > 1:
         return math.nan
     root = math.sqrt(1 - drop)
@@ -581,7 +590,7 @@ def predict_as_printed(mechanism: Mechanism, pulse: Pulse) -> AsPrinted | None:
     return AsPrinted(block, math.inf if math.isnan(ratio) else ratio, exact.regime, holds)
 
 
-def pulse_end_energy(frequency_ratio: float, amplitude_ratio: float) -> float:
+def pulse_end_energy(*, frequency_ratio: float, amplitude_ratio: float) -> float:
     """Return 1 − D₀: the squared velocity x'² with which a block that rocks at the pulse's end will land.
 
     D₀ = (x − 1)² − x'² at the end of the pulse, for x = φ/φ_cr and time p t (Eq. 16).
@@ -598,7 +607,7 @@ def pulse_end_energy(frequency_ratio: float, amplitude_ratio: float) -> float:
             amplitude_ratio,
             f"amplitude_ratio is {amplitude_ratio!r}, but must exceed 1 for the pulse to lift the block.",
         )
-    check_ratios(omega, a)
+    check_ratios(frequency_ratio=omega, amplitude_ratio=a)
     # s = √(a² − 1), the slope of a sin θ where it reaches 1, and asin(1/a) written so that it keeps its digits
     s = math.sqrt((a - 1) * (a + 1))
     exponent = (2 * math.pi - math.atan2(1.0, s)) / omega

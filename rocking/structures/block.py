@@ -122,7 +122,7 @@ class Block(Crushable):
     def _linkage(self, mirrored: bool) -> Turning:
         inertia = (self.breadth**2 + self.height**2) / 12
         weight = (self.unit_weight or 0.0) * self.breadth * self.height
-        aside = inset(weight, self.compressive_strength, self.breadth)
+        aside = inset(pressing=weight, strength=self.compressive_strength, breadth=self.breadth)
         return Turning(
             self.breadth / 2 - aside,
             Parts([1.0], [0.5j * self.height], [inertia]),
@@ -261,7 +261,7 @@ class RigidBody(Crushable):
         corner = self.left if mirrored else self.right
         pressing = (self.unit_weight or 0.0) * (self.section or 0.0)
         # The other edge may lie wherever it does: what is pressed ends below the centre of mass, or it does not stand.
-        corner -= inset(pressing, self.compressive_strength, 2 * corner)
+        corner -= inset(pressing=pressing, strength=self.compressive_strength, breadth=2 * corner)
         centre = 1j * self.centre_height
         end = np.arctan2(corner, self.centre_height) + np.pi / 2
         return Turning(corner, Parts([1.0], [centre], [self.inertia]), end_rotation=float(end))
@@ -457,7 +457,7 @@ class Spire(CrackedAtHeight):
         inner = max(outer - (outer if self.wall_thickness is None else self.wall_thickness), 0.0)
         area = _SECTION[self.plan]
         pressed = self.unit_weight * area * volume / 3 / (PRESSED * self.compressive_strength)
-        check_pressed(pressed, area * (outer**2 - inner**2))
+        check_pressed(pressed=pressed, whole=area * (outer**2 - inner**2))
 
         def strip(depth: float) -> np.ndarray:
             hollow = _strip(self.plan, inner, depth - (outer - inner)) if inner else np.zeros(2)

@@ -238,7 +238,9 @@ class EquivalentBlock:
         units = {"frequency_parameter": "rad/s", "critical_rotation": "rad", "acceleration_scale": ""}
         for name, unit in units.items():
             object.__setattr__(self, name, positive(StructureError, name, getattr(self, name), unit))
-        object.__setattr__(self, "restitution", within(StructureError, "restitution", self.restitution, 0, 1))
+        object.__setattr__(
+            self, "restitution", within(StructureError, "restitution", self.restitution, low=0, high=1)
+        )
         if self.other_side is not None and (self.one_sided or self.other_side.other_side is not None):
             raise StructureError(
                 "other_side is given, but a one-sided block has none and another side has no further one."

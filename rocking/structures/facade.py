@@ -244,7 +244,7 @@ class Facade(Tied):
                     f"{name} has {counted(len(values), 'value')}, but must have {len(heights)}, one for each storey."
                 )
         bearing = [t for load, t in zip(loads, thicknesses, strict=False) if load]
-        check_eccentricity(self.eccentricity, min(bearing or thicknesses))
+        check_eccentricity(value=self.eccentricity, thickness=min(bearing or thicknesses))
         if self.crack_storey is not None:
             object.__setattr__(
                 self, "crack_storey", whole("crack_storey", self.crack_storey, 1, len(heights))
@@ -409,7 +409,7 @@ class Facade(Tied):
     def _slab_edge(self, storey: int, load: float) -> float:
         """Distance of the edge on which a slab lies from the middle of its wall, m."""
         thickness = self.thicknesses[storey]
-        return thickness / 2 - inset(load, self.compressive_strength, thickness)
+        return thickness / 2 - inset(pressing=load, strength=self.compressive_strength, breadth=thickness)
 
     @cached_property
     def _tie_levels(self) -> tuple[float, ...]:

@@ -133,7 +133,10 @@ class Frame(Crushable):
         weight = (self.unit_weight or 0.0) * breadth * self.column.height
         beam = self.beam_mass_ratio * weight
         strength = self.compressive_strength
-        insets = inset(weight + beam, strength, breadth), inset(beam, strength, breadth)
+        insets = (
+            inset(pressing=weight + beam, strength=strength, breadth=breadth),
+            inset(pressing=beam, strength=strength, breadth=breadth),
+        )
         return FrameLinkage(self.column, self._axes, self.beam_mass_ratio, insets)
 
     def _parts(self) -> list[tuple[int, np.ndarray]]:

@@ -359,7 +359,7 @@ class HeldWall:
         inner = max(storey.left for storey in meeting)
         outer = min(storey.right for storey in meeting)
         breadth = next((storey.breadth(height) for storey in meeting if storey.high > height), 1.0)
-        aside = inset(self.pressing(height) / breadth, self.strength, outer - inner)
+        aside = inset(pressing=self.pressing(height) / breadth, strength=self.strength, breadth=outer - inner)
         return inner + aside, outer - aside
 
     def pressing(self, height: float) -> float:

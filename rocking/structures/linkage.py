@@ -470,7 +470,7 @@ PRESSED = 0.85
 """Share of the compressive strength at which the edge of a joint is pressed all over."""
 
 
-def inset(pressing: float, strength: float | None, breadth: float) -> float:
+def inset(*, pressing: float, strength: float | None, breadth: float) -> float:
     """Return how far in from its edge a hinge lies, m: N/(1.7 f_c), the middle of what is pressed at .85 f_c.
 
     pressing: N on the joint, N per metre of edge. strength: f_c, Pa; None where nothing crushes. breadth: of the joint,
@@ -482,11 +482,11 @@ def inset(pressing: float, strength: float | None, breadth: float) -> float:
     if strength is None:
         return 0.0
     depth = pressing / (PRESSED * strength)
-    check_pressed(depth, breadth)
+    check_pressed(pressed=depth, whole=breadth)
     return depth / 2
 
 
-def check_pressed(pressed: float, whole: float) -> None:
+def check_pressed(*, pressed: float, whole: float) -> None:
     """Refuse a joint of which the part that is pressed at rest is not less than the whole, both in m or in m²."""
     if not pressed < whole:
         raise DoesNotStandError(

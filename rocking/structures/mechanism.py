@@ -210,7 +210,9 @@ class Side:
             raise StructureError(
                 f"end_rotation is {self.end_rotation!r} rad, but must exceed critical_rotation = {critical!r} rad."
             )
-        object.__setattr__(self, "restitution", within(StructureError, "restitution", self.restitution, 0, 1))
+        object.__setattr__(
+            self, "restitution", within(StructureError, "restitution", self.restitution, low=0, high=1)
+        )
         for at, names in ((0.0, ("inertia", "gravity", "ground")), (critical, ("inertia", "ground"))):
             for name in names:
                 value = self.at(name, at)

@@ -247,7 +247,9 @@ class Structure(ABC):
         """The moving parts of the side of a signed `rotation` [rad], and where they are."""
         sides = self.mechanism().sides
         lowest = 0.0 if self.one_sided else -sides[-1].end_rotation
-        rotation = within(StructureError, "rotation", rotation, lowest, sides[0].end_rotation, "rad")
+        rotation = within(
+            StructureError, "rotation", rotation, low=lowest, high=sides[0].end_rotation, unit="rad"
+        )
         linkage = self.linkages[-1 if rotation < 0 else 0]
         return linkage, linkage.motion(abs(rotation))
 

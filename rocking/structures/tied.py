@@ -83,7 +83,7 @@ _NO_TIES: dict[str, Any] = {
 """The fields of a wall without ties."""
 
 
-def check_eccentricity(value: float, thickness: float) -> None:
+def check_eccentricity(*, value: float, thickness: float) -> None:
     """Refuse a bearing beyond the edge of a wall of that thickness [m]."""
     if abs(value) > thickness / 2:
         raise SizeError.of(

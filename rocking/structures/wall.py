@@ -74,6 +74,7 @@ class WallLinkage(Linkage):
 
     def __init__(
         self,
+        *,
         lower_height: float,
         upper_height: float,
         thickness: float,
@@ -284,7 +285,9 @@ class CrackedWall(CrackedAtHeight, Leaved):
         return self.height
 
     def _linkage(self, mirrored: bool) -> Linkage:
-        return WallLinkage(self.lower_height, self.upper_height, self.thickness)
+        return WallLinkage(
+            lower_height=self.lower_height, upper_height=self.upper_height, thickness=self.thickness
+        )
 
     def stack(self, courses: int | None = None) -> Stack:
         """Return its two blocks where the hinge is known, else so many courses, held sideways at the top."""
@@ -624,7 +627,7 @@ class LoadedWall(CrackedWall, Tied):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        check_eccentricity(self.eccentricity, self.thickness)
+        check_eccentricity(value=self.eccentricity, thickness=self.thickness)
         self._check_ties()
         if self.opening is None:
             self.mechanism()  # one that its load pushes over is refused at birth
@@ -737,7 +740,9 @@ class LoadedWall(CrackedWall, Tied):
     @property
     def _slab_edge(self) -> float:
         """Distance of the edge on which a slab lies from the middle of the wall, m."""
-        return self.thickness / 2 - inset(self.top_load, self.compressive_strength, self.thickness)
+        return self.thickness / 2 - inset(
+            pressing=self.top_load, strength=self.compressive_strength, breadth=self.thickness
+        )
 
     @property
     def _described_opening(self) -> Opening:
@@ -757,7 +762,13 @@ class LoadedWall(CrackedWall, Tied):
             hinge = replace(self._described_opening, outwards=not mirrored)
             return self.held_wall.linkage(hinge, hinge, self._hung(mirrored), guided=True)
         weight = self.unit_weight * self.height * self.thickness
-        return WallLinkage(self.lower_height, self.upper_height, self.thickness, weight, self._hung(mirrored))
+        return WallLinkage(
+            lower_height=self.lower_height,
+            upper_height=self.upper_height,
+            thickness=self.thickness,
+            weight=weight,
+            hung=self._hung(mirrored),
+        )
 
     def stack(self, courses: int | None = None) -> Stack:
         """Return its two blocks where the hinge is known and no tie holds it, else courses; below what loads it."""

@@ -26,7 +26,9 @@ def test_a_trial_holds_the_word_of_its_own_share(monkeypatch):
     assert [each.kind for each in trials] == [kind for kind in KINDS for _ in range(2)]
     for trial in trials:
         if trial.structure == "block":
-            assert trial.true_verdict is step(round(256 * trial.true_share), 256, np.inf)
+            assert trial.true_verdict is step(
+                falls=round(256 * trial.true_share), members=256, farthest=np.inf
+            )
             assert abs(trial.share - trial.true_share) <= 4 / 64
             assert trial.members in (16, 64, 256, 1024)
     assert list(stability_trials("a site", "an earthquake", PAIR, structures)) == trials

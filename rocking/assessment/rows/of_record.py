@@ -155,11 +155,15 @@ class ComparisonRow(DecidedRow[ComparedCase]):
     )
     within_factor_two: bool | None = of_case(
         "Whether their ratio lies between 1/2 and 2",
-        lambda of: within_factor_two(of.case.predicted_rotation_ratio, of.case.integrated_rotation_ratio),
+        lambda of: within_factor_two(
+            predicted=of.case.predicted_rotation_ratio, integrated=of.case.integrated_rotation_ratio
+        ),
     )
     agreement: Agreement = of_case(
         "Closed form against integration: same outcome, too low or too high",
-        lambda of: agreement(of.case.predicted_rotation_ratio, of.case.integrated_rotation_ratio),
+        lambda of: agreement(
+            predicted=of.case.predicted_rotation_ratio, integrated=of.case.integrated_rotation_ratio
+        ),
     )
     printed_rotation_ratio: float = of_printed(
         "Rotation ratio of the paper's block under the pulse, as printed; INF where the radicand is negative, which is "
@@ -400,7 +404,7 @@ class VerdictRow(DecidedRow[OfStructure]):
     def severity(self) -> Severity:
         """Key by which the worst of several comes last."""
         factor = self.reserve.low if self.reserve else math.nan
-        return severity(self.decision, factor, self.rotation_ratio)
+        return severity(self.decision, factor=factor, rotation_ratio=self.rotation_ratio)
 
 
 def worst_period_each(verdicts: Iterable[VerdictRow]) -> list[VerdictRow]:

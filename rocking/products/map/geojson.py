@@ -25,14 +25,14 @@ def geojson(stations: Sequence[StationRow], verdicts: Sequence[VerdictRow]) -> b
         of_record[f"{verdict.structure}: share"] = _number(verdict.overturning_share)
     features = [
         _point(
-            each.station_longitude_deg,
-            each.station_latitude_deg,
-            {"kind": "station", **_cells(each), **told.get(each.record, {})},
+            longitude=each.station_longitude_deg,
+            latitude=each.station_latitude_deg,
+            properties={"kind": "station", **_cells(each), **told.get(each.record, {})},
         )
         for each in stations
     ]
     features += [
-        _point(longitude, latitude, {"kind": "epicentre", "event": event})
+        _point(longitude=longitude, latitude=latitude, properties={"kind": "epicentre", "event": event})
         for event, longitude, latitude in epicentres(stations)
     ]
     collection = {"type": "FeatureCollection", "features": features}
@@ -65,6 +65,6 @@ def _number(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def _point(longitude: float | None, latitude: float | None, properties: Properties) -> Properties:
+def _point(*, longitude: float | None, latitude: float | None, properties: Properties) -> Properties:
     geometry = {"type": "Point", "coordinates": [longitude, latitude]}
     return {"type": "Feature", "geometry": geometry, "properties": properties}

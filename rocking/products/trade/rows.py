@@ -115,13 +115,13 @@ class TriedMethod:
     @cached_property
     def errors(self) -> list[float]:
         """Relative errors of the rotation where both rock."""
-        ratios = [ratio(*pair) for pair in self.moving]
+        ratios = [ratio(predicted=answer, integrated=reference) for answer, reference in self.moving]
         return [abs(each - 1) for each in ratios if not math.isnan(each)]
 
     @cached_property
     def agreements(self) -> list[Agreement]:
         """The outcome of each of these cases against that of the reference."""
-        return [agreement(*pair) for pair in self.moving]
+        return [agreement(predicted=answer, integrated=reference) for answer, reference in self.moving]
 
     @property
     def error(self) -> float:

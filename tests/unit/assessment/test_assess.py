@@ -210,7 +210,9 @@ ABOVE = math.nextafter(NEGLIGIBLE, 1.0)
     ],
 )
 def test_agreement_changes_where_rest_ends(pairs, expected):
-    assert {agreement(predicted, integrated) for predicted, integrated in pairs} == {expected}
+    assert {agreement(predicted=predicted, integrated=integrated) for predicted, integrated in pairs} == {
+        expected
+    }
     assert rests(NEGLIGIBLE) and not rests(ABOVE) and not rests(math.nan)
     assert rocks(ABOVE) and not rocks(NEGLIGIBLE) and not rocks(math.inf) and not rocks(math.nan)
 
@@ -220,13 +222,13 @@ def test_agreement_changes_where_rest_ends(pairs, expected):
     [(0.2, 0.4, True), (0.8, 0.4, True), (0.19, 0.4, False), (0.81, 0.4, False), (0.0, 0.4, None)],
 )
 def test_within_a_factor_two_holds_its_ends(predicted, integrated, expected):
-    assert within_factor_two(predicted, integrated) is expected
+    assert within_factor_two(predicted=predicted, integrated=integrated) is expected
 
 
 def test_ratio_is_known_only_where_both_are_lifted_and_stay_up():
-    assert ratio(0.2, 0.4) == 0.5
-    assert math.isnan(ratio(math.inf, 0.4))
-    assert math.isnan(ratio(0.2, 0.0))
+    assert ratio(predicted=0.2, integrated=0.4) == 0.5
+    assert math.isnan(ratio(predicted=math.inf, integrated=0.4))
+    assert math.isnan(ratio(predicted=0.2, integrated=0.0))
 
 
 def row_of(record: Accelerogram, motion: HorizontalMotion, dominant: Pulse | None, vertical=None):

@@ -172,9 +172,9 @@ def test_those_that_were_followed_say_what_all_would(runs, risk):
     """Whatever falls and stands in turn, and wherever the rest can no longer change the word."""
     for followed in range(1, runs + 1):
         for falls in range(followed + 1):
-            ends = {step(falls + more, runs, risk=risk) for more in (0, runs - followed)}
+            ends = {step(falls=falls + more, members=runs, risk=risk) for more in (0, runs - followed)}
             if len(ends) == 1:
-                assert {step(falls, followed, risk=risk)} == ends, (falls, followed)
+                assert {step(falls=falls, members=followed, risk=risk)} == ends, (falls, followed)
 
 
 def test_without_an_ensemble_the_single_run_is_doubted_too():

@@ -51,12 +51,12 @@ def test_the_counts_at_which_the_words_change(members, ends):
     words = ("stands", "probably stands", "uncertain", "probably overturns", "overturns")
     for falls in range(members + 1):
         expected = next(word for word, end in zip(words, ends, strict=True) if falls <= end)
-        assert str(step(falls, members)) == expected
+        assert str(step(falls=falls, members=members)) == expected
 
 
 def test_sixteen_members_that_all_stay_far_stand():
-    assert str(step(0, 16, 0.3)) == "stands"
-    assert str(step(0, 16, 0.31)) == "probably stands"
+    assert str(step(falls=0, members=16, farthest=0.3)) == "stands"
+    assert str(step(falls=0, members=16, farthest=0.31)) == "probably stands"
 
 
 @pytest.mark.parametrize(
@@ -564,10 +564,13 @@ def test_the_share_stands_on_the_word(draws):
             for each in facts.followed
         ]
         groups += [(*facts.stacks, math.inf)] if facts.stacks else []
-        makes = max(groups, key=lambda group: (step(*group).badness, -group[1]))
+        makes = max(
+            groups,
+            key=lambda group: (step(falls=group[0], members=group[1], farthest=group[2]).badness, -group[1]),
+        )
         falls = math.ceil(share * makes[1])
         farthest = makes[2] if falls == makes[0] else math.inf
-        assert step(falls, makes[1], farthest).badness >= decision.word.badness, facts
+        assert step(falls=falls, members=makes[1], farthest=farthest).badness >= decision.word.badness, facts
         met += 1
         by_stacks += bool(facts.stacks) and share == Fraction(*facts.stacks)
     assert by_stacks > draws / 50 and met > draws / 3

@@ -215,7 +215,7 @@ def test_two_components_make_one_ensemble_over_eight_directions():
     ],
 )
 def test_ratio_in_words(predicted, integrated, words):
-    assert ratio_in_words(predicted, integrated) == words
+    assert ratio_in_words(predicted=predicted, integrated=integrated) == words
 
 
 def test_assess_says_in_one_call_what_its_parts_say():

@@ -53,7 +53,9 @@ def test_a_planted_wavelet_is_found(scale, angle):
     # T_p = 1.4 scale; the scale is refined at the place of the coarse one, which holds it to a few per cent
     assert found.period == pytest.approx(1.4 * scale, rel=0.03)
     assert found.orientation == pytest.approx(angle, abs=1e-3)
-    assert found.indicator > pulse_indicator(0.1, 0.1, found.peak_velocity)  # a tenth of peak and energy left
+    assert found.indicator > pulse_indicator(
+        peak_ratio=0.1, energy_ratio=0.1, peak_velocity=found.peak_velocity
+    )  # a tenth of peak and energy left
     assert found.pulse_like
 
 
@@ -76,7 +78,7 @@ def test_what_the_pulse_leaves_counts_as_a_share_of_the_peak(amplitude):
     )
     velocity = amplitude * (first + 0.3 * second)
     found = velocity_pulse(from_velocity(velocity), from_velocity(0 * velocity))
-    expected = pulse_indicator(0.3, 0.09 / 1.09, found.peak_velocity)
+    expected = pulse_indicator(peak_ratio=0.3, energy_ratio=0.09 / 1.09, peak_velocity=found.peak_velocity)
     # the period found is the planted one to 0.7 %, which leaves a little of the first wavelet too
     assert found.indicator == pytest.approx(expected, rel=1e-3)
 
@@ -102,7 +104,9 @@ def test_the_indicator_is_the_printed_one(component, peak):
     v = 100 * peak
     printed = 9.384 * (0.76 - component - 0.0616 * v) * (component + 6.914e-4 * v - 1.072) - 6.179
     # 0.0616 and 6.914e-4 carry three and four digits: PI moves by up to 0.8 % of PGV in m/s
-    assert pulse_indicator(component / 0.63, 0.0, peak) == pytest.approx(printed, abs=0.008 * v)
+    assert pulse_indicator(
+        peak_ratio=component / 0.63, energy_ratio=0.0, peak_velocity=peak
+    ) == pytest.approx(printed, abs=0.008 * v)
 
 
 def test_what_cannot_hold_a_velocity_pulse_is_refused():

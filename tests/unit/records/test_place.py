@@ -31,15 +31,17 @@ SHIPPED = Path(rocking.__file__).parents[1] / "records"
 )
 def test_what_is_wrong_is_said_with_the_columns(latitude, longitude, kind):
     for of in ("station", "epicentre"):
-        found = place_of(latitude, longitude, of)
+        found = place_of(latitude=latitude, longitude=longitude, of=of)
         assert isinstance(found, Remark) and found.kind is kind
         assert f"{of}_latitude_deg" in str(found) and f"{of}_longitude_deg" in str(found)
 
 
 def test_what_can_be_is_a_place_to_the_poles_and_the_date_line():
-    assert place_of(None, None) is None
+    assert place_of(latitude=None, longitude=None) is None
     for latitude, longitude in ((90.0, 180.0), (-90.0, -180.0), (0.0, 0.0)):
-        assert place_of(latitude, longitude) == Place(latitude=latitude, longitude=longitude)
+        assert place_of(latitude=latitude, longitude=longitude) == Place(
+            latitude=latitude, longitude=longitude
+        )
 
 
 def test_distances_are_those_of_the_cosine_rule_of_spherical_trigonometry():

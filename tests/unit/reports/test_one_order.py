@@ -58,7 +58,10 @@ def made_rows():
 def test_the_key_is_the_word_then_the_share_then_the_smallest_reserve_then_the_rotation():
     """Held against every pair of sixteen cases, compared by words."""
     of_each = list(itertools.product((STANDS, FALLS), (0.0, 0.5), (2.0, math.nan), (0.1, 0.2)))
-    keys = [severity(Decision(word, share, (share, share), ""), *rest) for word, share, *rest in of_each]
+    keys = [
+        severity(Decision(word, share, (share, share), ""), factor=factor, rotation_ratio=rotation_ratio)
+        for word, share, factor, rotation_ratio in of_each
+    ]
     for (first, a), (second, b) in itertools.combinations(zip(of_each, keys, strict=True), 2):
         place = next(k for k in range(4) if repr(first[k]) != repr(second[k]))
         worse = {

@@ -54,8 +54,8 @@ def case(structure: str, predicted: float, integrated: float, record: str = "one
         structure=structure,
         predicted_rotation_ratio=predicted,
         integrated_rotation_ratio=integrated,
-        within_factor_two=within_factor_two(predicted, integrated),
-        agreement=agreement(predicted, integrated),
+        within_factor_two=within_factor_two(predicted=predicted, integrated=integrated),
+        agreement=agreement(predicted=predicted, integrated=integrated),
     )
 
 

@@ -102,11 +102,19 @@ def spectrum(frequencies: list, amplitudes: list, restitution: float = 0.9) -> n
         (lambda: spectrum([1.0], [2.0, -1.0]), "amplitude_ratios", -1.0),
         (lambda: spectrum([[1.0]], [1.0]), "frequency_ratios", [[1.0]]),
         (lambda: spectrum([1.0], [2.0], 1.5), "restitution", 1.5),
-        (lambda: pulse_end_energy(0.0, 2.0), "frequency_ratio", 0.0),
-        (lambda: pulse_end_energy(math.nan, 2.0), "frequency_ratio", math.nan),
-        (lambda: pulse_end_energy("1", 2.0), "frequency_ratio", "1"),
-        (lambda: pulse_end_energy(1.0, 1.0), "amplitude_ratio", 1.0),
-        (lambda: pulse_end_energy(1.0, math.inf), "amplitude_ratio", math.inf),
+        (lambda: pulse_end_energy(frequency_ratio=0.0, amplitude_ratio=2.0), "frequency_ratio", 0.0),
+        (
+            lambda: pulse_end_energy(frequency_ratio=math.nan, amplitude_ratio=2.0),
+            "frequency_ratio",
+            math.nan,
+        ),
+        (lambda: pulse_end_energy(frequency_ratio="1", amplitude_ratio=2.0), "frequency_ratio", "1"),
+        (lambda: pulse_end_energy(frequency_ratio=1.0, amplitude_ratio=1.0), "amplitude_ratio", 1.0),
+        (
+            lambda: pulse_end_energy(frequency_ratio=1.0, amplitude_ratio=math.inf),
+            "amplitude_ratio",
+            math.inf,
+        ),
     ],
 )
 def test_what_no_structure_has_is_refused(call, field: str, value: object) -> None:

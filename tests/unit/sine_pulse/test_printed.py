@@ -39,7 +39,10 @@ def test_pulse_end_energy_keeps_eleven_digits() -> None:
     """Relative error ≤ 1e-11; beside a zero, where |value| is below 1e-4 of the terms, ≤ 1e-15 of the terms."""
     beside = 0
     for omega, a in RANDOM_POINTS:
-        value, (_, truth, growth) = pulse_end_energy(omega, a), exact(omega, a)
+        value, (_, truth, growth) = (
+            pulse_end_energy(frequency_ratio=omega, amplitude_ratio=a),
+            exact(omega, a),
+        )
         if abs(truth) >= LARGEST_DOUBLE:
             assert value == math.copysign(math.inf, truth), (omega, a)
             continue

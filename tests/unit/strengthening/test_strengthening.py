@@ -76,15 +76,15 @@ def _drawn(truth: np.ndarray, stations: int, rng: np.random.Generator) -> np.nda
 
 @pytest.mark.parametrize(("share", "target"), [(0.0, 0.1), (0.05, 0.1), (0.1, 0.3), (0.28, 0.3)])
 def test_as_many_stations_as_are_needed_show_it_and_one_less_does_not(share, target):
-    needed = int(stations_needed(share, target))
+    needed = int(stations_needed(share=share, target=target))
     assert beta.ppf(0.9, share * needed + 1, (1 - share) * needed) <= target
     fewer = needed - 1
     assert beta.ppf(0.9, share * fewer + 1, (1 - share) * fewer) > target
 
 
 def test_no_number_of_stations_shows_a_share_that_is_not_below_the_target():
-    assert math.isnan(stations_needed(0.1, 0.1))
-    assert math.isnan(stations_needed(0.4, 0.1))
+    assert math.isnan(stations_needed(share=0.1, target=0.1))
+    assert math.isnan(stations_needed(share=0.4, target=0.1))
 
 
 @pytest.mark.parametrize(
