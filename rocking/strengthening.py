@@ -67,17 +67,17 @@ class Tried:
     """One value that was tried.
 
     value: in SI; nan where the structure states none. shares: (n,) of each station, the mean over its components of the
-    share of the decision, nan of a station under which it was not followed; what cannot be told counts as 1. sample: of
+    share of the decision, nan of a station under which it was not followed; what is undecided counts as 1. sample: of
     the n stations. governing: what overturns most often, or turns where nothing does; "" of a structure with one
-    mechanism. untold: components under which it cannot be told. slid: (n,) the part of `shares` that cannot be told
-    because it slides before it lifts.
+    mechanism. undecided: components under which it cannot be decided. slid: (n,) the part of `shares` that is
+    undecided because it slides before it lifts.
     """
 
     value: float
     shares: np.ndarray
     sample: Sample
     governing: str = ""
-    untold: int = 0
+    undecided: int = 0
     slid: np.ndarray | None = None
 
     @cached_property
@@ -108,18 +108,18 @@ class Tried:
     @property
     def in_words(self) -> str:
         """The share with its bounds, and the stations of one that was given up: "3 % (1–8 %)"."""
-        told = f"{percents(self.share)} ({percents(*self.interval)})"
+        share = f"{percents(self.share)} ({percents(*self.interval)})"
         return (
-            told
+            share
             if self.followed.all()
-            else f"{told} at the first {counted(int(self.followed.sum()), 'station')}"
+            else f"{share} at the first {counted(int(self.followed.sum()), 'station')}"
         )
 
 
 def _bounds(shares: np.ndarray, sample: Sample) -> tuple[float, float]:
     """The one-sided 90 % bounds of shares (n,) over the stations of a sample, nan where one was not followed."""
-    told = np.flatnonzero(~np.isnan(shares))
-    low, high = sample.part(told).share_bounds(shares[told], 1 - CONFIDENCE)
+    followed = np.flatnonzero(~np.isnan(shares))
+    low, high = sample.part(followed).share_bounds(shares[followed], 1 - CONFIDENCE)
     return float(low), float(high)
 
 
@@ -145,7 +145,7 @@ class Strengthening(Drawn):
         Least strength of a tie by the linear check of the code, N/m; nan of another size, and where none of
         the range is enough.
     still : int, default 0
-        Stations at which nothing lifts it with any value, which tell nothing and do not count.
+        Stations at which nothing lifts it with any value, which say nothing of the share and do not count.
 
     Examples
     --------
@@ -187,8 +187,8 @@ class Strengthening(Drawn):
         return None if place is None else self.tried[place]
 
     @cached_property
-    def told(self) -> tuple[Tried, ...]:
-        """The values without those at the top that cannot be told because they slide before they lift."""
+    def decided(self) -> tuple[Tried, ...]:
+        """The values without those at the top that cannot be decided, because they slide before they lift."""
         number = len(self.tried)
         while number > 1 and self.tried[number - 1].fails_by_sliding(self.target):
             number -= 1
@@ -196,14 +196,14 @@ class Strengthening(Drawn):
 
     @cached_property
     def _place(self) -> int | None:
-        place = len(self.told)
+        place = len(self.decided)
         while place > 0 and self.tried[place - 1].interval[1] <= self.target:
             place -= 1
-        return place if place < len(self.told) else None
+        return place if place < len(self.decided) else None
 
     @property
     def value(self) -> float:
-        """The smallest that can be shown to hold, as all larger ones of `told` can, in SI; nan where none can."""
+        """The smallest that can be shown to hold, as all larger ones of `decided` can, in SI; nan where none can."""
         return self.chosen.value if self.chosen else math.nan
 
     @property
@@ -228,7 +228,7 @@ class Strengthening(Drawn):
 
         nan where the share there is not below the target, so that no number of stations shows it.
         """
-        return stations_needed(share=(self.chosen or self.told[-1]).share, target=self.target)
+        return stations_needed(share=(self.chosen or self.decided[-1]).share, target=self.target)
 
     @property
     def monotone(self) -> bool:
@@ -244,8 +244,8 @@ class Strengthening(Drawn):
         """
         worst = 0.0
         found = math.nan
-        least = self.told[0]
-        for tried in self.told[1:]:
+        least = self.decided[0]
+        for tried in self.decided[1:]:
             both = np.flatnonzero(tried.followed & least.followed)
             rises = (tried.overturns - least.overturns)[both]
             rise = float(rises.mean()) if both.size else 0.0
@@ -265,42 +265,42 @@ class Strengthening(Drawn):
         """What was found, in sentences."""
         stations = self.sample.words
         target = percents(self.target)
-        first = self.told[0]
-        last = self.told[-1]
+        first = self.decided[0]
+        last = self.decided[-1]
         as_given = self.given.in_words
         if self.given.governing:
             as_given += f", mostly {self.given.governing}"
         if self.chosen is None:
-            told = (
+            finding = (
                 f"{self.key}: no value from {self.as_typed(first.value)} to {self.as_typed(last.value)} can be shown "
                 f"to keep the share that overturns at or below {target}: at the largest one it is {last.in_words}, one "
-                f"step below it, {self.as_typed(self.told[-2].value)}, {self.told[-2].in_words}; {stations}, "
+                f"step below it, {self.as_typed(self.decided[-2].value)}, {self.decided[-2].in_words}; {stations}, "
             )
             needed = self.needed_stations
-            told += (
+            finding += (
                 "give larger values"
                 if math.isnan(needed)
                 else f"about {needed:.0f} of as many earthquakes are needed"
             )
         else:
-            told = (
+            finding = (
                 f"{self.key}: {self.as_typed(self.value)} can be shown to hold, as all larger values can: "
                 f"{self.chosen.in_words} overturn by {stations}, against a target of {target}"
             )
             if self.chosen.governing:
-                told += f", what is left mostly {self.chosen.governing}"
+                finding += f", what is left mostly {self.chosen.governing}"
             if self.below:
-                told += f"; one step below, {self.as_typed(self.below.value)}, {self.below.in_words}"
+                finding += f"; one step below, {self.as_typed(self.below.value)}, {self.below.in_words}"
             else:
-                told += "; every value of the range holds, so that smaller ones may, too: give them"
-        sentences = [f"{told}", f"As given {as_given} overturn"]
+                finding += "; every value of the range holds, so that smaller ones may, too: give them"
+        sentences = [finding, f"As given {as_given} overturn"]
         if self.still:
             sentences.append(
                 f"Nothing lifts it with any value at {counted(self.still, 'further station')}, which tell nothing and "
                 "do not count"
             )
-        if len(self.told) < len(self.tried):
-            least = self.tried[len(self.told)]
+        if len(self.decided) < len(self.tried):
+            least = self.tried[len(self.decided)]
             sentences.append(
                 f"From {self.as_typed(least.value)} on it slides before it lifts, and nothing can be told: these "
                 "values are left out, and what holds is shown below them alone"
@@ -309,9 +309,9 @@ class Strengthening(Drawn):
             sentences.append(
                 f"A larger value harms: more overturn at {self.as_typed(self.harmful)} than below it"
             )
-        if untold := (self.chosen or last).untold:
+        if undecided := (self.chosen or last).undecided:
             sentences.append(
-                f"Under {counted(untold, 'component')} it cannot be told, which counts as overturning"
+                f"Under {counted(undecided, 'component')} it cannot be told, which counts as overturning"
             )
         if not math.isnan(self.static_tie):
             sentences.append(f"The linear check of the code asks for {self.as_typed(self.static_tie)}")
@@ -338,10 +338,10 @@ def strengthen(
     15 values between (low, high), in equal ratios, are tried. The one that is returned is the smallest such
     that at it and at all larger ones the upper one-sided 90 % bound (Jeffreys) of the share that overturns is
     at or below the target. Each station counts once, with the mean over its components of the share that
-    overturns; one that cannot be told counts as 1, as does a value with which the structure does not stand at
+    overturns; one that cannot be decided counts as 1, as does a value with which the structure does not stand at
     rest.
 
-    Beside a tie's strength stands the static one: the least by the linear check (C8.7.1.2.1.7, q = 2, FC =
+    Of the strength of a tie it gives the static one, too: the least by the linear check (C8.7.1.2.1.7, q = 2, FC =
     1.35) at the mean peak acceleration of the records.
 
     Parameters
@@ -446,13 +446,13 @@ def strengthen_scene(
     *,
     early: bool = True,
     store: Store | None = None,
-    tell: Callable[[str], object] = lambda line: None,
+    show_line: Callable[[str], object] = lambda line: None,
 ) -> Strengthening:
     """Return what `strengthen` does, for a scene: on a support its worst period counts.
 
     size: one of its `sizes`. between: in SI. sample: of the records. settings: of the ensemble, friction and tolerance;
     no estimate settles a case. spectrum, terms: at which a tie is sized by the code; without a spectrum, the mean peak
-    of the records. store: keeps the outcome of each value under each record. tell: takes a line on what it will cost.
+    of the records. store: keeps the outcome of each value under each record. show_line: takes what it will cost.
     """
     if not (isinstance(between, tuple | list) and len(between) == 2):
         raise ConfigurationError(f"between is {shown(between)}, but must be two values, the lower one first.")
@@ -484,7 +484,7 @@ def strengthen_scene(
         if structure
     }
     scenes[""] = replace(scene, name="")
-    following = _Following(records, scenes, settings, sample, target, early, store, tell)
+    following = _Following(records, scenes, settings, sample, target, early, store, show_line)
     outcomes = following.outcomes()
     # A station at which no value lets it lift says nothing of what stronger shaking would do.
     moves = np.flatnonzero(sample.by_station(_lifting(records, scenes.values(), settings).astype(float)) > 0)
@@ -535,9 +535,9 @@ def with_value(structure: Structure, size: Field, value: float) -> Structure | N
 
 @dataclass(frozen=True)
 class _Outcome:
-    """The outcome of one component: the share that overturns, nan where it cannot be told, and what governs.
+    """The outcome of one component: the share that overturns, nan where it cannot be decided, and what governs.
 
-    slides: whether it cannot be told because it slides before it lifts.
+    slides: whether it cannot be decided because it slides before it lifts.
     """
 
     share: float
@@ -560,7 +560,7 @@ class _Following:
     target: float
     early: bool
     store: Store | None
-    tell: Callable[[str], object]
+    show_line: Callable[[str], object]
 
     def outcomes(self) -> list[dict[str, _Outcome]]:
         """Return the outcome of the scenes that were followed under each record, by name."""
@@ -583,7 +583,7 @@ class _Following:
                     found[place] = own
                 if first == 0:
                     spent = (process_time() - started) * len(self.records) / len(batch)
-                    self.tell(
+                    self.show_line(
                         f"{counted(len(self.scenes), 'value')} under {counted(len(self.records), 'component')}: "
                         f"{cases} cases, at most about {spent:.0f} s of processor time."
                     )
@@ -601,11 +601,11 @@ class _Following:
     def _can_hold(self, name: str, found: Sequence[Mapping[str, _Outcome]], followed: np.ndarray) -> bool:
         """Whether the bound can be met if nothing overturns at the stations that are left."""
         places = np.isin(self.sample.of_record, followed)
-        told = [
+        shares = [
             own[name].share if is_followed and not math.isnan(own[name].share) else 0.0
             for is_followed, own in zip(places, found, strict=True)
         ]
-        return _bounds(self.sample.by_station(np.array(told)), self.sample)[1] <= self.target
+        return _bounds(self.sample.by_station(np.array(shares)), self.sample)[1] <= self.target
 
     def _under(self, record: Accelerogram, scenes: Mapping[str, Scene]) -> dict[str, _Outcome]:
         """The outcome of scenes under one record, as far as the store has none."""
@@ -620,7 +620,7 @@ class _Following:
                 if (own := self.store.find(_Outcome, keys[name])) is not None:
                     kept[name] = own
         wanted = {name: scene for name, scene in scenes.items() if name not in kept}
-        # Pulses are not sought: no closed form is asked for.
+        # No pulse is searched for: no closed form is asked for.
         component = Component(record, None, HorizontalMotion(), None, ())
         result = Assessor(self.settings).integrate("", (component,), wanted, {}) if wanted else None
         for name in wanted:
@@ -630,11 +630,11 @@ class _Following:
             else:
                 worst = of_scene.worst
                 decision = worst.decision
-                untold = decision.word is Verdict.CANNOT_BE_TOLD
+                undecided = decision.word is Verdict.CANNOT_BE_TOLD
                 kept[name] = _Outcome(
                     share=decision.share,
                     governing=worst.ensembles.governing.description if worst.ensembles else "",
-                    slides=untold
+                    slides=undecided
                     and any(remark.kind is AssessmentKind.FRICTION for remark in decision.tells),
                 )
             if self.store is not None:
@@ -663,22 +663,22 @@ def _tried(
 
     moves: the places of the stations that count, which are those of `counting`.
     """
-    told = [
+    shares = [
         math.nan if outcome is None else 1.0 if math.isnan(outcome.share) else outcome.share
         for outcome in outcomes
     ]
     slid = [0.0 if outcome is None else float(outcome.slides) for outcome in outcomes]
     weights: dict[str, float] = {}
-    for share, outcome in zip(told, outcomes, strict=True):
+    for share, outcome in zip(shares, outcomes, strict=True):
         if outcome is not None:
             # Where nothing overturns, what governs most often.
             weights[outcome.governing] = weights.get(outcome.governing, 0.0) + share + 1e-6
     return Tried(
         value=value,
-        shares=sample.by_station(np.array(told))[moves],
+        shares=sample.by_station(np.array(shares))[moves],
         sample=counting,
         governing=max(weights, key=weights.__getitem__, default=""),
-        untold=sum(outcome is not None and math.isnan(outcome.share) for outcome in outcomes),
+        undecided=sum(outcome is not None and math.isnan(outcome.share) for outcome in outcomes),
         slid=sample.by_station(np.array(slid))[moves],
     )
 

@@ -24,7 +24,7 @@ from rocking.remarks import Remark
 from rocking.structures import Structure
 from rocking.structures.leaves import of_leaf, parts_of
 from rocking.structures.linkage import FRICTION
-from rocking.structures.structure import AS_GIVEN, Candidate, Crackable
+from rocking.structures.structure import AS_DESCRIBED, Candidate, Crackable
 from rocking.structures.tied import Tied
 
 _SAME = 1e-9
@@ -177,14 +177,14 @@ def _opening(structure: Structure) -> Iterator[Candidate]:
     bulges = [candidate for candidate in family if candidate.bulges and not candidate.refusal]
     for candidate in cracked:
         body = candidate.structure
-        opens = "" if candidate.description == AS_GIVEN else f"{candidate.description}, "
+        opens = "" if candidate.description == AS_DESCRIBED else f"{candidate.description}, "
         opens_elsewhere = bulges and not structure.crack_is_known
         shut = opens_elsewhere and isinstance(body, Tied) and not body.lets_go
         for sign, side in _sides(body):
             if shut and sign > 0:
                 continue
             falls = "" if body.symmetric else side
-            words = f"{opens}{falls}".removesuffix(", ") or AS_GIVEN
+            words = f"{opens}{falls}".removesuffix(", ") or AS_DESCRIBED
             yield replace(candidate, description=words, sign=sign)
     for candidate in bulges:
         wall = candidate.structure

@@ -13,7 +13,7 @@ from rocking.remarks import Remark
 from rocking.structures.drawing import Mark, Path, plane, rectangle, span
 from rocking.structures.fields import Value, length
 from rocking.structures.kinds import StructureKind
-from rocking.structures.structure import AS_GIVEN, CRACKS, Candidate, LeafAlone, Structure
+from rocking.structures.structure import AS_DESCRIBED, CRACKS, Candidate, LeafAlone, Structure
 
 LEAVES = {2: ("outer leaf", "inner leaf"), 3: ("outer leaf", "middle leaf", "inner leaf")}
 """What leaves are called from outside in, by their number."""
@@ -248,7 +248,7 @@ class Leaved(Structure):
 def of_leaf(name: str, candidate: Candidate) -> Candidate:
     """Return a mechanism of a leaf as one of the wall, which names it."""
     alone = f"{name} alone"
-    opens = "" if candidate.description == AS_GIVEN else f", {candidate.description}"
+    opens = "" if candidate.description == AS_DESCRIBED else f", {candidate.description}"
     return replace(candidate, description=alone + opens, name=f"{alone} {candidate.name}", part=name)
 
 
@@ -259,4 +259,4 @@ def parts_of(structure: Structure) -> tuple[LeafAlone, ...]:
 
 def _together(description: str) -> str:
     """The description of a mechanism of all leaves as one body."""
-    return "all leaves together" if description == AS_GIVEN else description
+    return "all leaves together" if description == AS_DESCRIBED else description

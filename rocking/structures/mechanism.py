@@ -123,10 +123,10 @@ class SideTie:
         known: dict[tuple[float, float], float] = self.__dict__.setdefault("_rotations", {})
         asked = stretch, end_rotation
         if asked not in known:
-            known[asked] = self._sought_rotation(stretch, end_rotation)
+            known[asked] = self._rotation_of_stretch(stretch, end_rotation)
         return known[asked]
 
-    def _sought_rotation(self, stretch: float, end_rotation: float) -> float:
+    def _rotation_of_stretch(self, stretch: float, end_rotation: float) -> float:
         from scipy.optimize import brentq  # slow to import, and needed by ties with a strength only
 
         def beyond(rotation: float) -> float:

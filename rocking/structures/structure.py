@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-AS_GIVEN = "as given"
+AS_DESCRIBED = "as given"
 """The description of the one mechanism of what does not crack."""
 CRACKS = 11
 """Number of mechanisms that are followed where more than one may form."""
@@ -426,7 +426,7 @@ class Structure(ABC):
 
     def _ranked_candidates(self, count: int) -> "tuple[Candidate, ...]":
         """The candidates in their order."""
-        return (Candidate(AS_GIVEN, np.nan, self),)
+        return (Candidate(AS_DESCRIBED, np.nan, self),)
 
     def mechanisms(self) -> "tuple[Candidate, ...]":
         """Return every mechanism in which it may fall; a wall that is held at several heights has many by name."""

@@ -63,7 +63,7 @@ def run_apart(work: str, name: str, *arguments: object) -> None:
         hint = ", as a system does that lacks memory" if status == -signal.SIGKILL else ""
         raise RuntimeError(f"{name}: its process was ended by {cause}{hint}; run the same command again.")
     if status:
-        raise RuntimeError(f"{name}: its process ended with status {status}; its log tells why.")
+        raise RuntimeError(f"{name}: its process ended with status {status}; its log says why.")
 
 
 def _work(work: str, *arguments: object) -> None:

@@ -53,7 +53,7 @@ class _Escaped(io.TextIOBase):
 
 
 _MOST_LINES = 40
-"""Lines of an error, of which each tells one defect; more would push the first ones off the screen."""
+"""Lines of an error, of which each names one defect; more would push the first ones off the screen."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -108,14 +108,14 @@ def _start_without_blanks(arguments: Sequence[str] | None) -> None:
     python = Path(sys.executable)
     prefix = Path(sys.prefix)
     link = Path(tempfile.gettempdir()) / f"rocking-python-{os.getuid()}-{sha256_of_bytes(bytes(prefix))[:12]}"
-    told = f"the path of Python, {str(python)!r}, has a blank, at which snakemake parts it"
+    defect = f"the path of Python, {str(python)!r}, has a blank, at which snakemake parts it"
     if arguments is not None or " " in str(link) or not python.is_relative_to(prefix):
-        raise ConfigurationError(f"{told}; make the environment in a folder without one.")
+        raise ConfigurationError(f"{defect}; make the environment in a folder without one.")
     with contextlib.suppress(FileExistsError):
         link.symlink_to(prefix, target_is_directory=True)
     if link.lstat().st_uid != os.getuid() or not link.is_symlink() or link.readlink() != prefix:
         raise ConfigurationError(
-            f"{told}, and {link} is another's; make the environment in a folder without one."
+            f"{defect}, and {link} is another's; make the environment in a folder without one."
         )
     plain = str(link / python.relative_to(prefix))
     sys.stdout.flush()
@@ -373,8 +373,8 @@ def _declared(options: argparse.Namespace) -> Any:
 
 def _refusals(own: Any) -> int:
     """Print what there is to say of the files beside their records; 1 where one of them could not be read."""
-    for told in (*own.remarks, *own.refused):
-        print(f"rocking: {told}", file=sys.stderr)
+    for remark in (*own.remarks, *own.refused):
+        print(f"rocking: {remark}", file=sys.stderr)
     return 1 if own.refused else 0
 
 

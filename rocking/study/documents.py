@@ -15,7 +15,7 @@ from rocking.tables import write_whole
 from rocking.tables.workbook import workbook
 
 
-def made_or_told(
+def made_or_failed(
     path: Path,
     make: Callable[[], object],
     log: Path | str,

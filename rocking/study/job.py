@@ -44,18 +44,18 @@ from rocking.records.station import station_of
 from rocking.structures import Structure
 from rocking.study.contents import ContentHashes
 from rocking.study.folder import locked
-from rocking.study.made_from import handed, made_from, records_of, what_changed
+from rocking.study.made_from import made_from, records_of, settings_for, what_changed
 from rocking.study.outcomes import RecordOutcome, outcomes_written
 from rocking.study.outputs import case_timings_of, cases_of, kept_of, outcome_of, sums_of
 from rocking.study.plan import JOBS, Plan, plan_of_job, scenes_of, study_remarks
 from rocking.study.products import BY_NAME
-from rocking.study.progress import line_writer, log_error, tell, tell_compilation, tell_error
+from rocking.study.progress import line_writer, log_error, send_compilation, send_error, send_line
 from rocking.study.settings import Settings, settings_sha256
 from rocking.study.task import Task
 from rocking.study.terminal import record_line
 from rocking.tables import Row, write_rows, write_tables, written_together
 
-WORTH_TELLING = 5.0
+WORTH_A_LINE = 5.0
 """Processor time of contact dynamics of a record, s, from which on it is told before."""
 Opened = tuple[list[Accelerogram], Accelerogram | None]
 """The horizontal components of a record, and its vertical one where that acts too."""
@@ -73,8 +73,8 @@ class Study:
     settings_sha256: str = ""
 
     def __post_init__(self) -> None:
-        standing = on_friction(self.scenes, self.settings.friction_coefficient)
-        object.__setattr__(self, "scenes", standing)
+        on_joints = on_friction(self.scenes, self.settings.friction_coefficient)
+        object.__setattr__(self, "scenes", on_joints)
 
     @property
     def structures(self) -> dict[str, Structure]:
@@ -140,7 +140,7 @@ def prepare(settings: Settings) -> None:
     """Make what depends on each structure of a study alone, for jobs that are forked from this process.
 
     Structures keep what they compute, and `plan_of_job` gives a fork those of this process where the list is the same.
-    What is wrong with the study its jobs tell.
+    What is wrong with the study its jobs say.
     """
     with contextlib.suppress(RockingError), warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -155,7 +155,7 @@ class Job:
     """The work on one product of a study.
 
     plan: as the job reads it. study: of which the settings that the product is made from can be read. records: those of
-    the product, in catalogue order. log: of the job. tell: adds a line to the log, and tells it to the one who waits.
+    the product, in catalogue order. log: of the job. show_line: adds a line to the log, and shows it.
     keep: keeps the outcome of a record for what stands over all records.
     """
 
@@ -164,7 +164,7 @@ class Job:
     study: Study
     records: Sequence[CatalogueRecord]
     log: Path
-    tell: Callable[..., None]
+    show_line: Callable[..., None]
     keep: Callable[[str, RecordOutcome], None] = lambda record, outcome: None
 
     @property
@@ -202,7 +202,7 @@ def begin_job(task: Task) -> Iterator[Job]:
     """
     gc.freeze()  # where nothing was forked: see rocking.study.warm
     kind = task.product.partition("/")[0]
-    sys.excepthook = tell_error
+    sys.excepthook = send_error
     log = Path(task.log).absolute()
     with contextlib.suppress(OSError):
         locked(JOBS, fcntl.LOCK_SH)  # never closed: held to the end
@@ -210,13 +210,13 @@ def begin_job(task: Task) -> Iterator[Job]:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         signal.signal(signal.SIGTERM, signal.default_int_handler)
     with contextlib.chdir(task.folder or "."):
-        tell_line = line_writer(log, kind)
+        write_line = line_writer(log, kind)
         plan = _planned(task)
-        compile_all(tell_compilation)
-        settings = handed(kind, plan.settings)
+        compile_all(send_compilation)
+        settings = settings_for(kind, plan.settings)
         study = Study(plan.scenes, settings, settings_sha256(plan.settings, plan.scenes))
         records = [plan.records[record] for record in records_of(task.product, plan)]
-        job = Job(task, plan, study, records, Path(task.log), tell_line)
+        job = Job(task, plan, study, records, Path(task.log), write_line)
         if kind in ("record", "batch"):
             batch = task.product.partition("/")[2] if kind == "batch" else ""
             with outcomes_written(outcome_of(job.results, records[0].id, batch)) as keep:
@@ -244,7 +244,7 @@ class Steps:
         self._record = record
         self._job = job
         timings = case_timings_of(job.results, record.id)
-        self.store = RecordStore(cases_of(job.results, record.id), job.tell, timings)
+        self.store = RecordStore(cases_of(job.results, record.id), job.show_line, timings)
         self.clock = Clock()
         self._assessor = job.study.assessor(self.store, self.clock)
         self.is_read = False
@@ -272,9 +272,9 @@ class Steps:
         scenes = self._job.study.scenes
         asking = self._job.study.assessment
         costs = [_expected(scene, horizontal, asking) for scene in scenes.values()]
-        if sum(costs) > WORTH_TELLING:
+        if sum(costs) > WORTH_A_LINE:
             number = counted(sum(cost > 0 for cost in costs), "structure")
-            tell(
+            send_line(
                 "contact dynamics",
                 f"{self._record.id}: up to {sum(costs):.2g} s, if {number} cannot be decided otherwise; the longest "
                 f"takes {max(costs):.2g} s",
@@ -354,12 +354,12 @@ def _write(result: RecordResult, record: CatalogueRecord, job: Job) -> None:
         if study.settings.reports:
             from rocking.reports.design_figure import component_spectra  # matplotlib takes a second to import
             from rocking.reports.explore import record_content
-            from rocking.study.documents import made_or_told
+            from rocking.study.documents import made_or_failed
 
             result = with_histories(result, study.settings.tolerance, _drawn(result, rows))
             make = partial(write_report, result, rows, study, folder)
             pdf = folder / "report.pdf"
-            faults = made_or_told(pdf, make, job.log, study.settings.figures, record.id)
+            faults = made_or_failed(pdf, make, job.log, study.settings.figures, record.id)
             rows = replace(rows, failures=[*rows.failures, *faults])
             page = record_content(result, rows, study.structures)
             level = study.settings.design_spectrum.spectrum()
@@ -373,7 +373,7 @@ def _write(result: RecordResult, record: CatalogueRecord, job: Job) -> None:
     tables = {row_class: list(of_it) for row_class, of_it in rows.tables.items()}
     sums = sums_of(job.task.product, study.settings) if job.kind == "record" else {}
     job.keep(record.id, RecordOutcome(tables, page, spectra, sums))
-    job.tell(f"{record.id}: {record_line(result.scenes.values(), rows.failures)}")
+    job.show_line(f"{record.id}: {record_line(result.scenes.values(), rows.failures)}")
 
 
 def _drawn(result: RecordResult, rows: RecordRows) -> set[tuple[str, str, float | None]]:

@@ -1,4 +1,4 @@
-"""The jobs of a study: what each rule of the workflow does with the task that it is handed, one function for each rule.
+"""The jobs of a study: what each rule of the workflow does with the task that it is given, one function for each rule.
 
 The products over all records beside the summary have one for all of them.
 """

@@ -48,7 +48,7 @@ class Inputs(Protocol):
     @property
     def batches(self) -> Mapping[str, tuple[str, ...]]: ...
     @property
-    def beside_summary(self) -> tuple[str, ...]: ...
+    def products_of_summary(self) -> tuple[str, ...]: ...
     def files_of(self, record: CatalogueRecord) -> Mapping[str, str]: ...
     def answers_of(self, record: CatalogueRecord) -> Mapping[str, str]: ...
 
@@ -80,7 +80,7 @@ of the catalogue, the structures in their order, this package and the libraries 
 own records alone, the others from all in their order."""
 
 
-def handed(kind: str, settings: Settings) -> Settings:
+def settings_for(kind: str, settings: Settings) -> Settings:
     """Return the settings of which a job of this kind can read those of its line alone."""
     return settings.restricted((*NUMBERS, *TABLE[kind].settings, *PLACES))
 
@@ -95,7 +95,11 @@ def of_records(product: str, plan: Inputs) -> tuple[str, ...]:
     line = TABLE[product.partition("/")[0]]
     records = [plan.records[record] for record in records_of(product, plan)]
     files = _hashes(plan, records) if line.opens_records else {}
-    return (_named("catalogue", *records), _told("files", files), _told("pool", _others(plan, line)))
+    return (
+        _named("catalogue", *records),
+        _contents_of("files", files),
+        _contents_of("pool", _others(plan, line)),
+    )
 
 
 OF_RECORDS = 3
@@ -126,7 +130,7 @@ def inputs_of(product: str, plan: Inputs) -> dict[str, list[str]]:
         files[catalogue] = None
         for row in _rows_of(catalogue):
             files |= dict.fromkeys(plan.files_of(row))
-    named = [path for path in settings.told_in(line.files).values() if path]
+    named = [path for path in settings.values_of(line.files).values() if path]
     return {
         "catalogue": [settings.catalogue],
         "structures": [settings.structures],
@@ -148,20 +152,21 @@ def of_kind(kind: str, plan: Inputs) -> tuple[str, ...]:
     settings = plan.settings
     reports = line.documents or settings.reports
     lines = [
-        f"{key} = {_shown(key, value)}" for key, value in settings.told_in((*NUMBERS, *line.settings)).items()
+        f"{key} = {_shown(key, value)}"
+        for key, value in settings.values_of((*NUMBERS, *line.settings)).items()
     ]
     lines.append(_named("package", package_sha256(reports=reports)))
     lines += [f"{library}: {installed}" for library, installed in sorted(versions().items())]
     lines.append(_named("structures", *structure_hashes(plan.scenes).items()))
-    for key, path in settings.told_in(line.files).items():
-        lines.append(_told(f"file of {key}", {path: plan.contents.of(Path(path))} if path else {}))
+    for key, path in settings.values_of(line.files).items():
+        lines.append(_contents_of(f"file of {key}", {path: plan.contents.of(Path(path))} if path else {}))
     if line.terms:
         lines.append(_named("terms", *((name, scene.terms) for name, scene in plan.scenes.items())))
     if kind in BY_NAME:
         lines.append(_named("source of the product", folder_sha256(BY_NAME[kind].source)))
     if line.shows:
-        lines.append(f"beside: {', '.join(plan.beside_summary)}")
-        sources = ((name, folder_sha256(BY_NAME[name].source)) for name in plan.beside_summary)
+        lines.append(f"products: {', '.join(plan.products_of_summary)}")
+        sources = ((name, folder_sha256(BY_NAME[name].source)) for name in plan.products_of_summary)
         lines.append(_named("source of the products", *sources))
     return tuple(lines)
 
@@ -180,7 +185,7 @@ def _named(name: str, *values: object) -> str:
     return f"{name}: {sha256_of(*values)[:16]}"
 
 
-def _told(name: str, hashes: Mapping[str, str]) -> str:
+def _contents_of(name: str, hashes: Mapping[str, str]) -> str:
     """The contents of files by their paths."""
     shown = (f"{quote(path, safe=_PLAIN)} {sha256[:16] or 'missing'}" for path, sha256 in hashes.items())
     text = "; ".join(shown)
@@ -188,7 +193,7 @@ def _told(name: str, hashes: Mapping[str, str]) -> str:
 
 
 _FEW = 8
-"""Files that are told one by one: each output of a product keeps what it was made from."""
+"""Files that are named one by one: each output of a product keeps what it was made from."""
 
 
 def _hashes(plan: Inputs, records: Iterable[CatalogueRecord]) -> dict[str, str]:
@@ -201,7 +206,7 @@ def _hashes(plan: Inputs, records: Iterable[CatalogueRecord]) -> dict[str, str]:
 
 def _catalogues(line: Line, settings: Settings) -> list[str]:
     """The other catalogues that the settings of a line name."""
-    return [path for path in settings.told_in(line.catalogues).values() if path]
+    return [path for path in settings.values_of(line.catalogues).values() if path]
 
 
 def _others(plan: Inputs, line: Line) -> dict[str, str]:

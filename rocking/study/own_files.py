@@ -115,8 +115,8 @@ def stations_of(paths: Sequence[Path], declared: Declared) -> OwnFiles:
         found.append(OwnStation(record, tuple(channels)))
     if not found:
         raise RecordError("; ".join(f"{file.file}: {file.refusal}" for file in listed))
-    told = [*_apart(listed), *_siblings(listed, own.channels, folder, declared)]
-    return OwnFiles(own.channels, own.refused, tuple(found), tuple(told))
+    remarks = [*_apart(listed), *_siblings(listed, own.channels, folder, declared)]
+    return OwnFiles(own.channels, own.refused, tuple(found), tuple(remarks))
 
 
 def _named(paths: Sequence[Path]) -> tuple[list[Path], tuple[Path, ...]]:
@@ -175,8 +175,8 @@ def _siblings(
                 channels = read_raw(bytes_of(other), other, options)
             except RecordError:
                 continue
-            beside = _listed(other, channels, folder)
-            together = next((group for group in stations([replace(file), beside]) if len(group) == 2), None)
+            sibling = _listed(other, channels, folder)
+            together = next((group for group in stations([replace(file), sibling]) if len(group) == 2), None)
             if together:
                 known.add(other.resolve())
                 yield Remark.of(StudyKind.SIBLING_NOT_USED, file.file, other=other.name)
@@ -248,7 +248,7 @@ def assess_stations(
         if len(found) > 1:
             yield f"{own.record.id} ({own.record.file})"
         for station in result.worst_first:
-            yield from _told(station, own.record.scale_factor)
+            yield from _lines_of(station, own.record.scale_factor)
         for failure in rows.failures:
             yield f"not assessed: {failure.structure or failure.stage}: {failure.message}"
     yield from to_check(remarks)
@@ -265,7 +265,7 @@ _LARGEST_REPORT = 2**28
 """Bytes of a report."""
 
 
-def _told(station: "PeriodResult", scale_factor: float) -> Iterator[str]:
+def _lines_of(station: "PeriodResult", scale_factor: float) -> Iterator[str]:
     """Yield the verdict on a structure with its count and reason, then what each component does by itself."""
     decision = station.decision
     share = f" ({decision.share_in_words})" if decision.share_in_words else ""

@@ -38,7 +38,7 @@ T = TypeVar("T")
 JOBS = REMEMBERED / "rocking_jobs.lock"
 """Held by every job of a study while it works, in the folder of the study."""
 _NAMED = 8
-"""Remarks on settings and structures that the terminal tells; remarks.csv holds all."""
+"""Remarks on settings and structures that the terminal shows; remarks.csv holds all."""
 _ON_PAGES = (AssessmentKind.HELD_AT_CEILING,)
 """Remarks on what a structure is taken for, which stand on its pages and ask nothing of who starts a run."""
 _MOST_BATCHES = 8
@@ -107,7 +107,7 @@ class Plan:
         )
 
     @cached_property
-    def beside_summary(self) -> tuple[str, ...]:
+    def products_of_summary(self) -> tuple[str, ...]:
         """The products over all records that the summary shows: of the plan, and by hand where they still hold."""
         return tuple(
             product.name
@@ -211,14 +211,14 @@ def make_plan(config: Mapping[str, Any], by_name: bool = False) -> Plan:
 
 def missing_files(settings: Settings) -> Iterator[tuple[str, str]]:
     """Yield each setting that names a file that is not there, and the sentence that says so."""
-    named = settings.told_in(file_settings())
+    named = settings.values_of(file_settings())
     for name, value in named.items():
         if not value or os.path.lexists(value):
             continue
         folder, file = os.path.split(Path.cwd() / value)
-        beside = os.listdir(folder) if os.path.isdir(folder) else []
+        names = os.listdir(folder) if os.path.isdir(folder) else []
         near = [
-            near for near in get_close_matches(file, beside, n=1) if Path(near).suffix == Path(file).suffix
+            near for near in get_close_matches(file, names, n=1) if Path(near).suffix == Path(file).suffix
         ]
         hint = "write its path from the folder of the study"
         if near:

@@ -49,10 +49,10 @@ def bar(things: Iterable[T], what: str, total: int | None = None) -> "tqdm[T]":
 
 
 class Progress:
-    """Turns what jobs and scheduler tell into lines for a person, and counts what is done.
+    """Turns what jobs and scheduler report into lines for a person, and counts what is done.
 
     records: of the study. On a terminal, lines are cut to its width, and below them stands a bar with the time that
-    remains. It alone writes there, whatever number of jobs tell something.
+    remains. It alone writes there, whatever number of jobs report something.
     """
 
     in_this_process: "Progress | None" = None
@@ -71,7 +71,7 @@ class Progress:
 
     @contextmanager
     def followed(self) -> Iterator[None]:
-        """Show what is told meanwhile, all of it before the end."""
+        """Show what is reported meanwhile, all of it before the end."""
         Progress.in_this_process = self
         with tempfile.TemporaryDirectory() as folder:
             pipe = os.environ[_PIPE] = str(Path(folder) / "progress")
@@ -90,15 +90,15 @@ class Progress:
 
     def _follow(self, lines: BinaryIO) -> None:
         for line in iter(lines.readline, b"\n"):
-            self.tell_line(*json.loads(line))
+            self.show_line(*json.loads(line))
 
-    def tell_plan(self, jobs: Mapping[str, int]) -> None:
+    def count_jobs(self, jobs: Mapping[str, int]) -> None:
         """Take up how many jobs of each rule will run."""
         self._total = round(sum(self._of_a_job.get(rule, 0) * number for rule, number in jobs.items()))
         self._show()
 
-    def tell_line(self, rule: str, line: str, done: int = 0, total: int = 0) -> None:
-        """Show a line of a job; those that assess tell one for each record. Keep the reason why one failed.
+    def show_line(self, rule: str, line: str, done: int = 0, total: int = 0) -> None:
+        """Show a line of a job; those that assess send one for each record. Keep the reason why one failed.
 
         done, total: what a job that is waited for counts itself; 0 where it counts nothing.
         """
@@ -139,7 +139,7 @@ class Progress:
             print(self._back + shown, end="", file=self._stream, flush=True)
 
 
-def tell(job: str, line: str, done: int = 0, total: int = 0) -> None:
+def send_line(job: str, line: str, done: int = 0, total: int = 0) -> None:
     """Tell the one who waits for a job, another process, or else the terminal."""
     try:
         pipe = os.open(os.environ[_PIPE], os.O_WRONLY | os.O_NONBLOCK)  # who waited may be gone
@@ -150,34 +150,34 @@ def tell(job: str, line: str, done: int = 0, total: int = 0) -> None:
         stream.write(json.dumps([job, line[:_LONGEST], done, total], ensure_ascii=False).encode() + b"\n")
 
 
-def tell_compilation(line: str, is_last: bool) -> None:
+def send_compilation(line: str, is_last: bool) -> None:
     """Tell how long a job has been compiling, in a line that stands for the one before it, or that it has done so."""
-    tell(_COMPILATION, line, int(is_last), 1)
+    send_line(_COMPILATION, line, int(is_last), 1)
 
 
 def line_writer(log: Path, rule: str) -> Callable[..., None]:
-    """Return what adds a line to a new `log`, and tells it as one of a job of this `rule`, with what it counts."""
+    """Return what adds a line to a new `log`, and sends it as one of a job of this `rule`, with what it counts."""
     new_log(log).close()
     LOGS[:] = [log]
 
     def add(line: str, done: int = 0, total: int = 0) -> None:
         with log.open("a", encoding="utf-8") as stream:
             print(line, file=stream)
-        tell(rule, line, done, total)
+        send_line(rule, line, done, total)
 
     return add
 
 
-def tell_error(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+def send_error(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
     """Tell why this process fails, before Python does: in place of sys.excepthook."""
     if isinstance(error, RockingError | OSError):
         place = f"{getattr(error, 'filename', None) or 'a file'}: " * isinstance(error, OSError)
-        tell("error", place + (getattr(error, "strerror", None) or str(error)))
+        send_line("error", place + (getattr(error, "strerror", None) or str(error)))
     elif isinstance(error, MemoryError):
-        tell("error", "a job had not enough memory; give more, or run fewer jobs at once: -- --cores 1")
+        send_line("error", "a job had not enough memory; give more, or run fewer jobs at once: -- --cores 1")
     elif isinstance(error, Exception):
-        tell(
-            "error", f"a job ended with {kind.__name__}: {' '.join(str(error).split())}; its log tells where"
+        send_line(
+            "error", f"a job ended with {kind.__name__}: {' '.join(str(error).split())}; its log says where"
         )
     log_error(error)
     sys.__excepthook__(kind, error, trace)

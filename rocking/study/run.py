@@ -44,7 +44,7 @@ _REFUSED = {
     "--configfiles": "would name settings besides those of config.yaml",
 }
 _RAISED = re.compile(r"Error in file .*\n(?!Command )(.+)")
-"""The form in which snakemake tells the error of a Snakefile."""
+"""The form in which snakemake prints the error of a Snakefile."""
 _EXCEPTION = re.compile(r"(?m)^[\w.]*(?:Error|Exception)\b[^\n]{,200}")
 """The end of a traceback: the name of the error and what it says."""
 _RULE = re.compile(r"(?m)^rule (\w+):")
@@ -90,7 +90,7 @@ def run(folder: Path, options: Sequence[str]) -> int:
         sep="\n",
         flush=True,
     )
-    # Of which snakemake itself tells in a dry run alone.
+    # Of which snakemake itself says something in a dry run alone.
     forgotten = (
         not any((folder / REMEMBERED / "metadata").glob("*")) and (log.parents[1] / PROVENANCE).exists()
     )
@@ -98,7 +98,7 @@ def run(folder: Path, options: Sequence[str]) -> int:
         progress = Progress(len(plan.records), len(plan.batches), terminal)
         with progress.followed():
             with contextlib.chdir(folder):
-                warm_up(plan.settings)  # beside the imports of snakemake; it writes where the jobs do
+                warm_up(plan.settings)  # while snakemake is imported; it writes where the jobs do
             status = _snakemake(arguments)
     if _STOPS:
         print(f"Stopped; what was finished stays. To go on: rocking run {folder}")
@@ -114,7 +114,7 @@ def run(folder: Path, options: Sequence[str]) -> int:
     if options and not options[0].startswith("-"):
         print(f"Finished: {options[0]}; what it wrote lies in {results}")
         return 0
-    return _told_of(folder, plan)
+    return _print_outcome(folder, plan)
 
 
 def run_product(folder: Path, product: Product) -> int:
@@ -128,8 +128,8 @@ def run_product(folder: Path, product: Product) -> int:
         kept = kept_of(results, product.name)
         rows = kept_rows(kept, (*work.shown, FailureRow))
         documents = [results / product.folder / name for name in product.files if name.endswith(".pdf")]
-        told = [*work.lines(rows), *conclusion_lines(kept_conclusion(kept))]
-        for line in (*told, *(f"{'Open':<8}{path}" for path in documents)):
+        lines = [*work.lines(rows), *conclusion_lines(kept_conclusion(kept))]
+        for line in (*lines, *(f"{'Open':<8}{path}" for path in documents)):
             print(fitting(line, sys.stdout))
     return status
 
@@ -149,8 +149,8 @@ def _why(progress: Progress, folder: Path, log: Path) -> str:
     return "; ".join(dict.fromkeys(_in_a_sentence(reason, folder, log) for reason in reasons))
 
 
-def _told_of(folder: Path, plan: Plan) -> int:
-    """Tell what came of a whole study, and return the exit status."""
+def _print_outcome(folder: Path, plan: Plan) -> int:
+    """Print what came of a whole study, and return the exit status."""
     results = folder / plan.settings.results
     made = [product for product in PRODUCTS if product.name in plan.products]
     failures = read_table(FailureRow, results / "summary")
@@ -158,13 +158,13 @@ def _told_of(folder: Path, plan: Plan) -> int:
     comparison = read_rows(ComparisonRow, results / "summary" / ComparisonRow.table.file_name)
     falls = read_table(ExpectedFallsRow, results / "summary")
     remarks = read_rows(RemarkRow, results / "summary" / RemarkRow.table.file_name)
-    told = [*closing_lines(verdicts, comparison, failures, falls, remarks)]
+    lines = [*closing_lines(verdicts, comparison, failures, falls, remarks)]
     for product in made:
-        told += conclusion_lines(kept_conclusion(kept_of(results, product.name)))
+        lines += conclusion_lines(kept_conclusion(kept_of(results, product.name)))
     opened = {
         results / product.folder / name: what for product in made for name, what in product.opened.items()
     }
-    for line in (*told, *paths_to_read(results, verdicts, plan.settings.reports, opened)):
+    for line in (*lines, *paths_to_read(results, verdicts, plan.settings.reports, opened)):
         print(fitting(line, sys.stdout))
     return int(bool(failures))
 
@@ -270,14 +270,14 @@ def begin(plan: Plan, anew: bool = False) -> None:
         import psutil  # comes with snakemake
 
         graceful()
-        told: set[int] = set()
+        ended: set[int] = set()
         while True:  # a job that was chosen before may start after; the thread ends with the process
             for process in psutil.Process().children(recursive=True):
                 with contextlib.suppress(psutil.NoSuchProcess):
-                    # A shell that started one waits for it. Told twice, a job would not end in order.
-                    if not process.children() and process.pid not in told:
+                    # A shell that started one waits for it. Ended twice, a job would not end in order.
+                    if not process.children() and process.pid not in ended:
                         process.terminate()
-                        told.add(process.pid)
+                        ended.add(process.pid)
             time.sleep(_BETWEEN_LOOKS)
 
     def end_at_once(number: int) -> None:

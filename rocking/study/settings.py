@@ -221,19 +221,23 @@ class Settings(AssessmentSettings):
     """The settings of a study; the names and their units are the keys of config.yaml."""
 
     study: str | None = described(
-        "", "title of the study", heading=Heading.ABOUT, told="study", changes_numbers=False
+        "", "title of the study", heading=Heading.ABOUT, printed_as="study", changes_numbers=False
     )
     client: str | None = described(
-        "", "client of the study", heading=Heading.ABOUT, told="client", changes_numbers=False
+        "", "client of the study", heading=Heading.ABOUT, printed_as="client", changes_numbers=False
     )
     project_number: str | None = described(
-        "", "number of the project", heading=Heading.ABOUT, told="project number", changes_numbers=False
+        "", "number of the project", heading=Heading.ABOUT, printed_as="project number", changes_numbers=False
     )
     author: str | None = described(
-        "", "author of the study", heading=Heading.ABOUT, told="author", changes_numbers=False
+        "", "author of the study", heading=Heading.ABOUT, printed_as="author", changes_numbers=False
     )
     date: str | None = described(
-        "", "date of the reports, as they print it", heading=Heading.ABOUT, told="date", changes_numbers=False
+        "",
+        "date of the reports, as they print it",
+        heading=Heading.ABOUT,
+        printed_as="date",
+        changes_numbers=False,
     )
     catalogue: str = described(
         "records/catalogue.csv",
@@ -341,7 +345,7 @@ class Settings(AssessmentSettings):
         """Return the names of the settings, and of the sections, that change a number of a table."""
         return [setting.name for setting in fields(cls) if _said_of(setting.name, "changes_numbers", True)]
 
-    def told_in(self, names: Iterable[str]) -> dict[str, Any]:
+    def values_of(self, names: Iterable[str]) -> dict[str, Any]:
         """Return the values of some settings by their names, those of a section as section.name.
 
         names: of settings and sections; section.name is one setting of a section.
@@ -361,7 +365,7 @@ class Settings(AssessmentSettings):
         return chosen
 
     def restricted(self, names: Iterable[str]) -> "Settings":
-        """Return these settings, of which only those named (see told_in) can be read; another raises an error.
+        """Return these settings, of which only those named (see values_of) can be read; another raises an error.
 
         A setting that is left out of a section has its default.
         """
@@ -380,22 +384,28 @@ class Settings(AssessmentSettings):
         return restricted
 
     def mapping(self) -> dict[str, Any]:
-        """All settings by their names, and below "about" what every report tells of the study, by its label."""
-        told = {
+        """All settings by their names, and below "about" what every report prints of the study, by its label."""
+        values = {
             name: asdict(value) if is_dataclass(value) else value  # type: ignore[arg-type]
             for name, value in vars(self).items()
         }
-        labels = {name: setting.more.get("told", "") for name, setting in described_values(Settings).items()}
+        labels = {
+            name: setting.more.get("printed_as", "") for name, setting in described_values(Settings).items()
+        }
         facts = {label: vars(self).get(name) for name, label in labels.items() if label}
         # What was left blank is left out.
-        return told | {"about": {label: str(fact) for label, fact in facts.items() if fact}}
+        return values | {"about": {label: str(fact) for label, fact in facts.items() if fact}}
 
     @property
     def for_pages(self) -> PageSettings:
         """What documents print of them."""
-        told = self.mapping()
+        values = self.mapping()
         return PageSettings(
-            **{setting.name: told[setting.name] for setting in fields(PageSettings) if setting.name in told}
+            **{
+                setting.name: values[setting.name]
+                for setting in fields(PageSettings)
+                if setting.name in values
+            }
         )
 
 
@@ -571,7 +581,7 @@ def structure_hashes(scenes: Mapping[str, "Scene"]) -> dict[str, str]:
 
 def settings_sha256(settings: Settings, scenes: Mapping[str, "Scene"]) -> str:
     """Return the hash that every row names: of the settings that change a number, the structures and the package."""
-    numbers = settings.told_in(NUMBERS)
+    numbers = settings.values_of(NUMBERS)
     return sha256_of(*numbers.items(), *structure_hashes(scenes).items(), package_sha256(reports=False))
 
 

@@ -43,11 +43,11 @@ class _TriedValue:
     @property
     def slides(self) -> bool:
         """Whether it is left out because it slides."""
-        return not self.is_given and self.tried not in self.found.told
+        return not self.is_given and self.tried not in self.found.decided
 
     @property
     def holds(self) -> bool:
-        """Whether it and all larger ones that are told can be shown to hold."""
+        """Whether it and all larger ones that are decided can be shown to hold."""
         return not self.is_given and not self.slides and self.tried.value >= self.found.value
 
     @property
@@ -115,7 +115,9 @@ class StrengtheningRow(RowOf[_TriedValue]):
         "Whether the value is left out because it slides before it lifts and nothing can be told",
         lambda of: of.slides,
     )
-    untold: int = of_tried("Number of components under which it cannot be told", lambda of: of.tried.untold)
+    undecided: int = of_tried(
+        "Number of components under which it cannot be told", lambda of: of.tried.undecided
+    )
     governing: str = of_tried("The crack that overturns most often", lambda of: of.tried.governing)
     static_tie: float = of_tried(
         "Least strength of a tie by the linear check of the code",
@@ -131,14 +133,14 @@ def write_strengthening(
     between: str,
     target: float,
     output: Path | None = None,
-    tell: Callable[[str], object] = lambda line: None,
+    show_line: Callable[[str], object] = lambda line: None,
 ) -> list[str]:
-    """Write table and figure of what holds a structure of the study in `folder`, and return what to tell.
+    """Write table and figure of what holds a structure of the study in `folder`, and return the lines for the terminal.
 
-    What was followed is kept beside them, so that another target follows nothing again. structure: its name. key: of
-    the list. between: its range, as "2..40". output: folder of both files, by default that of the results. tell: takes
-    what it will cost, before it is spent. At the design level of the study each record of the pool has the factor that
-    brings it nearest to the spectrum, and one that no factor within the limits brings there is left out; without a
+    What was followed is kept with them, so that another target follows nothing again. structure: its name. key: of
+    the list. between: its range, as "2..40". output: folder of both files, by default that of the results. show_line:
+    takes what it will cost, before it is spent. At the design level of the study each record of the pool has the factor
+    that brings it nearest to the spectrum, and one that no factor within the limits brings there is left out; without a
     level the records of the study act as the catalogue scales them. Raises ConfigurationError before anything is
     followed, and writes nothing.
     """
@@ -153,7 +155,7 @@ def write_strengthening(
         checks = plan.settings.checks
         place = target_folder or (Path(plan.settings.results) / "strengthening").absolute()
         name = re.sub(r"[^A-Za-z0-9._-]+", "_", f"{structure}_{size.key}").strip("._-")[:150]
-        store = RecordStore(place / f"{name}.cases", tell)
+        store = RecordStore(place / f"{name}.cases", show_line)
         found = strengthen_scene(
             records,
             scene,
@@ -165,7 +167,7 @@ def write_strengthening(
             plan.settings.design_spectrum.spectrum(),
             CodeTerms(confidence_factor=checks.confidence_factor, behaviour_factor=checks.behaviour_factor),
             store=store,
-            tell=tell,
+            show_line=show_line,
         )
         table = place / f"{name}.csv"
         image = place / f"{name}.svg"

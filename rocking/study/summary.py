@@ -1,4 +1,4 @@
-"""The summary over all records of a study: its report, figure, page and workbook, beside the tables."""
+"""The summary over all records of a study: its report, figure, page and workbook."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -21,7 +21,7 @@ from rocking.assessment.variants import VariantRow, variants
 from rocking.quantities import counted, listed
 from rocking.reports.printing import write_document
 from rocking.reports.style import svg
-from rocking.study.documents import made_or_told
+from rocking.study.documents import made_or_failed
 from rocking.study.job import Job, Study
 from rocking.study.kept import Rows, kept_conclusion, kept_rows
 from rocking.study.made_from import versions
@@ -54,7 +54,7 @@ _NOT_IN_THE_WORKBOOK = (TimingRow, VariationRow)
 
 
 @dataclass(frozen=True)
-class Beside:
+class MadeProduct:
     """A product over all records that the summary shows: its work, its rows, and what they come down to."""
 
     work: Work
@@ -69,8 +69,8 @@ def summarise(job: Job) -> None:
     target = job.results / "summary"
     outcomes = read_outcomes(job.plan.outcomes())
     instead = [name for name, scene in study.scenes.items() if scene.variant_of]
-    beside = [_read_beside(job, name) for name in job.task.beside]
-    faults = [fault for product in beside for fault in product.rows[FailureRow]]
+    made = [_read_product(job, name) for name in job.task.products]
+    faults = [fault for product in made for fault in product.rows[FailureRow]]
     shown, pages, spectra, sums = write_summary(
         outcomes,
         study.structures,
@@ -96,8 +96,8 @@ def summarise(job: Job) -> None:
     text = json.dumps(provenance, indent=1, sort_keys=True, default=str)
     write_whole(target / PROVENANCE, (text + "\n").encode())
     if study.settings.reports:
-        _documents(job, target, shown, beside, pages, spectra)
-    for product in (*job.task.beside, "summary"):
+        _documents(job, target, shown, made, pages, spectra)
+    for product in (*job.task.products, "summary"):
         sums |= sums_of(product, job.plan.settings)
     lines = (f"{sha256}  {path}\n".encode() for path, sha256 in sorted(sums.items()))
     write_whole(job.results / SUMS, lines)
@@ -107,11 +107,11 @@ def summarise(job: Job) -> None:
 
 def _remove_former(job: Job) -> None:
     """Remove what no product of the study owns any more, and say so: it would stand for what the tables do not say."""
-    products = (*job.plan.products, *job.task.beside)
+    products = (*job.plan.products, *job.task.products)
     former = former_files(job.plan.settings, products, [record.id for record in job.records])
     remove(job.results, former)
     if former:
-        job.tell(
+        job.show_line(
             f"removed {counted(len(former), 'file')} of former runs, which this study does not make: "
             f"{listed(list(map(str, former)), _NAMED)}"
         )
@@ -121,20 +121,20 @@ def _documents(
     job: Job,
     target: Path,
     shown: Mapping[type[Row], list[Row]],
-    beside: Sequence[Beside],
+    made: Sequence[MadeProduct],
     pages: Sequence[dict[str, Any]],
     spectra: Sequence[Sequence[float]],
 ) -> None:
     """Write report, figure, page to explore and workbook over all records.
 
-    shown: the rows of the summary. beside: the other products. pages: of each record. spectra: of the components.
+    shown: the rows of the summary. made: the other products. pages: of each record. spectra: of the components.
     """
     from rocking.reports.explore import explore_page  # matplotlib takes half a second to import
 
     study = job.study
     sheets = {row_class: rows for row_class, rows in shown.items() if row_class not in _NOT_IN_THE_WORKBOOK}
     notes: dict[str, list[str]] = {}
-    for product in beside:
+    for product in made:
         sheets |= {of_sheet: [*rows] for of_sheet in product.work.sheets if (rows := product.rows[of_sheet])}
         for structure, note in product.work.notes(product.rows).items():
             notes.setdefault(structure, []).append(note)
@@ -145,32 +145,32 @@ def _documents(
         compared = variants(groups, worst_of_each(conclusions(rows_of(VerdictRow, shown), [])))
         drawn = strips(compared, study.structures, notes=notes)
         sheets[VariantRow] = [VariantRow.of(variant) for row in compared.values() for variant in row]
-    told = [product.conclusion for product in beside if product.conclusion]
+    findings = [product.conclusion for product in made if product.conclusion]
     title = study.settings.study or ""
     figures = study.settings.figures
     pdf, scatter = target / "summary.pdf", target / SCATTER
-    untold = made_or_told(pdf, lambda: _report(pdf, study, shown, spectra, drawn, beside), job.log, figures)
-    untold += made_or_told(scatter, lambda: _scatter(scatter, shown), job.log)
+    faults = made_or_failed(pdf, lambda: _report(pdf, study, shown, spectra, drawn, made), job.log, figures)
+    faults += made_or_failed(scatter, lambda: _scatter(scatter, shown), job.log)
     page, book = target / "study.html", target / WORKBOOK
-    untold += made_or_told(
+    faults += made_or_failed(
         page,
         lambda: write_whole(
-            page, explore_page(pages, study.structures, title, told, notes, drawn, study.remarks)
+            page, explore_page(pages, study.structures, title, findings, notes, drawn, study.remarks)
         ),
         job.log,
     )
-    untold += made_or_told(
+    faults += made_or_failed(
         book, lambda: write_whole(book, workbook(sheets, title, opens_on=VerdictRow)), job.log
     )
-    if untold:
-        write_tables({FailureRow: [*shown.get(FailureRow, []), *untold]}, target)
+    if faults:
+        write_tables({FailureRow: [*shown.get(FailureRow, []), *faults]}, target)
 
 
-def _read_beside(job: Job, name: str) -> Beside:
+def _read_product(job: Job, name: str) -> MadeProduct:
     """What another product over all records has kept, and its work."""
     kept = kept_of(job.results, name)
     work = work_of(BY_NAME[name])
-    return Beside(work, kept_rows(kept, (*work.shown, FailureRow)), kept_conclusion(kept))
+    return MadeProduct(work, kept_rows(kept, (*work.shown, FailureRow)), kept_conclusion(kept))
 
 
 def _report(
@@ -179,19 +179,19 @@ def _report(
     rows: Mapping[type[Row], Sequence[Row]],
     spectra: Sequence[Sequence[float]],
     strips: Sequence["Strip"],
-    beside: Sequence[Beside],
+    made: Sequence[MadeProduct],
 ) -> None:
-    """Write summary.pdf and, where asked for, its figures beside it.
+    """Write summary.pdf and, where asked for, its figures in an archive.
 
-    spectra: of the components, where there is a design level. strips: of the variants. beside: the other products.
+    spectra: of the components, where there is a design level. strips: of the variants. made: the other products.
     """
     from rocking.reports.summary import summary_data
 
     level = study.settings.design_spectrum.spectrum()
     design = (level, spectra) if level is not None and spectra else None
-    panels = [panel for product in beside if (panel := product.work.panel(product.rows))]
-    told = [product.conclusion for product in beside if product.conclusion]
-    page = summary_data(rows, study.settings.for_pages, design, strips, told, panels)
+    panels = [panel for product in made if (panel := product.work.panel(product.rows))]
+    findings = [product.conclusion for product in made if product.conclusion]
+    page = summary_data(rows, study.settings.for_pages, design, strips, findings, panels)
     write_document(pdf, page, study.settings.figures)
 
 

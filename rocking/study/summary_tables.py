@@ -89,14 +89,14 @@ def write_summary(
             if reports:
                 pages.append(outcome.page)
                 spectra += outcome.spectra.values()
-        told = [*faults]
+        failures = [*faults]
         for name, structure in structures.items():
-            with told_of_structure(told, name):
+            with failures_of_structure(failures, name):
                 kept[StructureRow] += structure_rows({name: structure}, scale)
-            with told_of_structure(told, name):
+            with failures_of_structure(failures, name):
                 kept[CapacityRow] += capacity_rows({name: structure})
-        write[FailureRow](told)
-        kept[FailureRow] += told if reports else ()
+        write[FailureRow](failures)
+        kept[FailureRow] += failures if reports else ()
         names = named_records(read, each_unnamed)
         of_all = falls_over(falls_of_records, Sample.named(names[falls.record] for falls in falls_of_records))
         kept[ExpectedFallsRow] = [*falls_of_records, *([of_all] if of_all else [])]
@@ -106,7 +106,7 @@ def write_summary(
 
 
 @contextmanager
-def told_of_structure(faults: list[Row], name: str) -> Iterator[None]:
+def failures_of_structure(faults: list[Row], name: str) -> Iterator[None]:
     """Add a row to `faults` for what goes wrong within with one structure, and go on behind it."""
     try:
         with one_structure(name):

@@ -12,7 +12,7 @@ class Task:
 
     product: "record/a", "summary", .... config: of the study. made_from: the params of the rule, what the product was
     planned to be made from. folder: in which the files lie that the rule declares, as the study names them; on another
-    machine they are copies. log: from the folder of the study. beside: the products over all records that a summary
+    machine they are copies. log: from the folder of the study. products: those over all records that a summary
     shows. by_name: see `rocking.study.plan.Plan`. cores: that its kernels may use.
     """
 
@@ -21,7 +21,7 @@ class Task:
     made_from: Sequence[str]
     folder: str = ""
     log: str = "log"
-    beside: Sequence[str] = ()
+    products: Sequence[str] = ()
     by_name: bool = False
     cores: int = 1
 

@@ -65,8 +65,8 @@ def record_line(scenes: Iterable["SceneResult"], failures: Iterable[FailureRow])
         divided = "," in result.structure or ";" in result.structure
         name = f'"{result.structure}"' if divided else result.structure
         parts[decision.word].append(name + number)
-    told = {"failed": " ".join(reasons)} | _named(parts, _NAMED)
-    lines = [f"{word}: {text}" for word, text in told.items() if text]
+    named = {"failed": " ".join(reasons)} | _named(parts, _NAMED)
+    lines = [f"{word}: {text}" for word, text in named.items() if text]
     left = max(0, _NAMED - len(on_the_ground))
     carried = [scene.sentence for scene in scenes if scene.scene.place.supports]
     if len(carried) > left:

@@ -31,7 +31,7 @@ class Made:
 
 
 class Work(ABC):
-    """What a product does beside its face. Each method but `make` is given the rows of `shown`, and may say nothing."""
+    """What a product does. Each method but `make` is given the rows of `shown`, and may say nothing."""
 
     shown: ClassVar[tuple[type[Row], ...]] = ()
     """The tables that the summary and the verb show something of, with the faults (FailureRow)."""
@@ -51,7 +51,7 @@ class Work(ABC):
         return {}
 
     def lines(self, rows: Rows) -> Iterator[str]:
-        """Yield what the terminal tells after its verb, beside the conclusion."""
+        """Yield the lines of the terminal after its verb, without the conclusion."""
         yield from ()
 
 
@@ -62,7 +62,7 @@ def work_of(product: Product) -> Work:
     return made
 
 
-def write_beside(
+def write_documents(
     write: Callable[[Path, Path, Figures], None] | None, pdf: Path, image: Path, job: Job, faults: list[Row]
 ) -> None:
     """Let `write` set a document over all records as the files `pdf` and `image` (SVG).

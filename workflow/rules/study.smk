@@ -125,9 +125,9 @@ def work(rule, wildcards, input, params, log, threads=1, job=""):
     job: the name of its function where it is not that of the rule.
     """
     product = "/".join([rule, *wildcards])
-    beside = [each for each in PLAN.beside_summary if input.get(each)]
+    products = [each for each in PLAN.products_of_summary if input.get(each)]
     folder = folder_of(*input.catalogue, SETTINGS.catalogue) if BY_NAME else ""
-    task = Task(product, dict(config), list(params), folder, log[0], beside, BY_NAME, threads)
+    task = Task(product, dict(config), list(params), folder, log[0], products, BY_NAME, threads)
     run_apart(f"rocking.study.jobs:{job or rule}", product, task)
 
 
@@ -135,11 +135,11 @@ def log_file(product):
     return f"{RESULTS}/{log_of(product)}"
 
 
-def beside(product):
+def shown_files(product):
     """The files of a product over all records, where the summary shows it."""
     return (
         [str(path) for path in outputs_of(product, SETTINGS).values()]
-        if product in PLAN.beside_summary
+        if product in PLAN.products_of_summary
         else []
     )
 

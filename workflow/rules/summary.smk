@@ -4,7 +4,7 @@
 rule summary:
     input:
         **lists_of("summary"),
-        **{product.name: beside(product.name) for product in PRODUCTS},
+        **{product.name: shown_files(product.name) for product in PRODUCTS},
         records=OUTCOMES,
     output:
         files_of("summary"),

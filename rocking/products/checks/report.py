@@ -40,7 +40,7 @@ from rocking.reports.sentences import Sentences
 from rocking.reports.style import picture
 from rocking.reports.variants import strips
 from rocking.structures import Structure
-from rocking.structures.structure import AS_GIVEN, Candidate, Crackable
+from rocking.structures.structure import AS_DESCRIBED, Candidate, Crackable
 from rocking.structures.tied import Tied
 
 OWN_SENTENCES = Path(__file__).with_name("sentences.csv")
@@ -536,7 +536,7 @@ def _falls(candidate: Candidate, words: Sentences) -> str:
     alone = f"{candidate.part} alone" if candidate.part else ""
     opens = candidate.description.removeprefix(alone).removeprefix(", ")
     opens = opens.removesuffix(f" ({candidate.name.removeprefix(alone).strip()})")
-    return candidate.name if opens in ("", AS_GIVEN) else f"{candidate.name}: {opens}"
+    return candidate.name if opens in ("", AS_DESCRIBED) else f"{candidate.name}: {opens}"
 
 
 def _holds(candidate: Candidate, largest_forces: Sequence[float], words: Sentences) -> str:

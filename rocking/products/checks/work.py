@@ -30,7 +30,7 @@ from rocking.reports.pages import Panel, Part
 from rocking.reports.printing import sentence, strong, table_of, words, write_document
 from rocking.structures.structure import Candidate
 from rocking.structures.tied import Tied
-from rocking.study.documents import made_or_told
+from rocking.study.documents import made_or_failed
 from rocking.study.job import Job, Study
 from rocking.study.kept import Rows
 from rocking.study.outcomes import read_outcomes
@@ -53,7 +53,7 @@ class Checks(Work):
             job.folder,
             [row for each in rows for row in rows_of(VerdictRow, each)],
             [row for each in rows for row in rows_of(RecordRow, each)],
-            job.tell,
+            job.show_line,
             [row for each in rows for row in rows_of(MechanismRow, each)],
         )
         return Made({CodeCheckRow: checked}, code_conclusion_in_words(code_conclusions(checked)))
@@ -168,7 +168,7 @@ def write_checks(
         page = structures_data(pages, spectrum, settings, terms, selection, without_sets, unread)
         write_document(pdf, page, figures)
 
-    for fault in made_or_told(pdf, write, "the log", figures):
+    for fault in made_or_failed(pdf, write, "the log", figures):
         tell(fault.message)
     return rows
 

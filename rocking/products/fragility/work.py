@@ -29,7 +29,7 @@ from rocking.reports.printing import faults_in_words
 from rocking.structures import Mechanism
 from rocking.study.job import Job, Study, costs_no_other
 from rocking.study.kept import Rows
-from rocking.study.work import Made, Work, write_beside
+from rocking.study.work import Made, Work, write_documents
 from rocking.tables import Row, write_tables, write_whole
 
 OPENQUAKE = "fragility.xml"
@@ -44,10 +44,10 @@ class Fragilities(Work):
     def make(self, job: Job) -> Made:
         """Scale the records until the structures overturn."""
         folder = job.folder
-        rows, reasons = write_fragility(job.records, job.study, folder, job.tell, job.log)
+        rows, reasons = write_fragility(job.records, job.study, folder, job.show_line, job.log)
         write = partial(write_fragility_report, rows) if rows[FragilityRow] else None
-        write_beside(write, folder / "fragility.pdf", folder / "fragility.svg", job, rows[FailureRow])
-        job.tell("\n".join([*reasons, *faults_in_words(rows)]) or "All records were used.")
+        write_documents(write, folder / "fragility.pdf", folder / "fragility.svg", job, rows[FailureRow])
+        job.show_line("\n".join([*reasons, *faults_in_words(rows)]) or "All records were used.")
         return Made(rows)
 
     def panel(self, rows: Rows) -> Panel | None:

@@ -34,7 +34,7 @@ class Map(Work):
         write_tables({StationRow: stations}, job.folder, "rocking-map", "stations.json")
         write_whole(job.folder / "stations.geojson", geojson(stations, verdicts))
         if missing := sum(map(bool, records)) - len(stations):
-            job.tell(f"{counted(missing, 'station')} without coordinates, which the map leaves out")
+            job.show_line(f"{counted(missing, 'station')} without coordinates, which the map leaves out")
         placed = {each.record for each in stations}
         return Made({StationRow: stations, VerdictRow: [each for each in verdicts if each.record in placed]})
 

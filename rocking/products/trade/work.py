@@ -17,7 +17,7 @@ from rocking.reports.pages import Panel
 from rocking.study.job import Job, Study, costs_no_other
 from rocking.study.kept import Rows
 from rocking.study.terminal import WIDTH
-from rocking.study.work import Made, Work, write_beside
+from rocking.study.work import Made, Work, write_documents
 from rocking.tables import Row, rows_of, write_tables
 
 MOST_RECORDS = 70
@@ -40,18 +40,18 @@ class Trade(Work):
             return costs_no_other(rows[FailureRow], job.log, "the trade", structure, tried[-1])
 
         # The methods are compared on records: what stands on a support is taken on the ground.
-        motions = _components(study, job.records, job.tell, tried, net)
+        motions = _components(study, job.records, job.show_line, tried, net)
         rows[TradeRow] += trade(
             motions,
             study.structures,
             settings=study.settings,
-            tell=job.tell,
+            tell=job.show_line,
             within=net,
             each_unnamed=study.settings.unnamed_events == "each",
         )
         write_tables({TradeRow: rows[TradeRow]}, folder, "rocking-trade", "trade.json")
         write = partial(write_trade_report, rows)
-        write_beside(write, folder / "trade.pdf", folder / "trade.svg", job, rows[FailureRow])
+        write_documents(write, folder / "trade.pdf", folder / "trade.svg", job, rows[FailureRow])
         return Made(rows)
 
     def panel(self, rows: Rows) -> Panel | None:

@@ -184,8 +184,8 @@ def test_what_was_measured_is_told_on_the_terminal():
 def test_the_trade_of_a_study_takes_what_is_declared_of_earthquakes_that_nobody_names(monkeypatch, declared):
     taken = {}
     monkeypatch.setattr(work, "trade", lambda *_, **named: taken.update(named) or [])
-    for name in ("write_tables", "write_beside"):
+    for name in ("write_tables", "write_documents"):
         monkeypatch.setattr(work, name, lambda *_: None)
     study = SimpleNamespace(settings=Settings(unnamed_events=declared), structures={})
-    work.Trade().make(SimpleNamespace(study=study, folder=Path(), records=(), tell=print, log=Path()))
+    work.Trade().make(SimpleNamespace(study=study, folder=Path(), records=(), show_line=print, log=Path()))
     assert taken["each_unnamed"] is (declared == "each")

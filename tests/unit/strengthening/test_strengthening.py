@@ -284,7 +284,7 @@ def test_where_only_the_top_slides_it_is_left_out_and_harms_nothing():
     slid = np.zeros(shares.shape)
     slid[10:, :20] = 1.0
     made = _made(shares + slid, slid=slid)
-    assert [each.value for each in made.told] == VALUES[:10].tolist()
+    assert [each.value for each in made.decided] == VALUES[:10].tolist()
     assert made.value == VALUES[5] and made.monotone
     assert f"{VALUES[10]:.3g} m" in made.words
 
@@ -336,7 +336,7 @@ def test_another_target_follows_nothing_again(monkeypatch, tmp_path):
     told: list[str] = []
     store = RecordStore(path)
     arguments = (records, scene, BREADTH, (0.3, 0.9))
-    first = strengthen_scene(*arguments, 0.3, sample, early=False, store=store, tell=told.append)
+    first = strengthen_scene(*arguments, 0.3, sample, early=False, store=store, show_line=told.append)
     store.save()
     assert "128 cases" in told[0]  # 15 values and the one given, under 8 components
 

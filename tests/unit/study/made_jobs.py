@@ -26,7 +26,7 @@ def made_job(
     study = replace(study, settings=replace(study.settings, results=str(results)))
     plan = Plan(study.settings, {each.id: each for each in records}, study.scenes, ContentHashes())
     lines = [] if told is None else told
-    task = Task(product, {}, (), beside=beside)
+    task = Task(product, {}, (), products=beside)
     return Job(
         task, plan, study, list(records), results / "made.log", partial(_tell, lines), partial(_keep, results)
     )

@@ -29,7 +29,7 @@ from rocking.structures import Block, Spire
 from rocking.study.job import Study
 from rocking.study.progress import line_writer
 from rocking.study.settings import Settings, StudyFragility
-from rocking.study.work import write_beside
+from rocking.study.work import write_documents
 from rocking.tables import read_rows, read_table
 from tests.made_structures import HELD
 from tests.unit.study.made_jobs import made_job
@@ -154,9 +154,9 @@ def test_where_every_structure_has_a_fault_the_page_says_so(tmp_path, monkeypatc
         "rocking.reports.printing.compile_document", lambda page: told.append(page) or b"%PDF"
     )
     pdf, image = tmp_path / "out" / "fragility.pdf", tmp_path / "out" / "fragility.svg"
-    write_beside(None, pdf, image, job, written[FailureRow])
+    write_documents(None, pdf, image, job, written[FailureRow])
     assert len(told[0].parts[0].sentences) == 3 and pdf.is_file() and image.is_file()
-    write_beside(lambda *_: {}["page"], pdf, image, job, written[FailureRow])
+    write_documents(lambda *_: {}["page"], pdf, image, job, written[FailureRow])
     assert "a fault of rocking in fragility.pdf (KeyError: 'page')" in told[1].parts[0].sentences[3]
 
 

@@ -13,11 +13,11 @@ from rocking.study import made_from as module
 from rocking.study import settings as settings_module
 from rocking.study.made_from import (
     OF_RECORDS,
-    handed,
     inputs_of,
     made_from,
     of_kind,
     of_records,
+    settings_for,
     versions,
     what_changed,
 )
@@ -153,11 +153,11 @@ def test_every_setting_stands_in_the_table_of_edits() -> None:
         "structures",
         "results",
     }
-    others |= set(settings.told_in(["design_spectrum"]))
+    others |= set(settings.values_of(["design_spectrum"]))
     edits = [each[0] for each in EDITS]
     missing = [
         name
-        for name in settings.told_in(list(vars(settings)))
+        for name in settings.values_of(list(vars(settings)))
         if name not in others and not any(edit.startswith(name) for edit in edits)
     ]
     assert missing == []
@@ -209,14 +209,14 @@ def test_files_on_another_machine_are_taken_by_the_name_and_the_hash_of_the_cata
 
 
 def test_a_job_cannot_read_a_setting_that_its_line_does_not_name(study) -> None:
-    settings = handed("fragility", plan().settings)
+    settings = settings_for("fragility", plan().settings)
     assert settings.fragility.hazard == "hazard.csv" and settings.tolerance == 1e-6
     with pytest.raises(
         ConfigurationError, match=r"setting client: .* add it to rocking\.study\.made_from\.TABLE"
     ):
         _ = settings.client
     with pytest.raises(ConfigurationError, match="setting checks"):
-        _ = handed("record", plan().settings).checks
+        _ = settings_for("record", plan().settings).checks
 
 
 @pytest.mark.parametrize("product", [each.name for each in OVER_ALL])

@@ -103,5 +103,5 @@ def test_four_tables_say_one_share_of_a_pinnacle_whose_stacks_fall(folder: Path,
     names = tuple(each.id for each in catalogue)
     sample = Sample(names, names)
     found = strengthen_scene(motions, scene, side, (1.5, 2.0), 0.1, sample, study.assessment)
-    assert found.given.untold == 0
+    assert found.given.undecided == 0
     assert found.given.share == pytest.approx(shares.mean())

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from rocking.study.progress import Progress, bar, line_writer, tell_error
+from rocking.study.progress import Progress, bar, line_writer, send_error
 
 
 def test_what_is_sent_stands_in_the_log_and_on_the_terminal(tmp_path: Path) -> None:
@@ -25,11 +25,11 @@ def test_the_log_holds_the_error_that_ends_a_job(tmp_path: Path, capsys: pytest.
     try:
         raise ZeroDivisionError("by nothing")
     except ZeroDivisionError as error:
-        tell_error(type(error), error, error.__traceback__)
+        send_error(type(error), error, error.__traceback__)
     told, *trace = log.read_text().splitlines()
     assert told == "1 of 2: pier"
     assert trace[-1] == "ZeroDivisionError: by nothing"
-    assert "its log tells where" in capsys.readouterr().err
+    assert "its log says where" in capsys.readouterr().err
 
 
 class Terminal(io.StringIO):
@@ -40,10 +40,10 @@ class Terminal(io.StringIO):
 def test_on_a_terminal_a_bar_says_how_far_it_has_come(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("rocking.study.progress.columns_of", lambda stream: 60)
     progress = Progress(40, 2, stream := Terminal())
-    progress.tell_plan({"batch": 2, "summary": 1})
+    progress.count_jobs({"batch": 2, "summary": 1})
     assert re.search(r"\r\x1b\[K0 of 40 records .* \? left$", stream.getvalue())
     progress._began -= 600  # ten minutes for the first record
-    progress.tell_line("batch", "one: stands: pier")
+    progress.show_line("batch", "one: stands: pier")
     *_, line, shown = stream.getvalue().split("\n")
     assert line.endswith("one: stands: pier")
     assert re.search(r"\r\x1b\[K1 of 40 records .* 6:30:0\d left$", shown)
@@ -58,8 +58,8 @@ def test_a_job_that_counts_itself_has_a_bar_and_plain_lines_elsewhere(
     told = []
     for stream in (Terminal(), io.StringIO()):
         progress = Progress(40, 2, stream)
-        progress.tell_plan({"fragility": 1})
-        progress.tell_line("fragility", "3 of 12: pier", 3, 12)
+        progress.count_jobs({"fragility": 1})
+        progress.show_line("fragility", "3 of 12: pier", 3, 12)
         told.append(stream.getvalue())
     assert "3 of 12 parts" in told[0]
     assert told[1] == "fragility: 3 of 12: pier\n"
@@ -73,7 +73,7 @@ def test_the_line_of_the_compilation_moves_and_stands_twice_where_no_line_can(
     for stream in (Terminal(), io.StringIO()):
         progress = Progress(4, 0, stream)
         for line, is_last in (("3 s", False), ("4 s", False), ("5 s", False), ("Compiled in 6 s.", True)):
-            progress.tell_line("compile", line, int(is_last), 1)
+            progress.show_line("compile", line, int(is_last), 1)
         shown.append(stream.getvalue())
     assert shown[0].split("\n")[0].split("\r\x1b[K") == ["", "3 s", "4 s", "5 s", "Compiled in 6 s."]
     assert shown[0].count("\n") == 1

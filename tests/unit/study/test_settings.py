@@ -226,15 +226,17 @@ def test_the_schema_allows_what_the_tree_allows(name: tuple[str, ...], value: ob
 def test_what_a_study_is_told_by_stands_in_every_report_and_changes_no_number() -> None:
     """Whatever declares that it is told: nothing but its declaration puts it there."""
     told = {
-        each.name: each.more["told"] for each in described_values(Settings).values() if "told" in each.more
+        each.name: each.more["printed_as"]
+        for each in described_values(Settings).values()
+        if "printed_as" in each.more
     }
     assert {"study", "client", "author", "date", "project_number"} <= told.keys()
     settings = replace(Settings(), **{name: f"the {name}" for name in told})
     printed = settings.for_pages.about
     assert printed == {label: f"the {name}" for name, label in told.items()}
     numbers = Settings.changing_numbers()
-    assert settings.told_in(numbers) == Settings().told_in(numbers)
-    assert replace(settings, tolerance=1e-7).told_in(numbers) != settings.told_in(numbers)
+    assert settings.values_of(numbers) == Settings().values_of(numbers)
+    assert replace(settings, tolerance=1e-7).values_of(numbers) != settings.values_of(numbers)
 
 
 def test_a_key_in_a_section_beside_its_own_is_told_where_it_belongs() -> None:

@@ -16,6 +16,6 @@ class LogHandler(LogHandlerBase):
         """Tell what the reader of a terminal wants to know of an event."""
         event, progress = getattr(record, "event", None), Progress.in_this_process
         if progress and event == LogEvent.RUN_INFO:
-            progress.tell_plan(record.stats)
+            progress.count_jobs(record.stats)
         elif progress and event == LogEvent.ERROR:
             progress.errors.append(record.getMessage())
