@@ -32,6 +32,16 @@ TARGETS_OF_RESEARCH = {
         ["held_walls.csv"],
     ),
     "tie_forces": ("Hold the forces of ties in motion against those of statics", REAL_RECORDS, ["ties.csv"]),
+    "between_ties": (
+        "Hold walls with ties at a spacing beside walls of units in three dimensions",
+        [*REAL_RECORDS, f"{HOME}/records/catalogue.csv"],
+        ["between_ties.csv"],
+    ),
+    "anchors": (
+        "Hold walls with light anchors beside stacks whose anchors slide out",
+        [*REAL_RECORDS, f"{HOME}/records/catalogue.csv"],
+        ["anchors.csv"],
+    ),
     "leaves": (
         "Hold walls of two leaves beside stacks of each leaf",
         REAL_RECORDS,

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 def targets() -> "dict[str, Callable[[Target], None]]":
     """Return the function of each target that reads the accelerograms of catalogues, by the name of its rule."""
     from docs.research import (
+        anchors,
+        between_ties,
         code_checks,
         cracks,
         earthquakes,
@@ -53,6 +55,8 @@ def targets() -> "dict[str, Callable[[Target], None]]":
         "stand": stacks.stand,
         "hold": held_walls.hold,
         "tie_forces": tie_forces.tie_forces,
+        "between_ties": between_ties.between_ties,
+        "anchors": anchors.anchors,
         "leaves": leaves.leaves,
         "screen": ensembles.screen,
         "stability": stability.stability,

@@ -1,0 +1,211 @@
+"""Walls with ties at a spacing: does what is said to stand fall between its ties, unit by unit in three dimensions?
+
+Walls of one storey with a row of ties farther apart than three lengths of a unit are drawn, with floors or cross walls
+behind, under a floor that rides on them or that the building holds. Each stands under real motions, scaled to 1.3
+to 4 times what lifts it; what is said to stand is followed as a wall of two bays in running bond, which ends
+free half a spacing beyond its ties, and as one of a bay that ends at ties and can spread there. Nothing was chosen on
+these walls; that a held wall only probably stands beyond 0.4 φ_cr was read off others, on stations of FEMA P-695, so
+that the stations outside of it are a part of their own.
+"""
+
+import warnings
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from time import process_time
+from typing import Literal
+
+import numpy as np
+import pandas as pd
+
+from docs.research import scores
+from docs.research.bonded_units import BondedUnits, UnitsResponse, follow_units
+from docs.research.held_walls import UNIT_WEIGHT
+from docs.research.report import Target
+from docs.research.sites import (
+    SiteRecord,
+    Trial,
+    draw_of,
+    independent,
+    lifting_factor,
+    one_of_each,
+    sample_of,
+)
+from docs.research.stacks import strong_part
+from rocking import Accelerogram, Facade, Verdict, assess
+from rocking.assessment.settings import AssessmentSettings
+from rocking.errors import RockingError, StructureWarning
+from rocking.quantities import GRAVITY
+from rocking.structures.linkage import FRICTION
+from rocking.tables import column, row
+
+WALLS = 3
+"""Drawn under each component."""
+UPLIFTS = (1.3, 4.0)
+"""Range of peak acceleration over the least uplift acceleration to which records are scaled, log-uniform."""
+ROCKED = 0.01
+"""Of the thickness: a wall of which a unit moves farther has rocked."""
+
+
+@row("between_ties", "One row per wall and component: what the package says, and the walls of units")
+class BetweenTrial(Trial):
+    """One trial."""
+
+    catalogue: str = column("The catalogue that the station is of: fema_p695, or another one")
+    height_m: float = column("Height, m")
+    thickness_m: float = column("Thickness, m")
+    unit_m: float = column("Length of a unit, twice its height, m")
+    spacing_m: float = column("Distance between ties, m")
+    multiplier: float = column("Least multiplier of its mechanisms, g")
+    peak: float = column("Peak acceleration over that which lifts")
+    verdict: Verdict = column("Verdict of the package")
+    governs: str = column("What governs the verdict")
+    farthest: float = column("Largest rotation over critical rotation of its members; INF: one overturns")
+    falls: int | None = column("Walls of two bays that fall, of two; empty: not said to stand")
+    moved: float | None = column("Farthest that a unit of theirs moves outwards, over the thickness")
+    ending_falls: int | None = column("Walls that end at ties and can spread there, that fall, of two")
+    ending_moved: float | None = column("Farthest that a unit of theirs moves outwards, over the thickness")
+    units_s: float = column("CPU time of the walls of units, s")
+
+
+@dataclass(frozen=True)
+class DrawnWall:
+    """A wall as it is described, and the length of its units, m."""
+
+    described: Facade
+    unit: float
+
+    def units(self, *, ends_at_ties: bool) -> BondedUnits:
+        """Return two bays that end half a spacing beyond their ties, or one that ends at its ties."""
+        wall = self.described
+        assert wall.tie_spacing is not None
+        spacing = wall.tie_spacing
+        at = (0.0, spacing) if ends_at_ties else (spacing / 2, 3 * spacing / 2)
+        # A tie at the end holds half a spacing.
+        share = 0.5 if ends_at_ties else 1.0
+        return BondedUnits(
+            spacing if ends_at_ties else 2 * spacing,
+            wall.height,
+            wall.thicknesses[0],
+            (self.unit, self.unit / 2),
+            wall.unit_weight / GRAVITY,
+            wall.floor_loads[0],
+            not wall.loads_held,
+            tuple((along, wall.tie_heights[0]) for along in at),
+            wall.tie_stiffness * spacing * share,
+            str(wall.behind),
+            wall.mechanism().positive.restitution,
+            FRICTION,
+        )
+
+
+def drawn(draw: np.random.Generator) -> DrawnWall:
+    """Return a wall of one storey with ties farther apart than three lengths of a unit."""
+    unit = float(draw.uniform(0.7, 1.2))
+    courses = round(float(draw.uniform(2.6, 4.0)) / (unit / 2))
+    height = courses * unit / 2
+    behind: Literal["floors", "cross_walls"] = "cross_walls" if draw.random() < 0.5 else "floors"
+    wall = Facade(
+        (height,),
+        (float(draw.uniform(0.3, 0.6)),),
+        UNIT_WEIGHT,
+        floor_loads=(float(draw.uniform(1e3, 15e3)),),
+        loads_held=bool(draw.random() < 0.5),
+        restitution=float(draw.uniform(0.3, 0.7)),
+        behind=behind,
+        tie_heights=(height,),
+        tie_stiffness=float(np.exp(draw.uniform(*np.log([2e6, 3e7])))),
+        tie_spacing=unit * int(draw.integers(4, 8)),
+        unit_length=unit,
+    )
+    return DrawnWall(wall, unit)
+
+
+def between_ties(target: Target) -> None:
+    """Hold what is said of walls with ties at a spacing against walls of units."""
+    trials: list[BetweenTrial] = []
+    for component in one_of_each(independent(target.records)):
+        trials += between_trials(component)
+        stand = [each for each in trials if each.falls is not None]
+        fall = sum(bool(each.falls) for each in stand)
+        target.tell(f"{component.identifier}: {len(trials)} trials, {len(stand)} stand, {fall} of these fall")
+    subtitle = "Walls with ties at a spacing, beside walls of units in running bond in three dimensions."
+    target.publish(
+        "Between two ties", subtitle, {BetweenTrial: trials, scores.Score: list(between_scores(trials))}
+    )
+
+
+def between_trials(component: SiteRecord) -> Iterator[BetweenTrial]:
+    """Yield the trials under one component."""
+    for place in range(WALLS):
+        try:
+            yield between_trial(component, place)
+        except RockingError:
+            continue  # drawn so that it does not stand at rest
+
+
+def between_trial(component: SiteRecord, place: int) -> BetweenTrial:
+    """Return one trial: wall and scale drawn."""
+    record = component.accelerogram
+    draw = draw_of(component.identifier, 66, place)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", StructureWarning)
+        wall = drawn(draw)
+        multiplier = wall.described.static_multiplier
+        factor = lifting_factor(record, multiplier, UPLIFTS, draw)
+        motion = strong_part(record.scaled(factor), multiplier)
+        station = assess(motion, wall.described, settings=AssessmentSettings(friction_coefficient=FRICTION))
+    (case,) = station.cases.values()
+    stands = station.verdict is Verdict.STANDS
+    started = process_time()
+    bays = unit_runs(wall.units(ends_at_ties=False), motion) if stands else []
+    ending = unit_runs(wall.units(ends_at_ties=True), motion) if stands else []
+    thickness = wall.described.thicknesses[0]
+    return BetweenTrial(
+        record=component.identifier,
+        site=component.site,
+        earthquake=component.earthquake,
+        structure="wall between ties",
+        scale_factor=factor,
+        catalogue="fema_p695" if component.identifier.startswith("P695") else "near_fault",
+        height_m=wall.described.height,
+        thickness_m=thickness,
+        unit_m=wall.unit,
+        spacing_m=wall.described.tie_spacing or np.nan,
+        multiplier=multiplier,
+        peak=float(motion.peak_acceleration / (multiplier * GRAVITY)),
+        verdict=station.verdict,
+        governs=station.crack,
+        farthest=case.largest_rotation_ratio,
+        falls=sum(each.falls for each in bays) if bays else None,
+        moved=max(each.farthest for each in bays) / thickness if bays else None,
+        ending_falls=sum(each.falls for each in ending) if ending else None,
+        ending_moved=max(each.farthest for each in ending) / thickness if ending else None,
+        units_s=process_time() - started,
+    )
+
+
+def unit_runs(wall: BondedUnits, motion: Accelerogram) -> list[UnitsResponse]:
+    """Return how a wall of units responds to a motion and to its reverse."""
+    return [follow_units(wall, sign * motion.acceleration, motion.time_step) for sign in (1.0, -1.0)]
+
+
+def between_scores(trials: Sequence[BetweenTrial]) -> Iterator[scores.Score]:
+    """Yield the shares of what falls among what is said to stand, with intervals by earthquake."""
+    every = pd.DataFrame(trials)
+    for stations, own in (
+        ("all stations", every),
+        ("stations outside of FEMA P-695", every[every.catalogue != "fema_p695"]),
+    ):
+        stands = (own.verdict == Verdict.STANDS).to_numpy()
+        falls, ends, moved = (own[name].astype(float) for name in ("falls", "ending_falls", "moved"))
+        rocks = (moved > ROCKED).to_numpy()
+        measures: dict[str, scores.Measured] = {
+            'two bays fall among "stands"': np.where(stands, falls > 0, np.nan),
+            'two bays fall among "stands" that rock': np.where(stands & rocks, falls > 0, np.nan),
+            'one bay that ends at ties falls among "stands"': np.where(stands, ends > 0, np.nan),
+            'two bays rock among "stands"': np.where(stands, rocks, np.nan),
+            '"stands"': stands.astype(float),
+        }
+        yield from scores.scored(
+            "walls between ties", stations, measures, sample_of(own.site, own.earthquake)
+        )
