@@ -635,7 +635,7 @@ class _Following:
                     share=decision.share,
                     governing=worst.ensembles.governing.description if worst.ensembles else "",
                     slides=undecided
-                    and any(remark.kind is AssessmentKind.FRICTION for remark in decision.tells),
+                    and any(remark.kind is AssessmentKind.FRICTION for remark in decision.would_settle),
                 )
             if self.store is not None:
                 self.store.keep(keys[name], kept[name], {})

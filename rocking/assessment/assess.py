@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 class StructureAssessment(PeriodResult, Drawn):
     """The result of one structure: the verdict with the ensemble over all uncertain inputs, directions included.
 
-    `rotation_ratio` is the largest rotation over the critical one of the case as given, of the worse
-    component; inf if it overturns. `plot` draws the rotation as given, with the members' 5–95 % beside it.
+    `rotation_ratio` is the largest rotation over the critical one under the record as recorded, of the worse
+    component; inf if it overturns. `plot` draws that rotation, with the members' 5–95 %.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ class StructureAssessment(PeriodResult, Drawn):
         Result of each component, by its name.
     directions : CaseResult or None, optional
         Result of the pair over its directions; None of one component.
-    support : Carrier or None, optional
+    support : MovingSupport or None, optional
         What carries the structure; None on the ground.
 
     Examples
@@ -112,8 +112,8 @@ class StructureAssessment(PeriodResult, Drawn):
 
     @property
     def statics(self) -> FollowedCrack | None:
-        """The crack of statics where another one governs, or the worst beside one that is known; None without one."""
-        return self.ensembles.statics_beside if self.ensembles else None
+        """The crack of statics where another one governs, or the worst other than a known one; None without one."""
+        return self.ensembles.reported_statics if self.ensembles else None
 
     @property
     def statics_crack(self) -> str:
@@ -122,7 +122,7 @@ class StructureAssessment(PeriodResult, Drawn):
 
     @property
     def response(self) -> Response:
-        """The integration of the mechanism as given, with its history; of the worse component."""
+        """The integration of the mechanism under the record as recorded, with its history; of the worse component."""
         responses = [case.responses[Method.MECHANISM_ON_RECORD] for case in self.cases.values()]
         return max(responses, key=lambda response: response.rotation_ratio)
 

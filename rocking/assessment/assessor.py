@@ -18,10 +18,10 @@ from rocking.assessment.cracks import cracked
 from rocking.assessment.inputs import CaseInputs, Inputs, PairInputs, PulseInputs, ReserveInputs
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
 from rocking.assessment.motions import (
-    Carrier,
     Component,
     ComponentPulses,
     Motion,
+    MovingSupport,
     arrived,
     by_name,
     on_support,
@@ -75,7 +75,7 @@ class _Shaking:
     """
 
     grounds: tuple[Component, ...]
-    support: Carrier | None = None
+    support: MovingSupport | None = None
     floor: tuple[ComponentPulses, ...] = ()
     pair: Motion | None = None
 
@@ -122,14 +122,14 @@ class Assessor:
         self, horizontal: Sequence[Accelerogram], vertical: Accelerogram | None = None
     ) -> tuple[Component, ...]:
         """Return the components of a record with the pulses of each. vertical: acts with them."""
-        beside = [None if vertical is None else aligned(vertical, component) for component in horizontal]
-        found = self._sought(horizontal, self.motion_measures)
+        verticals = [None if vertical is None else aligned(vertical, component) for component in horizontal]
+        found = self._searched(horizontal, self.motion_measures)
         return tuple(
-            pulses.beside(accelerogram, lift)
-            for pulses, accelerogram, lift in zip(found, horizontal, beside, strict=True)
+            pulses.component_of(accelerogram, lift)
+            for pulses, accelerogram, lift in zip(found, horizontal, verticals, strict=True)
         )
 
-    def _sought(self, horizontal: Sequence[Accelerogram], measured: bool) -> tuple[ComponentPulses, ...]:
+    def _searched(self, horizontal: Sequence[Accelerogram], measured: bool) -> tuple[ComponentPulses, ...]:
         """The pulses of each component of a record. measured: whether they are measured as a pair, too."""
         each_alone = tuple(Motion((component,)) for component in horizontal)
         found = []
@@ -155,7 +155,7 @@ class Assessor:
                 failure = Failure("prediction", str(error))
                 of_all |= {(scene.name, name): failure for name in by_name(components)}
             except RockingError:
-                continue  # why it cannot be followed, the integration tells
+                continue  # why it cannot be followed, the integration says
         return of_all
 
     def integrate(
@@ -175,12 +175,12 @@ class Assessor:
         scenes = on_friction(scenes, self.settings.friction_coefficient)
         grounds = components
         failures: list[tuple[str, Failure]] = []
-        shakings: dict[Carrier | None, _Shaking] = {}
-        periods: dict[tuple[str, Carrier | None], PeriodResult] = {}
-        wanted: dict[Carrier | None, list[Scene]] = {None: list(scenes.values())}
+        shakings: dict[MovingSupport | None, _Shaking] = {}
+        periods: dict[tuple[str, MovingSupport | None], PeriodResult] = {}
+        wanted: dict[MovingSupport | None, list[Scene]] = {None: list(scenes.values())}
         for scene in scenes.values():
-            for carrier in scene.place.supports:
-                wanted.setdefault(carrier, []).append(scene)
+            for own_support in scene.place.supports:
+                wanted.setdefault(own_support, []).append(scene)
         # By support, so that what its motion stands for is made once for all that it carries.
         for support, carried in wanted.items() if grounds else ():
             try:
@@ -253,14 +253,14 @@ class Assessor:
 
     # The motion -----------------------------------------------------------------------------------------
 
-    def _pulses_on(self, support: Carrier, grounds: Sequence[Component]) -> tuple[ComponentPulses, ...]:
+    def _pulses_on(self, support: MovingSupport, grounds: Sequence[Component]) -> tuple[ComponentPulses, ...]:
         """The pulses of each component as it arrives on a support."""
         with self.clock.stage("supports"):
             motions = [
                 arrived(Motion((ground.accelerogram,), ground.vertical, support)) for ground in grounds
             ]
         floors = [next(iter(motion.horizontal.values())) for motion in motions]
-        return self._sought(floors, measured=False)
+        return self._searched(floors, measured=False)
 
     def _with_pair(
         self, shaking: _Shaking, vertical: Accelerogram | None, failures: list[tuple[str, Failure]]
@@ -288,10 +288,10 @@ class Assessor:
         cases = {}
         for name, component in by_name(shaking.components).items():
             prediction = predictions.get((scene.name, name))
-            told = (prediction,) if isinstance(prediction, Failure) else ()
+            failed = (prediction,) if isinstance(prediction, Failure) else ()
             found = None if isinstance(prediction, Failure) else prediction
             case = self._of_component(scene, component, found, alone=shaking.pair is None)
-            cases[name] = replace(case, component=name, failures=(*told, *case.failures))
+            cases[name] = replace(case, component=name, failures=(*failed, *case.failures))
         directions = None
         pair = shaking.pair
         if pair is not None and any(case.answer is not None for case in cases.values()):
@@ -307,7 +307,7 @@ class Assessor:
     ) -> CaseResult:
         """The case with the methods compared on the crack that governs, so that a row of a table speaks of one crack.
 
-        The case itself, which is of the structure's own crack, then stands beside it.
+        It keeps the case itself, which is of the structure's own crack.
         """
         if case.answer is None:
             return case
@@ -321,7 +321,7 @@ class Assessor:
             return case
 
         prediction = predict(other, component.candidates, self.settings)
-        told = self._case(
+        governing = self._case(
             CaseInputs(
                 motion=component.of_ground,
                 structure=body,
@@ -330,14 +330,14 @@ class Assessor:
                 alone=False,
             )
         )
-        if told.answer is None:
-            return replace(case, failures=(*case.failures, *told.failures))
+        if governing.answer is None:
+            return replace(case, failures=(*case.failures, *governing.failures))
         return replace(
             case,
             prediction=prediction,
-            responses=told.responses,
-            check=told.check,
-            answer=told.answer,
+            responses=governing.responses,
+            check=governing.check,
+            answer=governing.answer,
             crack=crack,
             statics=case,
         )
@@ -424,7 +424,9 @@ class Assessor:
         return result
 
 
-def _lost(scene: Scene, support: Carrier | None, names: Sequence[str], error: RockingError) -> PeriodResult:
+def _lost(
+    scene: Scene, support: MovingSupport | None, names: Sequence[str], error: RockingError
+) -> PeriodResult:
     """The result of a scene to whose support the record cannot be taken: why. names: of the components."""
     failure = Failure("responses", str(error))
     cases = {name: CaseResult(structure=scene.name, component=name, failures=(failure,)) for name in names}

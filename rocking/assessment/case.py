@@ -15,7 +15,7 @@ from rocking.assessment.cracks import (
     counting_cracks,
     decided_by,
     is_own,
-    never_lets_go,
+    never_overturns_because,
     would_tell,
 )
 from rocking.assessment.decide import BEYOND, Decision, Facts, Severity, Verdict, decide, severity
@@ -23,7 +23,7 @@ from rocking.assessment.ensemble import NO_MEMBERS, Ensemble
 from rocking.assessment.fidelity import Estimate, MethodAnswer
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
-from rocking.assessment.motions import Carrier, Component, ComponentPulses, by_name, on_support
+from rocking.assessment.motions import Component, ComponentPulses, MovingSupport, by_name, on_support
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.scene import Scene, periods_in_words
 from rocking.motion.response import UNKNOWN, ModelCheck, Response
@@ -38,7 +38,7 @@ from rocking.structures.structure import Candidate
 from rocking.structures.tied import Tied
 
 DECISIVE = ("responses", "directions")
-"""Stages whose failure leaves a structure without a result; the others only leave out what stands beside it."""
+"""Stages whose failure leaves a structure without a result; the others only leave out a comparison."""
 
 
 @dataclass(frozen=True)
@@ -182,7 +182,9 @@ class CaseResult:
         body: the structure. failures: why other components are missing.
         """
         several = counting_cracks(body)
-        held = {name for name, part in parts_of(body) if isinstance(part, Tied) and part.held_wall.holds}
+        held_parts = {
+            name for name, part in parts_of(body) if isinstance(part, Tied) and part.held_wall.holds
+        }
         settled = None
         beyond = AssessmentKind.TIES_GIVE if self.ties_give else None
         other_runs = [
@@ -195,7 +197,7 @@ class CaseResult:
         if self.ensembles is not None:
             followed = [crack for crack in self.ensembles.followed if crack.counts]
             rests = all(bool((crack.ensemble.rotation_ratios == 0).all()) for crack in followed)
-            if any(crack.facts.farthest > BEYOND and crack.part in held for crack in followed):
+            if any(crack.facts.farthest > BEYOND and crack.part in held_parts for crack in followed):
                 beyond = AssessmentKind.HELD_BEYOND
         elif self.answer is not None and self.answer.response is None:
             settled = Verdict.OVERTURNS if self.overturns else Verdict.STANDS
@@ -208,11 +210,11 @@ class CaseResult:
             rests=rests and not failures and not (body.falls_by_sliding and not math.isnan(self.slides_at)),
             run_ratio=max(runs, default=math.nan),
             settled=settled,
-            never_lets_go=never_lets_go(body),
+            never_overturns_because=never_overturns_because(body),
             slides_at=own.slides_at if math.isnan(self.slides_at) else self.slides_at,
             friction_needed=self.friction_needed,
             doubts=(self.doubt,) if self.doubt else (),
-            held=bool(held),
+            held=bool(held_parts),
             beyond=beyond,
             top=next(
                 (
@@ -262,7 +264,7 @@ class PeriodResult:
     scene: Scene
     cases: Mapping[str, CaseResult]
     directions: CaseResult | None = None
-    support: Carrier | None = None
+    support: MovingSupport | None = None
 
     @property
     def structure(self) -> str:
@@ -534,9 +536,9 @@ class RecordResult:
     scenes: Mapping[str, SceneResult] = field(default_factory=dict)
     failures: tuple[tuple[str, Failure], ...] = ()
     durations: Mapping[str, float] = field(default_factory=dict)
-    floors: Mapping[Carrier, tuple[ComponentPulses, ...]] = field(default_factory=dict)
+    floors: Mapping[MovingSupport, tuple[ComponentPulses, ...]] = field(default_factory=dict)
 
-    def components_on(self, support: Carrier | None) -> tuple[Component, ...]:
+    def components_on(self, support: MovingSupport | None) -> tuple[Component, ...]:
         """Return the components as they arrive on a support; None: on the ground."""
         if support is None:
             return self.components

@@ -40,9 +40,9 @@ def _print_last(line: str, is_last: bool) -> None:
 def compile_all(say: Callable[[str, bool], None] = _print_last) -> None:
     """Compile what filters, finds pulses, predicts, integrates and makes spectra, where that is not done already.
 
-    Beside what numba keeps, a file for each processor names what was compiled; who finds it locked waits for the other
-    process. say: is told each second how long it has taken, in a line that stands for the one before it, and whether it
-    is the last. Raises RockingError when it fails.
+    Next to what numba keeps, a file for each processor names what was compiled; who finds it locked waits for the other
+    process. say: is called each second with how long it has taken, in a line that replaces the one before it, and
+    whether it is the last. Raises RockingError when it fails.
     """
     folder = Path(rock.stats.cache_path)
     folder.mkdir(parents=True, exist_ok=True)
@@ -73,7 +73,7 @@ def _processor() -> str:
 
 
 def _source() -> str:
-    """One hash for numba and for what all files beside the kernels say."""
+    """One hash for numba and for what all files next to the kernels say."""
     package = Path(__file__).parents[1]
     files = [path for part in ("motion", "pulses", "sine_pulse") for path in (package / part).glob("*.py")]
     return sha256_of_sources(package, files, version("numba"))

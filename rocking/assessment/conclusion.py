@@ -27,7 +27,7 @@ UNSAID = (AssessmentKind.NOTHING_TO_DO, AssessmentKind.NOTHING_DECIDES)
 TO_CHECK = (StructureKind.SIZE_UNUSUAL, StructureKind.BROADER_THAN_TALL, AssessmentKind.VERTICAL_MISSING)
 """Kinds of remarks for which somebody has to check what was typed before anything else is read."""
 _MOST_TO_CHECK = 3
-"""Remarks of these kinds that are told beside a conclusion; remarks.csv holds all."""
+"""Remarks of these kinds that are printed with a conclusion; remarks.csv holds all."""
 _MOST_NAMED = 20
 FALLING = (Verdict.OVERTURNS, Verdict.PROBABLY_OVERTURNS)
 
@@ -69,8 +69,8 @@ class Conclusion:
             return Remark.of(AssessmentKind.STACKS_FALL, falls=falls, runs=runs)
         if not math.isnan(self.verdict.friction_needed):
             return self._sliding(self.verdict.friction_needed)
-        if decision.tells and not word.is_sure:
-            return decision.tells[0]
+        if decision.would_settle and not word.is_sure:
+            return decision.would_settle[0]
         if decision.doubts:
             return decision.doubts[0]
         shares = [place.overturning_share for place in self.elsewhere if place.overturning_share >= 0]
@@ -171,8 +171,8 @@ def conclusion_in_words(words: Mapping[str, Verdict], records: int = 1) -> str:
     if all(word.stays_up for word in words.values()):
         return f"All {every} structures stand{throughout}."
     falling = sum(word in FALLING for word in words.values())
-    untold = sum(word is Verdict.CANNOT_BE_TOLD for word in words.values())
-    if untold == every:
+    unknown = sum(word is Verdict.CANNOT_BE_TOLD for word in words.values())
+    if unknown == every:
         return f"What becomes of all {every} structures cannot be told."
     of_them = f"All {every}" if falling == every else f"{falling or 'None'} of {every}"
     does = "overturns or probably does" if falling <= 1 else "overturn or probably do"
@@ -181,8 +181,8 @@ def conclusion_in_words(words: Mapping[str, Verdict], records: int = 1) -> str:
     verb = "is" if uncertain == 1 else "are"
     # Unsaid, a structure of which half the members fall would be read as one that stands.
     open_ = [f"{uncertain} {verb} uncertain"] if uncertain else []
-    open_ += [f"{untold} cannot be told"] if untold else []
-    whose = "its" if uncertain + untold == 1 else "their"
+    open_ += [f"{unknown} cannot be told"] if unknown else []
+    whose = "its" if uncertain + unknown == 1 else "their"
     worst = f"under {whose} worst record " if records > 1 else ""
     return f"{of_them} structures {does}{under}" + (f"; {worst}{', '.join(open_)}." if open_ else ".")
 
@@ -216,28 +216,30 @@ def falls_in_words(falls: Sequence[ExpectedFallsRow]) -> str:
         sentence += f"; nothing lifts any of them at {of_all.still} of {counted(of_all.stations, 'station')}"
     if not of_all.without_share:
         return f"{sentence}."
-    untold = f"{of_all.without_share:.{0 if records == 1 else 1}f}"
-    return f"{sentence}; {untold} more cannot be told{' per record on average' if records > 1 else ''}."
+    without_share = f"{of_all.without_share:.{0 if records == 1 else 1}f}"
+    return (
+        f"{sentence}; {without_share} more cannot be told{' per record on average' if records > 1 else ''}."
+    )
 
 
 def to_check(remarks: Iterable[RemarkRow]) -> list[str]:
     """Return what has to be checked of what was typed: the first remarks in full, of the others what they are of.
 
-    It is the same beside every conclusion: on the first page of a report, and at the end of a run.
+    It is the same with every conclusion: on the first page of a report, and at the end of a run.
     """
-    told: dict[str, RemarkRow] = {}
+    shown: dict[str, RemarkRow] = {}
     without_vertical: dict[str, RemarkRow] = {}
     for row in remarks:
         if row.kind is AssessmentKind.VERTICAL_MISSING:
             without_vertical.setdefault(row.record, row)
         elif row.kind in TO_CHECK:
-            told[row.sentence] = row
+            shown[row.sentence] = row
     if without_vertical:  # one setting, whatever number of records it is asked of
         missing = Remark(AssessmentKind.VERTICAL_MISSING, listed(list(without_vertical), _MOST_NAMED))
-        told[str(missing)] = next(iter(without_vertical.values()))
-    if len(told) <= _MOST_TO_CHECK:
-        return list(told)
-    first, others = list(told)[: _MOST_TO_CHECK - 1], list(told.values())[_MOST_TO_CHECK - 1 :]
+        shown[str(missing)] = next(iter(without_vertical.values()))
+    if len(shown) <= _MOST_TO_CHECK:
+        return list(shown)
+    first, others = list(shown)[: _MOST_TO_CHECK - 1], list(shown.values())[_MOST_TO_CHECK - 1 :]
     names = list(dict.fromkeys(row.about.partition(": ")[0] for row in others))
     values = counted(len(others), "value")
     return [

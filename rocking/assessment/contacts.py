@@ -41,7 +41,7 @@ AMPLITUDES = (0.9, 1.1)
 """Least and largest factor on the motion at which contact dynamics follows a case: its steps are of first order, so
 that near a limit its outcome is a draw, which several amplitudes show."""
 RUNS = 24
-"""Runs of contact dynamics of a case that cannot be told else: none may fall of so few, and it probably stands."""
+"""Runs of contact dynamics of a case that cannot be told otherwise: none may fall of so few, and it probably stands."""
 MOST_RUNS = UNANIMOUS
 """Runs with fidelity: contact, none of which falls where the word is "stands"."""
 LEAST_KEPT = 0.3
@@ -150,7 +150,7 @@ def ties_give(structure: Structure, motions: GroundMotions, settings: Assessment
         return False
     both = Members(1 + settings.ensemble.amplitude_range, polarity=[1.0, -1.0])
     for motion in (motions.horizontal[direction] for direction in _directions(motions)):
-        # Below two samples of the record nothing tells it from one that moves with the ground.
+        # Below two samples of the record it cannot be distinguished from one that moves with the ground.
         period = structure.tie_period if structure.tie_period >= 2 * motion.time_step else 0.0
         through_ties = swinging(period).motion(motion)
         try:

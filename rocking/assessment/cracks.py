@@ -77,8 +77,8 @@ class FollowedCrack:
 class CrackEnsembles:
     """The ensemble of every crack that was followed, the one that is known or that statics chooses first.
 
-    The crack that governs gives every number of the case: the worst of those that count (`decide.Facts`). Beside a
-    crack that is known others are reported, and only the bulge of a held wall counts as it does. slides_at: the least
+    The crack that governs gives every number of the case: the worst of those that count (`decide.Facts`). Along
+    with a known crack others are reported, and only the bulge of a held wall counts as it does. slides_at: the least
     acceleration [g] at which one that counts slides before it lifts and is left out; nan where none is.
     """
 
@@ -102,10 +102,10 @@ class CrackEnsembles:
         return self.followed[self.facts.cracks.index(governing) if governing else 0]
 
     @property
-    def statics_beside(self) -> FollowedCrack | None:
-        """The crack reported beside the one that governs: that of statics, or the worst beside a known one; or None."""
-        beside = [crack for crack in self.followed if not crack.counts]
-        other = max(beside, key=lambda crack: crack.facts.severity(self.facts.risk), default=self.followed[0])
+    def reported_statics(self) -> FollowedCrack | None:
+        """The crack reported with the one that governs: that of statics, or the worst but a known one; or None."""
+        others = [crack for crack in self.followed if not crack.counts]
+        other = max(others, key=lambda crack: crack.facts.severity(self.facts.risk), default=self.followed[0])
         return None if other is self.governing else other
 
 
@@ -206,15 +206,15 @@ def counting_cracks(structure: Structure) -> tuple[Candidate, ...]:
     return tuple(candidate for candidate in cracks(structure) if candidate.counts)
 
 
-def never_lets_go(structure: Structure) -> str:
+def never_overturns_because(structure: Structure) -> str:
     """Return why no mechanism that counts can overturn, in words; "" where one can, or where that is not known."""
-    held = [candidate.mechanism.never_lets_go for candidate in counting_cracks(structure)]
-    if not all(held) or not isinstance(structure, Tied):
-        return held[0] if all(held) else ""
-    lets_go = any(
+    reasons = [candidate.mechanism.never_overturns_because for candidate in counting_cracks(structure)]
+    if not all(reasons) or not isinstance(structure, Tied):
+        return reasons[0] if all(reasons) else ""
+    one_can = any(
         candidate.refusal or candidate.mechanism.can_overturn for candidate in structure.mechanisms()
     )
-    return "" if lets_go else held[0]
+    return "" if one_can else reasons[0]
 
 
 def cracked(structure: Structure, description: str) -> Structure:
@@ -241,7 +241,7 @@ def ensemble_over_cracks(
 
     Leaves are followed each by itself, the weakest part first, until one overturns. Of each part: where the crack that
     statics chooses overturns, it says all; where one that is known does, the others are followed only until one of them
-    overturns, too, so that the worst of them can be told beside it. Otherwise the bulge of a held wall is followed in
+    overturns, too, so that the worst of them can be reported. Otherwise the bulge of a held wall is followed in
     full, and every crack that `screened` leaves in doubt, and the one that then governs with as many members as its
     word needs. A crack other than a bulge that slides before it lifts is left out where one that counts is left.
     exhaustive: every crack is followed, whatever the screen says; docs/pages/validation.md counts what it misses. With
@@ -401,7 +401,7 @@ def screened(
 
 
 def _alone(candidate: Candidate, motions: GroundMotions, settings: AssessmentSettings) -> Ensemble:
-    """The ensemble of one crack beside that of statics, which decides where more members may."""
+    """The ensemble of one crack other than that of statics, which decides where more members may."""
     return ensemble(
         candidate.mechanism,
         motions,

@@ -43,7 +43,7 @@ class Verdict(StrEnum):
     CANNOT_BE_TOLD = "cannot be told"
     """It could not be computed, or what was computed leaves out what may decide."""
     CANNOT_OVERTURN = "cannot overturn"
-    """It stands under this motion, and what holds it lets go under no other."""
+    """It stands under this motion, and no other makes what holds it fail."""
 
     @property
     def stays_up(self) -> bool:
@@ -127,7 +127,7 @@ class CrackFacts:
     name: of the crack; "" where only one may form. falls: of those `followed`, that overturn. failed: members that
     could not be followed. farthest: largest rotation ratio of those followed; nan without any. slides: whether its
     joint slides before it lifts, under a motion that reaches so far. counts: whether it takes part in the word;
-    otherwise it is reported beside the crack that is known. bulges: whether it is the bulge of a held wall, which may
+    otherwise it is reported along with the known crack. bulges: whether it is the bulge of a held wall, which may
     form wherever that is cracked. part: the leaf that falls alone, "" of the whole structure. Raises ValueError.
     """
 
@@ -194,7 +194,7 @@ class CrackFacts:
     def step_of_followed(self, risk: float) -> Verdict:
         """Return the word of those that were followed alone.
 
-        Beside members that failed, so few falls that the error of the share holds them all bear out no word of falling.
+        Where members failed, so few falls that the error of the share holds them all bear out no word of falling.
         """
         if not self.followed:
             return Verdict.UNCERTAIN
@@ -217,26 +217,25 @@ class Facts:
 
     cracks: those that were followed, first the one that is known or that statics chooses. rests: whether nothing can
     lift. run_ratio: largest rotation ratio of single runs, where no members were followed; nan without one. settled:
-    the word of a cheaper method that settled it. never_lets_go: why no motion can overturn it with a crack that counts;
-    "" where one can. slides_at: the least acceleration [g] at which the joints of a crack that counts slide before it
-    lifts, where the motion reaches it; else nan. friction_needed: the coefficient that a contact needs while it rocks,
-    where it has less; else nan. doubts: what one degree of freedom does not follow. held: whether it is a wall that is
-    held above its foot, and
-    beyond: HELD_BEYOND where some chain of it goes beyond BEYOND of its critical rotation in any member, TIES_GIVE
-    where only one that its ties hold does, under the motion that these let through. top: what its top needs
-    and does not get, so that it slips; None where it holds, or there is none. stacks: stacks of courses that fall in
-    contact dynamics, of how many; None where none was followed. as_stones: as what chain of stones it is followed then,
-    "as voussoirs"; "" where as a stack of courses. needs_stones: whether only its stones may say that it stands.
-    stackable: whether contact dynamics can follow it and
-    has not done so yet. remarks: what would reduce the disagreement of the members. failures: why components gave no
-    result. risk: largest probability of the outcome opposite to "stands" or "overturns". Raises ValueError.
+    the word of a cheaper method that settled it. never_overturns_because: why no motion can overturn it with a crack
+    that counts; "" where one can. slides_at: the least acceleration [g] at which the joints of a crack that counts
+    slide before it lifts, where the motion reaches it; else nan. friction_needed: the coefficient that a contact needs
+    while it rocks, where it has less; else nan. doubts: what one degree of freedom does not follow. held: whether it is
+    a wall that is held above its foot, and beyond: HELD_BEYOND where some chain of it goes beyond BEYOND of its
+    critical rotation in any member, TIES_GIVE where only one that its ties hold does, under the motion that these let
+    through. top: what its top needs and does not get, so that it slips; None where it holds, or there is none. stacks:
+    stacks of courses that fall in contact dynamics, of how many; None where none was followed. as_stones: as what chain
+    of stones it is followed then, "as voussoirs"; "" where as a stack of courses. needs_stones: whether only its stones
+    may say that it stands. stackable: whether contact dynamics can follow it and has not done so yet. remarks: what
+    would reduce the disagreement of the members. failures: why components gave no result. risk: largest probability of
+    the outcome opposite to "stands" or "overturns". Raises ValueError.
     """
 
     cracks: tuple[CrackFacts, ...] = ()
     rests: bool = False
     run_ratio: float = math.nan
     settled: Verdict | None = None
-    never_lets_go: str = ""
+    never_overturns_because: str = ""
     slides_at: float = math.nan
     friction_needed: float = math.nan
     doubts: tuple[Remark, ...] = ()
@@ -296,7 +295,7 @@ class Decision:
         The reason, in words.
     doubts : tuple of Remark, optional
         What may make it worse than said.
-    tells : tuple of Remark, optional
+    would_settle : tuple of Remark, optional
         What would tell more.
 
     Examples
@@ -311,7 +310,7 @@ class Decision:
     interval: tuple[float, float]
     why: str
     doubts: tuple[Remark, ...] = ()
-    tells: tuple[Remark, ...] = ()
+    would_settle: tuple[Remark, ...] = ()
 
     @property
     def share_in_words(self) -> str:
@@ -319,7 +318,7 @@ class Decision:
         low, high = self.interval
         if math.isnan(low) or self.word is Verdict.CANNOT_OVERTURN:
             return ""
-        one_run = any(remark.kind is AssessmentKind.ENSEMBLE for remark in self.tells)
+        one_run = any(remark.kind is AssessmentKind.ENSEMBLE for remark in self.would_settle)
         if one_run and low == high and self.word.badness <= Verdict.UNCERTAIN.badness:
             return "one run"  # but not where stacks add to it, or say worse
         if self._is_a_least_share:
@@ -392,16 +391,16 @@ def decide(facts: Facts) -> Decision:
     ===  ================================================================  =============================================
     1    no crack that counts can overturn, no doubt                       cannot overturn
     2    nothing can lift                                                  stands
-    3    every crack that counts slides before it lifts, and the motion    cannot be told
+    3    every crack that counts slides before it lifts, and the motion    cannot be printed
          reaches so far, and no stones were followed
-    4    no result at all                                                  cannot be told
+    4    no result at all                                                  cannot be printed
     5    one run: settled by an estimate / stands up to FAR / else         as settled / probably stands / uncertain
     6    cracks that count                                                 step of the worst one, but no worse than
                                                                            uncertain where the first (probably) stands,
                                                                            no worse than probably overturns where the
                                                                            first does not overturn; of a held wall the
                                                                            worse of that and the step of its bulge
-    7    a crack without one member, or only with the members that failed  cannot be told
+    7    a crack without one member, or only with the members that failed  cannot be printed
          does it (probably) overturn
     8    the step is overturns                                             overturns
     8b   a held wall some chain of which goes beyond BEYOND, as the        no safer than probably stands
@@ -410,13 +409,13 @@ def decide(facts: Facts) -> Decision:
          UNANIMOUS runs of contact dynamics, which are on that friction;
          or an arch on piers that was not followed as stones
     9    contact dynamics ran                                              the worse of its step and that of the members
-    10   contacts open, an impact may open them or courses may be thrown   cannot be told
+    10   contacts open, an impact may open them or courses may be thrown   cannot be printed
          and contact dynamics did not run, or a component is missing; and
          it does not (probably) overturn
     11   else                                                              the step
     ===  ================================================================  =============================================
 
-    A crack that slides first and is left out is told as a doubt beside every word better than probably overturns.
+    A crack that slides first and is left out is reported as a doubt with every word better than probably overturns.
     A further doubt, failure or fall never makes the word safer, nor the share smaller. The share is the largest among
     the cracks that count and the stacks, members that failed counted as falling: at it, the members of the crack or the
     stacks that make the word have a step no safer than the word. Rows 5 and 8b and doubts limit the word, not the
@@ -428,61 +427,66 @@ def decide(facts: Facts) -> Decision:
     governing = facts.governing
     unsettled = facts.doubts if facts.stacks is None else ()
     missing = (Remark(AssessmentKind.COMPONENT_MISSING),) if facts.failures else ()
-    worse_beside = _worse_than_known(facts)
-    beside = (*unsettled, *missing, *([Remark(AssessmentKind.OTHER_CRACK_WORSE)] if worse_beside else []))
+    worse_other = _worse_than_known(facts)
+    doubts = (*unsettled, *missing, *([Remark(AssessmentKind.OTHER_CRACK_WORSE)] if worse_other else []))
     sliding = _slides_throughout(facts)
     none_left = sliding and not facts.rests
     left_out = () if none_left or math.isnan(facts.slides_at) else (Remark(AssessmentKind.SLIDES_FIRST),)
     asks_for_stacks = facts.stackable and facts.stacks is None
     contact_dynamics = (Remark(AssessmentKind.CONTACT_DYNAMICS),) if asks_for_stacks else ()
     if unsettled and not facts.stackable:
-        beside = (*beside, Remark(AssessmentKind.NO_STACK))
-    tells: tuple[Remark, ...]
+        doubts = (*doubts, Remark(AssessmentKind.NO_STACK))
+    would_settle: tuple[Remark, ...]
 
-    # 1, 2, 3: what no member needs to tell.
-    if facts.never_lets_go and not facts.doubts:
-        tells = (Remark(AssessmentKind.TIE_STRENGTH),)
+    # 1, 2, 3: what follows without any member.
+    if facts.never_overturns_because and not facts.doubts:
+        would_settle = (Remark(AssessmentKind.TIE_STRENGTH),)
         return Decision(
-            Verdict.CANNOT_OVERTURN, 0.0, (0.0, 0.0), facts.never_lets_go, (*beside, *left_out), tells
+            Verdict.CANNOT_OVERTURN,
+            0.0,
+            (0.0, 0.0),
+            facts.never_overturns_because,
+            (*doubts, *left_out),
+            would_settle,
         )
     if facts.rests:
         why = "the ground never reaches the uplift acceleration"
-        return Decision(Verdict.STANDS, 0.0, (0.0, 0.0), why, (*beside, *left_out))
+        return Decision(Verdict.STANDS, 0.0, (0.0, 0.0), why, (*doubts, *left_out))
     if sliding and not (facts.as_stones and facts.stacks):
-        tells = (Remark(AssessmentKind.FRICTION), *(contact_dynamics if facts.as_stones else ()))
-        return Decision(Verdict.CANNOT_BE_TOLD, math.nan, (math.nan, math.nan), sliding, beside, tells)
+        would_settle = (Remark(AssessmentKind.FRICTION), *(contact_dynamics if facts.as_stones else ()))
+        return Decision(Verdict.CANNOT_BE_TOLD, math.nan, (math.nan, math.nan), sliding, doubts, would_settle)
 
     # 4
     if governing is None and math.isnan(facts.run_ratio) and facts.settled is None:
         why = "; ".join(facts.failures) or "no component gave a result"
-        tells = (Remark(AssessmentKind.INPUT),)
-        return Decision(Verdict.CANNOT_BE_TOLD, math.nan, (math.nan, math.nan), why, beside, tells)
+        would_settle = (Remark(AssessmentKind.INPUT),)
+        return Decision(Verdict.CANNOT_BE_TOLD, math.nan, (math.nan, math.nan), why, doubts, would_settle)
 
     if governing is None:
         # 5: one run, whose scatter nobody knows.
         word = Verdict.PROBABLY_STANDS if facts.run_ratio <= FAR else Verdict.UNCERTAIN
         why = "one run as recorded, without an ensemble"
-        tells = (Remark(AssessmentKind.ENSEMBLE),)
+        would_settle = (Remark(AssessmentKind.ENSEMBLE),)
         share = float(facts.run_ratio == math.inf)
         interval = share, share
         if facts.settled is not None:
             word = facts.settled
             why = "settled by an estimate"
-            tells = ()
+            would_settle = ()
             share = float(word is Verdict.OVERTURNS)
             interval = share, share
     else:
         # 6: the worst crack; statics' own keeps a word in it.
         word = _envelope((crack, crack.step(risk)) for crack in followed)
-        tells = facts.remarks
+        would_settle = facts.remarks
         # Not that of the worst step: by their error fewer members may have the worse word and the smaller share.
         share = max(crack.share for crack in followed)
-        why = _counted(facts, worse_beside)
+        why = _counted(facts, worse_other)
         if left_out:
             why = f"{why}; another crack slides first, at {facts.slides_at:.2g} g"
         if facts.top is not None:
             why = f"{why}; {facts.top.brief}"
-            tells = (*tells, Remark(AssessmentKind.TIE_THE_TOP))
+            would_settle = (*would_settle, Remark(AssessmentKind.TIE_THE_TOP))
         of_part = [crack for crack in followed if crack.part == governing.part]
         first = next((crack for crack in of_part if not crack.bulges), governing)
         disagree = not governing.bulges and governing.step(risk) is not first.step(risk)
@@ -495,9 +499,9 @@ def decide(facts: Facts) -> Decision:
         )
         if open_ and falls_without.badness < Verdict.PROBABLY_OVERTURNS.badness:
             word = Verdict.CANNOT_BE_TOLD
-            tells = (Remark(AssessmentKind.TOLERANCE),)
+            would_settle = (Remark(AssessmentKind.TOLERANCE),)
         if any(crack.failed for crack in followed):
-            beside = (*beside, Remark(AssessmentKind.MEMBERS_FAILED))
+            doubts = (*doubts, Remark(AssessmentKind.MEMBERS_FAILED))
 
     if sliding:
         why = f"{sliding}; {why}"
@@ -510,7 +514,7 @@ def decide(facts: Facts) -> Decision:
 
     # 8
     if word is Verdict.OVERTURNS:
-        return Decision(word, share, interval, why, beside)
+        return Decision(word, share, interval, why, doubts)
     # 8b, 9: what bounds the step of the mechanism.
     limits = [Remark(facts.beyond)] if facts.held and facts.beyond else []
     slides = not math.isnan(facts.friction_needed)
@@ -520,30 +524,36 @@ def decide(facts: Facts) -> Decision:
         limits.append(Remark(AssessmentKind.STONES_TELL))
     if limits and (facts.stacks is None or facts.stacks[1] < UNANIMOUS):
         word = worse(word, Verdict.PROBABLY_STANDS)
-        beside = (*beside, *limits)
-        tells = (*tells, *contact_dynamics, *([Remark(AssessmentKind.FRICTION)] if slides else []))
+        doubts = (*doubts, *limits)
+        would_settle = (
+            *would_settle,
+            *contact_dynamics,
+            *([Remark(AssessmentKind.FRICTION)] if slides else []),
+        )
     if facts.stacks is not None:
         of_stacks = step(falls=fallen, members=runs, risk=risk)
         if of_stacks.badness > word.badness and runs < UNANIMOUS and not fallen:
-            tells = (
-                *tells,
+            would_settle = (
+                *would_settle,
                 Remark(AssessmentKind.CONTACT_DYNAMICS),
             )  # more runs of which none falls would say more
         if of_stacks is not word:
             interval = min(interval[0], fallen / runs), interval[1]
         word = worse(word, of_stacks)
     if word.badness < Verdict.PROBABLY_OVERTURNS.badness:
-        beside = (*beside, *left_out)
+        doubts = (*doubts, *left_out)
     # 10: a mechanism that stands says nothing of what it does not follow.
     if (unsettled or missing) and word.badness < Verdict.PROBABLY_OVERTURNS.badness:
         reasons = [*map(str, unsettled), *facts.failures]
-        tells = contact_dynamics if unsettled else ()
-        tells += (Remark(AssessmentKind.COMPONENT),) if missing else ()
+        would_settle = contact_dynamics if unsettled else ()
+        would_settle += (Remark(AssessmentKind.COMPONENT),) if missing else ()
         at_least = interval[0], 1.0
-        return Decision(Verdict.CANNOT_BE_TOLD, math.nan, at_least, "; ".join([*reasons, why]), beside, tells)
+        return Decision(
+            Verdict.CANNOT_BE_TOLD, math.nan, at_least, "; ".join([*reasons, why]), doubts, would_settle
+        )
     # 11
-    told = math.nan if word is Verdict.CANNOT_BE_TOLD else share
-    return Decision(word, told, interval, why, beside, tells)
+    printed = math.nan if word is Verdict.CANNOT_BE_TOLD else share
+    return Decision(word, printed, interval, why, doubts, would_settle)
 
 
 def _slides_throughout(facts: Facts) -> str:
@@ -579,7 +589,7 @@ def _envelope_of_part(each_with_word: Sequence[tuple[CrackFacts, Verdict]]) -> V
 
 
 def _worse_than_known(facts: Facts) -> CrackFacts | None:
-    """The worst crack beside one that is known, where its word is worse."""
+    """The worst crack other than the known one, where its word is worse."""
     others = [crack for crack in facts.cracks if not crack.counts and crack.members and not crack.slides]
     worst = max(others, key=lambda crack: crack.severity(facts.risk), default=None)
     if worst is None or facts.governing is None:
@@ -589,15 +599,15 @@ def _worse_than_known(facts: Facts) -> CrackFacts | None:
     return worst
 
 
-def _counted(facts: Facts, worse_beside: CrackFacts | None) -> str:
+def _counted(facts: Facts, worse_other: CrackFacts | None) -> str:
     """The count of members that overturn, and with which crack."""
     governing = facts.governing
     assert governing is not None
     first = facts.followed[0]
     with_crack = f" with the {governing.name}" if governing.name else ""
     words = f"{governing.count} members overturn{with_crack}"
-    if worse_beside is not None:
-        words += f", the known crack; with the {worse_beside.name} {worse_beside.count} would"
+    if worse_other is not None:
+        words += f", the known crack; with the {worse_other.name} {worse_other.count} would"
     elif governing is not first:
         words += f", {first.count} with the {first.name} of statics"
     if governing.failed:

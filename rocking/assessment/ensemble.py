@@ -223,7 +223,7 @@ class Ensemble:
         return self._quantile(0.95)
 
     def _quantile(self, share: float) -> float:
-        """The quantile between the members at the middles of equal parts of probability; inf beside inf."""
+        """The quantile between the members at the middles of equal parts of probability; inf next to inf."""
         if not self.members:
             return float("nan")
         places = np.arange(self.members)

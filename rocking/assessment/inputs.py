@@ -62,8 +62,8 @@ class CaseInputs(Inputs):
 class PulseInputs(Inputs):
     """What the pulses of one component are found from.
 
-    components: of the record, each by itself. place: of the one whose pulses are sought, from 0. measured: whether the
-    motion of the pair that it belongs to is measured.
+    components: of the record, each by itself. place: of the one whose pulses are searched for, from 0. measured:
+    whether the motion of the pair that it belongs to is measured.
     """
 
     components: tuple[Motion, ...]

@@ -4,9 +4,9 @@ A run of a member at a factor depends on the product of that factor and the memb
 causes. So every run counts for all factors whose range of amplitudes holds its product. Runs therefore lie on rungs of
 a ladder of amplitudes, evenly spaced in their logarithm, from the one at which the structure lifts up to the limit; the
 rung k has the other causes of the point k of a lattice, which goes on periodically. The share of the members that
-overturn at a factor is the mean over the amplitudes of the ensemble there, each run standing for those nearest to it.
+overturn at a factor is the mean over the amplitudes of the ensemble there, each run representing those nearest to it.
 
-Few rungs are followed first, then those beside the factors at which the share crosses 5, 50 and 95 %, and beside runs
+Few rungs are followed first, then those next to the factors at which the share crosses 5, 50 and 95 %, and next to runs
 that fall or stand where most do not: never by bisection. The curve is the rising one nearest to the shares (isotonic
 regression over factors evenly spaced in their logarithm).
 """
@@ -41,15 +41,15 @@ ROUNDS = 3
 
 
 class Stage(NamedTuple):
-    """One stage of the search: the rungs that are followed beside what is known.
+    """One stage of the search: the rungs that are followed in addition to those of the stages before.
 
-    spacing: every so many of them. beside: how far beyond the amplitudes that count for a crossing, and around: how far
+    spacing: every so many of them. margin: how far beyond the amplitudes that count for a crossing, and around: how far
     from a run that falls below the median factor or stands above it, both in the logarithm of the amplitude. shares:
     the places in SHARES of those whose crossings count.
     """
 
     spacing: int
-    beside: float
+    margin: float
     around: float
     shares: tuple[int, ...] = (0, 1, 2)
 
@@ -144,8 +144,8 @@ class _Ladder:
         crossings = self.crossings()
         for crossing in (crossings[place] for place in stage.shares):
             if not math.isnan(crossing):
-                first = math.log(crossing * (1 - self.width)) - stage.beside
-                last = math.log(crossing * (1 + self.width)) + stage.beside
+                first = math.log(crossing * (1 - self.width)) - stage.margin
+                last = math.log(crossing * (1 + self.width)) + stage.margin
                 wanted |= (self.logs > first) & (self.logs < last)
         if stage.around:
             median = crossings[1]

@@ -52,7 +52,7 @@ Sampling = tuple[int, int]
 """Samples of a motion on a support: their number to each of the record, and those of still ground after it."""
 
 
-class Carrier(Protocol):
+class MovingSupport(Protocol):
     """What carries a structure above the ground, as far as a case needs it: equal ones make equal motions."""
 
     @property
@@ -79,9 +79,9 @@ class _FloorMotions:
     """
 
     def __init__(self) -> None:
-        self._kept: dict[tuple[Carrier, Accelerogram, Sampling], Accelerogram] = {}
+        self._kept: dict[tuple[MovingSupport, Accelerogram, Sampling], Accelerogram] = {}
 
-    def motion(self, support: Carrier, ground: Accelerogram, sampling: Sampling) -> Accelerogram:
+    def motion(self, support: MovingSupport, ground: Accelerogram, sampling: Sampling) -> Accelerogram:
         """Return the motion that the support makes of one component of the ground."""
         key = support, ground, sampling
         found = self._kept.get(key)
@@ -103,7 +103,7 @@ class _OnSupport(Mapping[tuple[str, str], Accelerogram]):
     """The horizontal motions of the ground as they arrive on a support, each made when it is asked for."""
 
     ground: Mapping[tuple[str, str], Accelerogram]
-    support: Carrier
+    support: MovingSupport
     sampling: Sampling
 
     def __getitem__(self, of: tuple[str, str]) -> Accelerogram:
@@ -164,7 +164,7 @@ class GroundMotions:
         """The processings of the horizontal motion, by name; "" for the one that the record has."""
         return tuple(dict.fromkeys(processing for _, processing in self.horizontal))
 
-    def on(self, support: Carrier | None) -> "GroundMotions":
+    def on(self, support: MovingSupport | None) -> "GroundMotions":
         """Return the motions as they arrive on a support; None: on the ground, as they are."""
         if support is None:
             return self
@@ -193,12 +193,12 @@ class Motion:
 
     components: tuple[Accelerogram, ...]
     vertical: Accelerogram | None = None
-    support: Carrier | None = None
+    support: MovingSupport | None = None
 
     @cached_property
     def fingerprint(self) -> str:
         """Hash of the samples and of all that is known of them; where the file lies is left out."""
-        told = [
+        attributes = [
             attribute.name
             for attribute in fields(Accelerogram)
             if attribute.name not in ("acceleration", "source")
@@ -209,7 +209,7 @@ class Motion:
                 contents.append(None)
                 continue
             # The samples by their hash; whether it came from a file, not from which.
-            facts = {name: getattr(motion, name) for name in sorted(told)}
+            facts = {name: getattr(motion, name) for name in sorted(attributes)}
             contents.append((motion.sha256, bool(motion.source.path), facts))
         return sha256_of(*contents, self.support)
 
@@ -263,7 +263,7 @@ class Component:
     analysis: PulseAnalysis | None
     candidates: tuple[PulseEvidence, ...]
     failure: str = ""
-    support: Carrier | None = None
+    support: MovingSupport | None = None
     ground: "Component | None" = None
 
     @property
@@ -285,23 +285,23 @@ class ComponentPulses:
     candidates: tuple[PulseEvidence, ...]
     failure: str
 
-    def beside(self, accelerogram: Accelerogram, vertical: Accelerogram | None) -> Component:
+    def component_of(self, accelerogram: Accelerogram, vertical: Accelerogram | None) -> Component:
         """Return the component again."""
         analysis = None
         if self.ranked:
             analysis = PulseAnalysis(accelerogram, self.ranked, self.sequence, self.flags, self.band)
         return Component(accelerogram, vertical, self.motion, analysis, self.candidates, self.failure)
 
-    def on(self, support: Carrier, ground: Component) -> Component:
+    def on(self, support: MovingSupport, ground: Component) -> Component:
         """Return the component `ground` as it arrives on a support, where these are its pulses."""
         arriving = arrived(Motion((ground.accelerogram,), ground.vertical, support))
         (accelerogram,) = arriving.horizontal.values()
-        there = self.beside(accelerogram, arriving.vertical)
+        there = self.component_of(accelerogram, arriving.vertical)
         return replace(there, support=support, ground=ground)
 
 
 def on_support(
-    support: Carrier, grounds: Sequence[Component], pulses: Sequence[ComponentPulses]
+    support: MovingSupport, grounds: Sequence[Component], pulses: Sequence[ComponentPulses]
 ) -> tuple[Component, ...]:
     """Return the components of the ground as they arrive on a support, where these are the pulses of each."""
     return tuple(found.on(support, ground) for found, ground in zip(pulses, grounds, strict=True))
@@ -342,7 +342,7 @@ def component_of(
     accelerogram: Accelerogram, settings: PredictingPulse, vertical: Accelerogram | None = None
 ) -> Component:
     """Return a component that stands alone with its pulses."""
-    return pulses_of(accelerogram, settings, HorizontalMotion()).beside(accelerogram, vertical)
+    return pulses_of(accelerogram, settings, HorizontalMotion()).component_of(accelerogram, vertical)
 
 
 def horizontal_motions(accelerograms: Sequence[Accelerogram]) -> list[HorizontalMotion]:

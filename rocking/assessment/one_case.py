@@ -97,7 +97,7 @@ def predict(
 
 
 def compute_case(inputs: CaseInputs, clock: Clock | None = None) -> CaseResult:
-    """Return what comes of one structure under one motion, with other cracks and processings beside it where asked for.
+    """Return what comes of one structure under one motion, and with other cracks and processings where asked for.
 
     Where it cannot be followed, the case says why. The closed form is not kept in it, as a pulse gives it at once.
     clock: takes the time of each stage, and of each method that is compared.
@@ -198,7 +198,7 @@ def with_contacts(
         bodies = [cracked(structure, name) for name in dict.fromkeys([lifting.description, *governing])]
         case = replace(case, friction_needed=friction_needed(bodies, motions, settings))
     decision = decide(case.facts(structure))
-    advised = any(remark.kind is AssessmentKind.CONTACT_DYNAMICS for remark in decision.tells)
+    advised = any(remark.kind is AssessmentKind.CONTACT_DYNAMICS for remark in decision.would_settle)
     asking = {
         "auto": (),
         "full": (Verdict.CANNOT_BE_TOLD,),
@@ -229,7 +229,7 @@ def _asks_for_stones(case: CaseResult, structure: Structure, settings: Assessmen
 
 
 def _integrated(mechanism: Mechanism, inputs: CaseInputs, clock: Clock) -> dict[Method, Response]:
-    """Every integration beside the closed form; with fidelity: auto none."""
+    """Every integration that the closed form is compared with; with fidelity: auto none."""
     responses: dict[Method, Response] = {}
     settings = inputs.settings
     if settings.fidelity == "auto":
@@ -376,7 +376,7 @@ def _rotation_ratio(
 
 
 def _with_variations(case: CaseResult, inputs: CaseInputs) -> CaseResult:
-    """Return the case with other cracks and other processings of the record beside it.
+    """Return the case with its variations: other cracks and other processings of the record.
 
     For a crack that cannot be followed, the reason is kept as a failure.
     """

@@ -126,8 +126,8 @@ class Scene:
         ]
         heavy = self.place.warning(self.name) if self.place.supports else None
         is_wall = self.structure.type_name == "wall"
-        held = Remark(AssessmentKind.HELD_AT_CEILING, self.name) if is_wall else None
-        return (*sizes, *above, *filter(None, (heavy, held)))
+        ceiling = Remark(AssessmentKind.HELD_AT_CEILING, self.name) if is_wall else None
+        return (*sizes, *above, *filter(None, (heavy, ceiling)))
 
 
 def variants_of(scenes: Mapping[str, Scene]) -> dict[str, list[str]]:

@@ -169,7 +169,7 @@ def decoder(kind: Any) -> Callable[[Any], Any]:
     if origin in (typing.Union, types.UnionType):
         kinds = [kind for kind in parts if kind is not type(None)]
 
-        def of_texts_and_numbers(value: Any) -> Any:  # which JSON tells apart
+        def of_texts_and_numbers(value: Any) -> Any:  # which JSON distinguishes
             if type(value) not in kinds:
                 raise ValueError(value)
             return value

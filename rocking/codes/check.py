@@ -226,7 +226,7 @@ class DynamicCheck(Check):
 
     @property
     def caution(self) -> Remark | None:
-        """How far the stations of the pool speak for others, which belongs beside a check that is met."""
+        """How far the stations of the pool speak for others, which belongs to a check that is met."""
         if not self.passed:
             return None
         unseen = 1 - RISK ** (1 / self.stations)
@@ -303,14 +303,14 @@ class StructureCheck:
 
     def __repr__(self) -> str:
         """The verdict and the ratio of each check, and what the limit state leaves to say."""
-        told = [
+        parts = [
             f"{check.clause} {check.refusal or check.outcome}, ratio {check.ratio_in_words}"
             for check in self.checks
         ]
         if self.remark:
-            told.append(str(self.remark))
-        told.append(f"starts at a_g = {self.damage_level:.3g} m/s²")
-        return f"StructureCheck({self.limit_state}: {'; '.join(told)})"
+            parts.append(str(self.remark))
+        parts.append(f"starts at a_g = {self.damage_level:.3g} m/s²")
+        return f"StructureCheck({self.limit_state}: {'; '.join(parts)})"
 
     @property
     def checks(self) -> tuple[Check, ...]:

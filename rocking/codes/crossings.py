@@ -10,7 +10,7 @@ Demand = Callable[[np.ndarray, np.ndarray], np.ndarray]
 """The demands (k, m) on the mechanisms at places (k,), at levels (k, m) [m/s²] of the spectrum."""
 
 _TRIED = np.geomspace(0.1, 10.0, 401)
-"""Levels over a first guess among which the first crossing is sought: on soft soil S_S falls as a_g grows."""
+"""Levels over a first guess among which the first crossing is searched for: on soft soil S_S falls as a_g grows."""
 
 _WIDER = 10.0
 """The factor by which the guess is moved where the crossing is not among them."""
@@ -37,18 +37,18 @@ class Crossings:
         """Return those of `capacities` (n,). level: where the search begins, m/s²."""
         low = np.where(capacities > 0, capacities, 0.0)
         high = low.copy()
-        sought = np.flatnonzero((capacities > 0) & np.isfinite(capacities))
-        if sought.size:
-            low[sought], high[sought] = _bracketed(demand, sought, capacities[sought], level)
+        finite = np.flatnonzero((capacities > 0) & np.isfinite(capacities))
+        if finite.size:
+            low[finite], high[finite] = _bracketed(demand, finite, capacities[finite], level)
         return cls(demand, capacities, low, high)
 
     def levels(self, places: np.ndarray) -> np.ndarray:
         """Return the levels themselves [m/s²] of the mechanisms at `places` (k,): (k,)."""
         found: np.ndarray = self.high[places]
-        sought = self.high[places] > self.low[places]
-        if not sought.any():
+        are_between = self.high[places] > self.low[places]
+        if not are_between.any():
             return found
-        rows = places[sought]
+        rows = places[are_between]
         low = self.low[rows]
         high = self.high[rows]
         for _ in range(_SECTIONS):
@@ -57,7 +57,7 @@ class Crossings:
             reached[:, 0] = False
             reached[:, -1] = True
             low, high = _first(levels, reached)
-        found[sought] = high
+        found[are_between] = high
         return found
 
 

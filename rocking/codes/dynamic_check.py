@@ -195,7 +195,7 @@ _MOST_STATIONS = 2000
 
 def stations_for(least_share: float, size: int) -> int:
     """Return from how many stations on, each of another earthquake and none of which fails, at least such a share of
-    the sets of `size` of other stations is shown to meet a check; no more than 2000 are told.
+    the sets of `size` of other stations is shown to meet a check; no more than 2000 are reported.
     """
     for number in range(size, _MOST_STATIONS):
         _, most = _elsewhere(np.arange(number), np.zeros(number, dtype=bool), np.zeros(number, dtype=bool))

@@ -27,7 +27,7 @@ STATIONS = 20
 """The stations of a set: with 7 the verdict hangs on the choice for one wall in nine, with 20 for one in thirty-six."""
 
 SETS = 200
-"""Drawn beside the chosen one, to say what another would have said."""
+"""Drawn in addition to the chosen one, to say what another would have said."""
 
 BELOW = 0.10
 """The allowed deviation of the mean spectrum below the target (NTC 2018, 3.2.3.6)."""
@@ -214,7 +214,7 @@ def select(
     above : float, default 0.3
         Share by which it may lie above.
     sets : int, default 200
-        Number of sets that are drawn beside the chosen one.
+        Number of sets that are drawn in addition to the chosen one.
     tries : int, default 1000000
         Largest number of sets that are tried.
     seed : int, default 0
@@ -247,8 +247,8 @@ def select(
     pool = scaled_pool(records, spectrum, periods, factors)
     draws = random_sets(np.array(pool.stations), stations, tries, np.random.default_rng(seed))
     found, chosen, drawn = search(pool.spectra / pool.target, draws, below, above, sets)
-    told = vars(pool) | {"each_unnamed": each_unnamed}
-    return Selection(**told, sets=found, chosen=chosen, drawn=drawn, below=below, above=above)
+    of_pool = vars(pool) | {"each_unnamed": each_unnamed}
+    return Selection(**of_pool, sets=found, chosen=chosen, drawn=drawn, below=below, above=above)
 
 
 def scaled_pool(

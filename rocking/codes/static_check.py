@@ -137,7 +137,7 @@ def _level_check(made: StructureCheck, spectrum: DesignSpectrum, clause: str, ca
 
 def _not_made(mechanism: CodeCapacity) -> Remark:
     """Why checks that need d_0 were not made."""
-    return Remark.of(CheckKind.NO_DISPLACEMENT, why=mechanism.candidate.mechanism.never_lets_go)
+    return Remark.of(CheckKind.NO_DISPLACEMENT, why=mechanism.candidate.mechanism.never_overturns_because)
 
 
 def _capacities(structure: Structure, terms: CodeTerms) -> tuple[CodeCapacity, ...]:

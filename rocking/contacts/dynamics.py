@@ -21,7 +21,7 @@ STEP = 5e-4
 AFTERWARDS = 20.0
 """The longest time that a stack is followed on still ground, s: it then rocks by what no longer overturns it."""
 SECONDS_A_STEP = 3.5e-7
-"""Processor time of a time step for each body, s, or less; what is told of the cost before a run goes by it."""
+"""Processor time of a time step for each body, s, or less; the cost announced before a run follows from it."""
 SHORTEST = 1e-6
 """Shortest time step, s."""
 
@@ -45,7 +45,7 @@ class StackResponse:
     times : ndarray or None, optional
         (k,) times of the history, s; None without one.
     places : ndarray or None, optional
-        (k, n, 3) how far each centre of mass moved to the right and up beside the ground, m, and its
+        (k, n, 3) how far each centre of mass moved to the right and up relative to the ground, m, and its
         clockwise turn, rad.
     velocities : ndarray or None, optional
         (k, n, 3) rates of the places, m/s and rad/s.

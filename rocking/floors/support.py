@@ -37,7 +37,7 @@ _LONGEST_PERIOD = 20.0
 _LARGEST_PARTICIPATION = 20.0
 """Largest |Γψ| of a mode: ten times that of the top of a tower, and less than one typed in %."""
 _LARGEST_DAMPING = 0.999
-"""Above it the two exponentials of a mode are no longer told apart; critical damping itself is refused."""
+"""Above it the two exponentials of a mode can no longer be distinguished; critical damping itself is refused."""
 
 
 @dataclass(frozen=True, kw_only=True)

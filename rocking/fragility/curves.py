@@ -17,7 +17,7 @@ from typing import Literal
 import numpy as np
 from scipy.special import erfcx, ndtr, stdtr, stdtrit
 
-from rocking.assessment.cracks import counting_cracks, never_lets_go
+from rocking.assessment.cracks import counting_cracks, never_overturns_because
 from rocking.assessment.ensemble import drawn, lattice
 from rocking.assessment.fidelity import peak_velocity, per_velocity
 from rocking.assessment.motions import GroundMotions
@@ -146,7 +146,7 @@ class Fragility(Drawn):
         """Return the annual rate of exceedance under a hazard curve, with its 90 % interval by earthquakes; nan with
         both ends where too few stations reach the level at which half of it is made.
 
-        Beside it stand the rates under the quantiles of the hazard. Raises ConfigurationError for a hazard curve that
+        With it come the rates under the quantiles of the hazard. Raises ConfigurationError for a hazard curve that
         says another intensity measure.
         """
         if self.measure:
@@ -287,7 +287,7 @@ def _probit(
 
 @dataclass(frozen=True, kw_only=True)
 class Explanation:
-    """How well levels of an intensity measure, and a figure of the record beside them, explain which records overturn.
+    """How well levels of an intensity measure, together with a figure of the record, explain which records overturn.
 
     efficiency: standard deviation of the logarithm of the level that overturns. slope: change of that logarithm for one
     standard deviation of the figure. p_value: of no change. power: share of samples of as many earthquakes that would
@@ -303,12 +303,12 @@ class Explanation:
 def explanation(
     log_levels: np.ndarray, exceedance: np.ndarray, figures: np.ndarray, sample: Sample
 ) -> Explanation:
-    """Return how well the levels (r, k), and the `figures` (r,) beside them, explain the outcomes (r, k).
+    """Return how well the levels (r, k), together with the `figures` (r,), explain the outcomes (r, k).
 
     A record that was tried at no level says nothing, and a figure that differs in such a record alone is equal. Every
     outcome counts, also of records that never overturn or that stand again above the level that overturned them. The
     error of the slope is that between earthquakes, so that two stations of one are no two observations, and the slope
-    over it is held against Student's law for the number of earthquakes less three.
+    over it is compared with Student's law for the number of earthquakes less three.
     """
     tried = np.isfinite(exceedance).any(axis=1)
     log_levels = log_levels[tried]
@@ -321,8 +321,8 @@ def explanation(
     if freedom < 1 or np.ptp(figures) == 0:
         return Explanation(efficiency=efficiency)
     scaled = (figures - figures.mean()) / figures.std()
-    beside = np.broadcast_to(scaled[:, None], log_levels.shape)
-    (_, level, figure), covariance = _probit([log_levels, beside], exceedance, sample)
+    figure_of_each = np.broadcast_to(scaled[:, None], log_levels.shape)
+    (_, level, figure), covariance = _probit([log_levels, figure_of_each], exceedance, sample)
     t = abs(figure) / np.sqrt(covariance[2, 2])
     limit = stdtrit(freedom, 0.975)
     return Explanation(
@@ -470,9 +470,9 @@ def fragility(
     body = as_structure(structure if isinstance(structure, Structure) else reduced)
     first, *others = counting_cracks(body)
     mechanism = first.mechanism
-    if held := never_lets_go(body):
+    if why := never_overturns_because(body):
         raise StructureError.naming(
-            "structure", held, f"the structure cannot overturn, and has no fragility: it {held}."
+            "structure", why, f"the structure cannot overturn, and has no fragility: it {why}."
         )
     measure = measure_named(intensity_measure, mechanism)
     intensities = np.array([measure.of(record, mechanism) for record in records])

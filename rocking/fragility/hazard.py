@@ -20,7 +20,7 @@ _STEPS = 400
 _LARGEST_HAZARD = 1_000_000
 """Bytes of a hazard curve; fifty points take about one thousand."""
 REACHING = 0.9
-"""Least share of the stations that must reach the level at which half of a rate is made for it to be told."""
+"""Least share of the stations that must reach the level at which half of a rate is made for it to be reported."""
 _SAME_PLACE = 1e-4
 """Degrees within which a site is the one that is asked for: ten metres."""
 
@@ -307,7 +307,7 @@ class AnnualRate:
     remainder : float
         Most that the value may lack, as levels end, 1/year.
     of_quantiles : mapping of float to float, optional
-        The rate under each quantile of the hazard, which the interval does not hold: it tells the records.
+        The rate under each quantile of the hazard, which the interval does not cover: that is of the records.
     half_level : float, default nan
         Level at which half of the rate is made.
     reaching : int, default 0

@@ -38,7 +38,7 @@ ONE_SWING_MULTIPLIER = 0.3
 ONE_SWING_RESTITUTION = 0.8
 """Largest λ, and the η below which such a structure keeps PGV: it lifts early and loses much at each impact, so that
 every swing starts nearly from rest. One that rocks to one side alone is thrown back at each impact, and likewise never
-swings up. What decides is the strongest single pulse of the ground, of any period, which PGV tells."""
+swings up. What decides is the strongest single pulse of the ground, of any period, which PGV measures."""
 FIV3_BY_PERIOD = 0.30
 """Period of FIV3 over 2π/p."""
 
@@ -399,6 +399,6 @@ def _three_digits(value: float) -> float:
 
 
 def compared(mechanism: Mechanism) -> tuple[IntensityMeasure, ...]:
-    """Return the measures whose scatter is told of a structure: all without a period, and three with."""
+    """Return the measures whose scatter is reported for a structure: all without a period, and three with."""
     from_structure = (_from_structure(definition, mechanism) for definition in FROM_STRUCTURE)
     return *INTENSITY_MEASURES.values(), _spectral(1.0), *from_structure

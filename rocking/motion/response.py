@@ -39,7 +39,7 @@ class Response(Drawn):
     sensitivity : float, default nan
         d ln φ_max / d ln a, the percent by which the largest rotation changes when the ground motion is
         scaled by one percent; nan unless it rocks, or if it was not asked for. Of a chaotic response, which
-        `fragile` tells, it is the slope between two neighbours and no measure of what may come.
+        `fragile` is true, it is the slope between two neighbours and no measure of what may come.
     fragile : bool or None, optional
         Whether ± `fragile_change` of the ground motion flips the verdict, or the run is not reproducible:
         one of two others, at a tolerance of 1e-9 and with the motion scaled by 1 ± 1e-9, differs by more than

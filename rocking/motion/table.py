@@ -34,8 +34,8 @@ CURVE_ERROR = 1e-6
 join them all."""
 
 FORCING_BYTES = 32_000_000
-"""Bytes of what is kept of records beside their samples, those used last: of 250 components of 150 s at 100 Hz, and of
-the eight directions of such a pair on a support after each of six processings."""
+"""Bytes of what is kept of records in addition to their samples, those used last: of 250 components of 150 s at 100 Hz,
+and of the eight directions of such a pair on a support after each of six processings."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -38,7 +38,7 @@ class Pulse(Drawn):
     start_time : float, default 0.0
         Time at which the pulse begins, s.
     cycles : float, default 1.0
-        Number of cycles, up to 1000: 1 of a full sine, as it is sought in records; 0.5 of a half sine.
+        Number of cycles, up to 1000: 1 of a full sine, as records are searched for; 0.5 of a half sine.
     phase : float, default 0.0
         Phase at the start, rad, 0 to 2π; π/2 of a cosine.
 
@@ -128,7 +128,7 @@ class PulseSettings:
     candidates : int, default 10
         Number of maxima of the scan that are refined.
     alternatives : int, default 5
-        Number of pulses that are reported beside the dominant one.
+        Number of pulses that are reported in addition to the dominant one.
     pursuit : int, default 3
         Number of pulses of the pursuit, each found in what the ones before it left.
     overlap : float, default 0.5

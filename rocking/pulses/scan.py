@@ -279,7 +279,7 @@ def envelope_phase(samples, onset, angle):
     """Return atan2(Re S, Im S) where |S|, S = Σ a e^{iω(t − t_j)} over one cycle, is largest near `onset`.
 
     Onsets j within half a cycle of `onset` are tried. At the best onset of a sine Re S is zero by optimality; the
-    largest envelope is where sine and cosine together fit best, so there the phase tells them apart.
+    largest envelope is where sine and cosine together fit best, so there the phase distinguishes them.
     """
     count = int(2 * math.pi / angle + 1e-9) + 1
     first = max(0, min(onset - count // 2, samples.size - count))

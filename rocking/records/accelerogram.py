@@ -100,7 +100,7 @@ class Accelerogram(Drawn):
     network : str, default ''
         Code of the network.
     location : str, default ''
-        Code that tells apart the instruments of one station.
+        Code that distinguishes the instruments of one station.
     start_time : str, default ''
         Time of the first sample, ISO 8601 in universal time.
     azimuth : float or None, optional

@@ -46,7 +46,7 @@ LARGEST_LEVEL = 3 * GRAVITY
 
 _LARGEST_FILE = 2**20
 _PERIODS_TRIED = 401
-"""Periods at which the largest displacement of a spectrum by its points is sought, beside the points."""
+"""Periods at which the largest displacement of a spectrum by its points is searched for, in addition to the points."""
 _ACCELERATIONS = {"acceleration_m_s2": 1.0, "acceleration_g": GRAVITY}
 
 

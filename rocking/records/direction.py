@@ -1,6 +1,6 @@
 """Direction: where a component points, decided once from what its reader, its name, its file and its row say.
 
-And a horizontal pair seen from another direction, with the vertical component beside it.
+And a horizontal pair seen from another direction, with its vertical component.
 """
 
 import re
@@ -55,7 +55,7 @@ _BAND_AND_AXIS = re.compile(r"[A-Z][ _]+([ENZ])")
 _NUMBERED_VERTICAL = re.compile(r"(V|Z|UP|DN|DWN|DOWN|VERT|VERTICAL)[ _.-]?(\d|00|-{1,2})")
 """A vertical with a number of its own, as V1 or DWN1, or dashes in place of a code, as Z--."""
 _VERTICAL_WORD = re.compile(r"VERT\w*|VRT\w*|UPW\w*|DOWNW\w*|DWNW?|UPP?|DOWN|DN|Z|UD|UPDOWN")
-"""Words of which a name of a vertical consists, beside numbers and signs: "Vertical (up)", "UP 1", "-Z"."""
+"""Words of which a name of a vertical consists, apart from numbers and signs: "Vertical (up)", "UP 1", "-Z"."""
 _SURELY_VERTICAL = re.compile(r"\b(VERT(ICAL(E|LY)?)?|VERTIKAL|[BCEHS]NZ)\b")
 """A word that makes a vertical of any name in which it stands: "Roof vertical", "Ch. 3 - HNZ"."""
 _SAYS_WHICH = re.compile(

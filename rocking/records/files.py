@@ -57,7 +57,7 @@ def local_files(record: CatalogueRecord, mirror: str | Path | None = None) -> li
     """Return the files on this machine that opening `record` would read; none that leads out of its folder.
 
     Its own files, or the archives that hold them, and the StationXML it names; for a miniSEED or SAC file, packed or
-    not, that names none and declares no unit, every XML file beside it, among which the reader looks.
+    not, that names none and declares no unit, every XML file next to it, among which the reader looks.
     """
     own = [] if record.example_name else [file.name for file in record.files]
     paths: list[Path] = []

@@ -305,11 +305,11 @@ def _of_station(group: Sequence[ListedFile], first: ListedChannel) -> str:
     return "_".join(filter(None, (number, event, first.station)))
 
 
-_LOOKED_AT = 200  # files beside a catalogue that are opened, at most, to see whether they are records
+_LOOKED_AT = 200  # files next to a catalogue that are opened, at most, to see whether they are records
 
 
 def unlisted(catalogue: Path) -> tuple[Remark, ...]:
-    """Return a remark when records lie beside `catalogue` that neither it nor another catalogue there names.
+    """Return a remark when records lie next to `catalogue` that neither it nor another catalogue there names.
 
     But for those that a catalogue of the folder was asked to list, and which it refused: it would again.
     """

@@ -323,7 +323,7 @@ class RecordKind(Kind):
         "moto forte; un accelerometro ha N al secondo posto.",
     )
 
-    # The files of a folder, each beside the others.
+    # The files of a folder, each compared with the others.
     COUNTS_WITHOUT_UNIT = auto(), Sentence(
         "Without a unit its samples are taken as counts of the recorder: put the StationXML of the station "
         "beside it, or name it in the column inventory.",

@@ -43,7 +43,7 @@ _NEAR = 0.02  # how close a ratio must come to a factor between units to be expl
 _PLAUSIBLE = (0.005, 1.5)
 _NEIGHBOURS = 3
 """Samples by which the stated time of a peak may be off, as it has few digits, and counts from 0 or from 1; and those
-beside a sample that it is compared with."""
+next to a sample that it is compared with."""
 
 
 class StatedPeak(NamedTuple):
@@ -271,7 +271,7 @@ def damage_warnings(record: Accelerogram) -> tuple[Remark, ...]:
 
 
 _ALONE = 3.0, 2.0
-"""A sample alone: this many times the three beside it on each side, and the largest of all others.
+"""A sample alone: this many times the three next to it on each side, and the largest of all others.
 
 Of the strongest real records a peak reaches 2.6 and 1.1, or 1.7 and 1.6 times.
 """
@@ -321,13 +321,13 @@ _STEPS_AROUND = 100
 _SHORT = 20
 """Samples in a row that may be the same at a crest, or where a trace was clipped, without a word."""
 _LIVELY = 0.5
-"""Share of the steps beside a still stretch that must change the value: in files of few digits even noise is still."""
+"""Share of the steps next to a still stretch that must change the value: in files of few digits even noise is still."""
 
 
 def _still_stretch(record: Accelerogram) -> Remark | None:
     """Return a warning where the value stays what it is for longer than the samples on both sides allow.
 
-    Where a share q of the steps beside it change the value, n steps in a row change nothing in (1 - q)ⁿ of cases.
+    Where a share q of the steps next to it change the value, n steps in a row change nothing in (1 - q)ⁿ of cases.
     """
     values = record.acceleration
     changes = np.flatnonzero(np.diff(values))
@@ -357,13 +357,13 @@ def _share_of_changes(values: np.ndarray) -> float:
 
 
 _STILL = 1 / 200
-"""Least share of steps without a change that is believed of a channel, from the two hundred beside."""
+"""Least share of steps without a change that is believed of a channel, from the two hundred next to them."""
 
 
 def repeated_rows(records: Sequence[Accelerogram]) -> Remark | None:
     """Return a warning where a row of numbers, one of each of several channels, stands twice in succession.
 
-    By chance no channel changes in the product of the shares in which each does not, from the steps beside it.
+    By chance no channel changes in the product of the shares in which each does not, from the steps next to it.
     """
     sizes = {record.acceleration.size for record in records}
     if len(records) < 2 or len(sizes) > 1 or min(sizes) < 2 * _STEPS_AROUND:
@@ -470,7 +470,7 @@ _SPECTRUM = re.compile(
 _OF_MOTION = re.compile(
     r"(?i)match|compatib|consistent|scaled to|target|time[ -]?(history|series)|accelerogram"
 )
-"""Words of a motion that was made to a spectrum, or stands beside one."""
+"""Words of a motion that was made to a spectrum, or accompanies one."""
 
 
 def refuse_spectrum(header: Sequence[str]) -> None:

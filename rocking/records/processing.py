@@ -56,7 +56,7 @@ UNPROCESSED_DEFAULT = Processing(pre_event=1.0, baseline="linear", taper=0.02, h
 
 
 def process(record: Accelerogram, processing: Processing | None = None) -> Accelerogram:
-    """Return `record` after the steps of `processing`, each told in its `processing` field.
+    """Return `record` after the steps of `processing`, each stated in its `processing` field.
 
     None: the default for raw records, and nothing for those whose file says they are processed already or cannot say.
     Raises RecordError when a corner or a window does not fit the record.

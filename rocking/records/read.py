@@ -63,7 +63,7 @@ def read(
 
     Of an archive (zip, tar, a workspace of gmprocess), those of every file in it; "archive.zip/member" names one.
 
-    What a table leaves open is answered in the layouts.csv beside it, as `rocking catalogue` writes it.
+    What a table leaves open is answered in the layouts.csv next to it, as `rocking catalogue` writes it.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ def read(
         Time between two samples, s, needed where the file does not declare it; refused where it declares
         otherwise.
     inventory : str, Path or None, optional
-        StationXML of a miniSEED or SAC file; None: the one beside it that names the same station.
+        StationXML of a miniSEED or SAC file; None: the one next to it that names the same station.
     response : {'sensitivity', 'full'}, default 'sensitivity'
         "sensitivity" divides counts by the overall sensitivity; "full" removes the whole instrument response.
 

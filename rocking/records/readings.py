@@ -31,7 +31,7 @@ _LARGEST = 2**27  # bytes: a hundred thousand readings
 class Readings:
     """The readings of the files under `folder`, each made once for its content, its name and what is declared.
 
-    layouts: the answers beside the catalogue. is_kept: whether readings are looked for, and kept, in a store in that
+    layouts: the answers next to the catalogue. is_kept: whether readings are looked for, and kept, in a store in that
     folder. remark: where a store lies there that cannot be used, else None.
     """
 

@@ -74,7 +74,7 @@ class _Earthquake:
         instant, has_hour = _instant(event_time)
         if instant is None:
             instant, has_hour = _instant(event)
-        # A day before a year: an hour stands beside it, KOBE 01/16/95 2046.
+        # A day before a year: an hour follows it, KOBE 01/16/95 2046.
         short = re.search(r"\b\d{1,2}/\d{1,2}/(\d\d)\b", event)
         year = re.search(r"\b(1[89]\d\d|20\d\d)(?!\d)", event)
         stated_year = int(year[1]) if year else None

@@ -81,7 +81,7 @@ class ScalingTarget:
 def scaled_to(
     target: ScalingTarget, horizontal: Sequence[Accelerogram], vertical: Accelerogram | None = None
 ) -> tuple[list[Accelerogram], Accelerogram | None]:
-    """Return the components of a record, each multiplied by the one factor that takes it to `target`, and told so.
+    """Return the components of a record, each multiplied by the one factor that takes it to `target`, as it states.
 
     The largest peak among the horizontal components becomes what is asked; scale_factor of each says by how much its
     file was multiplied in all. Raises RecordError for a record that is zero throughout.

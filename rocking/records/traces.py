@@ -178,7 +178,7 @@ def printed() -> Iterator[list[str]]:
 def _check_gain(gain: float, response: Any, name: str, removal: str) -> tuple[Remark, ...]:
     """Refuse a sensitivity that no instrument has, or that its own stages contradict at the frequency it is stated for.
 
-    At another frequency than theirs it may differ, which a remark tells; the full removal uses the stages alone.
+    At another frequency than theirs it may differ, as a remark says; the full removal uses the stages alone.
     """
     if not 0 < abs(gain) < LARGEST_GAIN:
         raise RecordError.naming(
@@ -209,7 +209,7 @@ def _check_gain(gain: float, response: Any, name: str, removal: str) -> tuple[Re
 STEEP = 45.0
 """Degrees out of the horizontal from which on a sensor is vertical."""
 _TILTED = 5.0
-"""Degrees out of the horizontal or the vertical from which on a sensor is told to be tilted."""
+"""Degrees out of the horizontal or the vertical from which on a sensor is reported as tilted."""
 
 
 def site(trace: Any, inventory: Any) -> dict[str, Any]:

@@ -539,7 +539,7 @@ def _uncertain(report: RecordReport) -> list[str]:
         decision = conclusion.verdict.decision
         if decision.word is Verdict.UNCERTAIN:
             reasons = [f"{decision.share_in_words} fall" if not math.isnan(decision.share) else decision.why]
-            reasons += [each.brief for each in (*decision.doubts, *decision.tells)[:1]]
+            reasons += [each.brief for each in (*decision.doubts, *decision.would_settle)[:1]]
             told.append(f"{conclusion.verdict.structure} ({'; '.join(reasons)})")
     if not told:
         return []
@@ -751,7 +751,7 @@ def _advice(report: RecordReport) -> Part:
     for period_result in report.result.worst_first:
         if period_result.decision.word.is_sure:
             continue
-        for remark in period_result.decision.tells:
+        for remark in period_result.decision.would_settle:
             to_do.setdefault(str(remark), []).append(report.called(period_result.structure))
     sentences = [
         f"To learn more of {listed(list(dict.fromkeys(names)))}: {thing}." for thing, names in to_do.items()

@@ -369,7 +369,7 @@ def overturning_amplitudes(
 ) -> np.ndarray:
     """Return the smallest amplitude [m/s²], (m, n), of one full sine at which each block overturns.
 
-    Sought upwards from the uplift acceleration in steps of 2 %, then halved to 1e-9: a range of overturning
+    Searched for upwards from the uplift acceleration in steps of 2 %, then halved to 1e-9: a range of overturning
     narrower than that can be missed, and above it the block may stand again.
 
     Parameters
@@ -573,8 +573,8 @@ def predict_as_printed(mechanism: Mechanism, pulse: Pulse) -> AsPrinted | None:
 
     >>> from rocking import Pulse, Wall
     >>> from rocking.sine_pulse import predict_as_printed
-    >>> told = predict_as_printed(Wall(1.6, 1.6, 0.25).mechanism(), Pulse(amplitude=4.0, circular_frequency=16.0))
-    >>> round(told.rotation_ratio, 3), told.holds
+    >>> printed = predict_as_printed(Wall(1.6, 1.6, 0.25).mechanism(), Pulse(amplitude=4.0, circular_frequency=16.0))
+    >>> round(printed.rotation_ratio, 3), printed.holds
     (0.578, False)
     """
     if not pulse.is_full_sine:
@@ -595,7 +595,7 @@ def pulse_end_energy(*, frequency_ratio: float, amplitude_ratio: float) -> float
 
     D₀ = (x − 1)² − x'² at the end of the pulse, for x = φ/φ_cr and time p t (Eq. 16).
     frequency_ratio: ω = ω_g/p > 0. amplitude_ratio: a = a_g/(gλ) > 1. ± inf where the value leaves the range of doubles
-    (ω < 0.009). The relative error stays below 1e-11 for ω from 1e-3 to 1e6 and a from 1 + 1e-12 to 1e6, except beside
+    (ω < 0.009). The relative error stays below 1e-11 for ω from 1e-3 to 1e6 and a from 1 + 1e-12 to 1e6, except next to
     the zeros of 1 − D₀ and of √(a² − 1) − ω, where terms cancel: it grows as 1e-15 times the largest term over the sum.
     Raises PulseError for an argument that is not finite or out of range.
     """

@@ -397,7 +397,7 @@ class Mechanism(Drawn):
         return any(side.can_overturn for side in self.sides)
 
     @property
-    def never_lets_go(self) -> str:
+    def never_overturns_because(self) -> str:
         """Why it cannot overturn, in words; "" where it can."""
         if self.can_overturn:
             return ""

@@ -142,7 +142,7 @@ _FIRST = (
 
 @row("comparison", first=_FIRST)
 class ComparisonRow(DecidedRow[ComparedCase]):
-    """One row per structure: the closed form under the dominant pulse beside the integration of the whole record.
+    """One row per structure: the closed form under the dominant pulse and the integration of the whole record.
 
     The columns from the impacts on are those of the integration.
     """
@@ -226,7 +226,7 @@ class ComparisonRow(DecidedRow[ComparedCase]):
         lambda of: of.case.crack,
     )
     statics_predicted_rotation_ratio: float = of_own_crack(
-        "Beside such a row, the closed form with the structure's own crack",
+        "In such a row, the closed form with the structure's own crack",
         lambda case: case.predicted_rotation_ratio,
     )
     statics_integrated_rotation_ratio: float = of_own_crack(
@@ -283,7 +283,7 @@ RATIO_COLUMNS = {
 of_decision = of_structure.part(lambda of: of.period_result.decision)
 of_ensemble = of_structure.part(lambda of: of.period_result.ensemble)
 of_statics = of_structure.optional(
-    lambda of: of.period_result.ensembles.statics_beside if of.period_result.ensembles else None
+    lambda of: of.period_result.ensembles.reported_statics if of.period_result.ensembles else None
 )
 of_reserve = of_structure.optional(lambda of: of.period_result.reserve)
 of_stacks = of_structure.optional(lambda of: of.period_result.stacks)
@@ -311,8 +311,9 @@ class VerdictRow(DecidedRow[OfStructure]):
         "Kinds of doubt that may make it worse",
         lambda decision: tuple(doubt.kind for doubt in decision.doubts),
     )
-    tells: tuple[Kind, ...] = of_decision(
-        "What would settle it, by kind", lambda decision: tuple(remark.kind for remark in decision.tells)
+    would_settle: tuple[Kind, ...] = of_decision(
+        "What would settle it, by kind",
+        lambda decision: tuple(remark.kind for remark in decision.would_settle),
     )
     overturning_members: int = of_ensemble(
         "Number of members that overturn", lambda ensemble: ensemble.overturning_members
@@ -410,7 +411,7 @@ class VerdictRow(DecidedRow[OfStructure]):
 def worst_period_each(verdicts: Iterable[VerdictRow]) -> list[VerdictRow]:
     """Return the verdicts, of each record and structure on a support that of the worst period only; the worst first.
 
-    On the ground it stands beside a support for comparison only.
+    The place on the ground below a support serves comparison only.
     """
     shown: dict[tuple[str, str], VerdictRow] = {}
     for verdict in sorted(
@@ -446,7 +447,7 @@ class CarriedStructure(OfStructure):
 
     @cached_property
     def measures(self) -> FloorMeasures:
-        """The motion on the support beside that of the ground."""
+        """The motion on the support over that of the ground."""
         ground = (self.floor.ground or self.floor).accelerogram
         period = self.period_result.support_period_s or 0.0
         return self.period_result.scene.place.measures(period, ground=ground, there=self.floor.accelerogram)
@@ -520,7 +521,7 @@ class VariationRow(CaseRow[VariedCase]):
     )
 
 
-# Beside the results ---------------------------------------------------------------------------------------
+# What comes with the results ---------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -557,8 +558,8 @@ class CandidateCase(OfStructure):
     @property
     def largest(self) -> float:
         """The largest force of the hold over the motion, N per metre; nan where it was not followed."""
-        held = self.check.holding if self.check else ()
-        return held[self.place] if self.hold is not None and self.place < len(held) else math.nan
+        forces = self.check.holding if self.check else ()
+        return forces[self.place] if self.hold is not None and self.place < len(forces) else math.nan
 
 
 of_candidate_case = Columns(CandidateCase)
@@ -749,12 +750,12 @@ of_remark = Columns(Remarked)
 class RemarkRow(RowOf[Remarked]):
     """One row per remark on a record, a structure or a setting; those of the study itself name no record."""
 
-    record: str = of_remark(f"{RECORD}; empty: of the study itself", lambda told: told.record)
+    record: str = of_remark(f"{RECORD}; empty: of the study itself", lambda of: of.record)
     about: str = of_remark(
-        "What it is about: a component, a structure, a size of it or a setting", lambda told: told.about
+        "What it is about: a component, a structure, a size of it or a setting", lambda of: of.about
     )
-    kind: Kind = of_remark("Kind of the remark", lambda told: told.remark.kind)
-    sentence: str = of_remark("The remark in words", lambda told: told.sentence)
+    kind: Kind = of_remark("Kind of the remark", lambda of: of.remark.kind)
+    sentence: str = of_remark("The remark in words", lambda of: of.sentence)
 
     @classmethod
     def of_study(cls, remarks: Iterable[Remark]) -> "list[RemarkRow]":
@@ -841,20 +842,20 @@ def _told(failures: list[FailedCase], identity: Identity, period_result: "Period
 def _remarked(result: "RecordResult", vertical: bool) -> list[Remarked]:
     """The remarks on the files of a record and on what was integrated under it, each once."""
     record = result.record
-    told = [
+    remarked = [
         Remarked(record, remark.about or name, remark)
         for name, accelerogram in zip(result.names, result.accelerograms, strict=True)
         for remark in accelerogram.warnings
     ]
     if vertical and result.components and not any(component.vertical for component in result.components):
-        told.append(Remarked(record, "vertical", Remark(AssessmentKind.VERTICAL_MISSING, record)))
-    told += [
+        remarked.append(Remarked(record, "vertical", Remark(AssessmentKind.VERTICAL_MISSING, record)))
+    remarked += [
         Remarked(record, structure, response.warning)
         for (_, structure, _), response in result.responses.items()
         if response.warning
     ]
-    first = {(remark.about, str(remark.remark)): remark for remark in reversed(told)}
-    return [remark for remark in told if first[remark.about, str(remark.remark)] is remark]
+    first = {(remark.about, str(remark.remark)): remark for remark in reversed(remarked)}
+    return [remark for remark in remarked if first[remark.about, str(remark.remark)] is remark]
 
 
 def rows_of_record(

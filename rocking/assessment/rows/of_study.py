@@ -44,12 +44,12 @@ class CountedCases:
     @cached_property
     def within_bounds(self) -> tuple[float, float]:
         """The 90 % interval, by earthquakes, of the share of those that rock in both with a ratio from 1/2 to 2."""
-        told = [place for place, row in enumerate(self.cases) if row.within_factor_two is not None]
-        if not told:
+        both_rock = [place for place, row in enumerate(self.cases) if row.within_factor_two is not None]
+        if not both_rock:
             return math.nan, math.nan
-        sample = self.sample.of_records(np.array(told))
+        sample = self.sample.of_records(np.array(both_rock))
         within = sample.by_station(
-            np.array([float(bool(self.cases[place].within_factor_two)) for place in told])
+            np.array([float(bool(self.cases[place].within_factor_two)) for place in both_rock])
         )
         low, high = sample.share_bounds(within)
         return float(low), float(high)
@@ -80,7 +80,7 @@ class CountedCases:
         return sum(math.isinf(row.integrated_rotation_ratio) for row in self.cases)
 
     @cached_property
-    def told(self) -> Counter[str]:
+    def agreements(self) -> Counter[str]:
         """How many fall in both (hits), in the integration alone (misses), in the closed form alone (false_alarms)."""
         names = {(True, True): "hits", (False, True): "misses", (True, False): "false_alarms"}
         falls = (
@@ -134,13 +134,13 @@ class AgreementRow(RowOf[CountedCases]):
         lambda of: of.overturning,
     )
     overturning_hits: int = of_cases(
-        "Number of these that overturn in the closed form", lambda of: of.told["hits"]
+        "Number of these that overturn in the closed form", lambda of: of.agreements["hits"]
     )
     overturning_misses: int = of_cases(
-        "Number of these that stand in the closed form", lambda of: of.told["misses"]
+        "Number of these that stand in the closed form", lambda of: of.agreements["misses"]
     )
     overturning_false_alarms: int = of_cases(
-        "Number of cases that overturn in the closed form alone", lambda of: of.told["false_alarms"]
+        "Number of cases that overturn in the closed form alone", lambda of: of.agreements["false_alarms"]
     )
 
 
@@ -284,14 +284,14 @@ def falls_under(
     if not worst:
         return None
     shares = [row.overturning_share for row in worst]
-    untold = sum(math.isnan(row.overturning_share) and not row.decision.word.stays_up for row in worst)
+    without_share = sum(math.isnan(row.overturning_share) and not row.decision.word.stays_up for row in worst)
     still = all(row.rotation_ratio == 0 for row in worst)
     return ExpectedFallsRow.of(
         CountedFalls(
             record=worst[0].record,
             structures=len(worst),
             expected_falls=float(np.nansum(shares)),
-            without_share=untold,
+            without_share=without_share,
             still=int(still),
         )
     )
@@ -308,7 +308,7 @@ def falls_over(records: Sequence[ExpectedFallsRow], sample: Sample) -> ExpectedF
     structures = max(row.structures for row in records)
     falls = sample.by_station(np.array([row.expected_falls for row in records]))
     still = sample.by_station(np.array([float(row.still) for row in records]))
-    untold = float(np.mean([row.without_share for row in records]))
+    without_share = float(np.mean([row.without_share for row in records]))
     low = high = math.nan
     if len(records) > 1:
         low, high = interval_of_mean(falls, structures, sample)
@@ -317,7 +317,7 @@ def falls_over(records: Sequence[ExpectedFallsRow], sample: Sample) -> ExpectedF
             record="",
             structures=structures,
             expected_falls=float(falls.mean()),
-            without_share=untold,
+            without_share=without_share,
             expected_falls_low=low,
             expected_falls_high=high,
             stations=sample.count,
@@ -332,8 +332,8 @@ def hardly_spread(parts: np.ndarray, structures: int) -> bool:
     them fewer than half a structure falls, or stands, or all are equal.
     """
     falls = structures * parts
-    told = (falls >= 0.5) & (falls <= structures - 0.5)
-    return bool(2 * told.sum() < falls.size or np.ptp(falls) == 0)
+    are_between = (falls >= 0.5) & (falls <= structures - 0.5)
+    return bool(2 * are_between.sum() < falls.size or np.ptp(falls) == 0)
 
 
 def interval_of_mean(falls: np.ndarray, structures: int, sample: Sample) -> tuple[float, float]:
@@ -345,7 +345,7 @@ def interval_of_mean(falls: np.ndarray, structures: int, sample: Sample) -> tupl
     one (Krishnamoorthy & Mathew 2003, J. Stat. Plan. Inference 115, 103-121), joined with Student's of the mean itself
     on its log odds, which does not need that law. Where the earthquakes are `hardly_spread`, neither sees what none of
     them has shown; the interval is then that of Clopper and Pearson for the sum of the parts, as of earthquakes under
-    which all fall or none does, which vary more than any others of that mean. One earthquake tells nothing of others.
+    which all fall or none does, which vary more than any others of that mean. One earthquake says nothing of others.
     """
     from scipy.special import betaincinv, chdtri, expit, logit, ndtr, ndtri  # slow to import
 

@@ -5,7 +5,7 @@ from contextlib import AbstractContextManager
 from functools import partial
 from pathlib import Path
 
-from rocking.assessment.cracks import never_lets_go
+from rocking.assessment.cracks import never_overturns_because
 from rocking.assessment.rows import FailureRow
 from rocking.errors import ConfigurationError, RockingError
 from rocking.fragility.curves import Fragility, fragility
@@ -81,7 +81,7 @@ def write_fragility(
     held: dict[str, str] = {}
     for name, scene in study.scenes.items():
         with net("its fragility", name):
-            held[name] = never_lets_go(scene.structure)
+            held[name] = never_overturns_because(scene.structure)
     if all(held.values()) and not faults:
         raise ConfigurationError(
             "no structure of the list can overturn, so that none has a fragility; give ties a tie_strength at which "

@@ -125,7 +125,7 @@ _KNET = Layout("gal", {
     "magnitude": r"^Mag\.\s*(.*)", "latitude": r"^Station Lat\.\s*(.*)", "longitude": r"^Station Long\.\s*(.*)",
     "elevation": r"^Station Height\(m\)\s*(.*)", "peak": r"^Max\. Acc\. \(gal\)\s*(.*)",
 }, mandatory=("duration", "peak"), duration_steps=0.501, duration_digits=0.0, code="BO")  # fmt: skip
-"""What the header states beside the samples, which are held against it."""
+"""What the header states about the samples, which are compared with it."""
 _KNET_FIRST = re.compile("".join(f"{re.escape(name)}.*\n" for name in _KNET_KEYS[:10]))
 
 
@@ -387,7 +387,7 @@ _CODE = re.compile(r'<(?:\w+:)?(Network|Station)\b[^>]*\bcode="([^"]*)"')
 def _codes_in(path: str, changed: int, size: int) -> frozenset[tuple[str, str]]:
     """Return the networks and stations that an XML file describes, none where it is no StationXML.
 
-    changed, size: its state, by which each file of a folder is looked through once, and not for each record beside it.
+    changed, size: its state, by which each file of a folder is looked through once, and not for each record in it.
     """
     try:
         text = read_whole(Path(path), _LARGEST_XML, RecordError).decode("utf-8", "replace")

@@ -49,7 +49,7 @@ def _is_decimal_sign(sample: bytes) -> bool | None:
     cells = [[cell for cell in re.split(r"[;\t ]+", row) if cell] for row in rows]
     with_comma = [cell for row in cells for cell in row if "," in cell]
     if not with_comma or any(cell.endswith(",") for cell in with_comma):
-        return False  # a comma beside a blank parts
+        return False  # a comma next to a blank separates
     may_be = all(map(_WITH_COMMA.fullmatch, with_comma))
     if any("." in row for row in rows):
         return None if may_be and any(";" in row for row in rows) else False

@@ -49,7 +49,7 @@ _UNDECLARED = "{} is not declared, neither in the file nor by the caller; {}."
 
 @dataclass(frozen=True)
 class Options:
-    """The facts that a caller declares beside the file: used where the file is silent, refused where it says otherwise.
+    """The facts that a caller declares for the file: used where the file is silent, refused where it says otherwise.
 
     unit: of the numbers. time_step: s. inventory: a StationXML file; folder: where to look for one. response: whether
     counts are divided by the overall sensitivity or the full response is removed. file: its name, whose ending may

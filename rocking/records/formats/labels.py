@@ -95,7 +95,7 @@ class ColumnLabel:
 
     @cached_property
     def unit(self) -> str | None:
-        """The unit of acceleration that it names, None where it names none, or a factor beside it."""
+        """The unit of acceleration that it names, None where it names none, or a factor next to it."""
         if _MULTIPLIED.search(self.text):
             return None
         if match := _BRACKETS.search(self.text):
@@ -115,7 +115,7 @@ class ColumnLabel:
     def is_known(self) -> bool:
         """Whether it stands in the closed lists: times, a count, another quantity, or acceleration.
 
-        Acceleration it is by its unit, by its direction, or by the word for it alone: not beside a strange unit.
+        Acceleration it is by its unit, by its direction, or by the word for it alone: not with a strange unit.
         """
         is_motion = self.is_direction or self.is_plain_acceleration
         return self.is_time or self.is_count or bool(self.other) or bool(self.unit) or is_motion

@@ -191,7 +191,7 @@ class Signature:
     """What tables have in common that one answer holds for.
 
     names: of the columns. numbers_a_line: their number. text_above: the words above them that mean something. folder:
-    of the files, beside the catalogue, where neither names nor words say anything; "" else, or for the folder itself.
+    of the files, next to the catalogue, where neither names nor words say anything; "" else, or for the folder itself.
     ending: of the name of a file, and time_step_s: of its times, where neither says anything. peaks: the largest number
     of a file whose page states no unit, or the range of those of the files that a question was drawn from, "0.35..3.1".
     """
@@ -279,7 +279,7 @@ class Family:
 def families(questions: Iterable[tuple[str, Question]]) -> list[Family]:
     """Return the files that ask, in families: alike by their pages, and with peaks within a decade.
 
-    questions: with the file that each is drawn from. Each family tells how its files, and the others of one page, peak.
+    questions: with the file that each is drawn from. Each family says how its files, and the others of one page, peak.
     """
     pages: dict[Signature, list[tuple[str, Question]]] = {}
     for file, question in questions:
@@ -318,7 +318,7 @@ def _range_of(group: Sequence[tuple[str, Question]]) -> str:
 
 
 def _counts(group: Sequence[tuple[str, Question]], others: Sequence[Sequence[tuple[str, Question]]]) -> str:
-    """Return how many files there are of a family, and where their peaks lie beside those of the other families."""
+    """Return how many files there are of a family, and how their peaks compare with those of the other families."""
     count = sum(map(len, others)) + len(group)
     how_many = counted(count, "file") if not others else f"{len(group)} of {count} files"
     if peaks := _range_of(group):
@@ -362,7 +362,7 @@ class LayoutAnswer:
 class Layouts:
     """The answers that hold in a folder: those of its layouts.csv, and below them those that this package knows.
 
-    folder: that of the catalogue, None for no file. place: where beside it the files lie that are asked about.
+    folder: that of the catalogue, None for no file. place: where next to it the files lie that are asked about.
     """
 
     def __init__(self, folder: Path | None = None, place: str = "") -> None:
@@ -370,7 +370,7 @@ class Layouts:
         self._path = None if folder is None else folder / NAME
 
     def at(self, place: str) -> "Layouts":
-        """Return the same answers for files of another folder beside the catalogue."""
+        """Return the same answers for files of another folder next to the catalogue."""
         other = copy(self)  # with the rows that are read already
         other.place = "" if place == "." else place
         return other

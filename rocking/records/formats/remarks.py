@@ -37,7 +37,7 @@ class Declarations:
         components = {component.upper(): component for line in of_numbers for component in _components(line)}
         counts = {match[1] or match[2] for line in remarks for match in _SAMPLES.finditer(line)}
         stated_steps = {1 / rate for line in of_numbers for rate in _rates(line)}
-        # A rate beside another one may be the one that the numbers were recorded at, and not theirs.
+        # A rate next to another one may be the one that the numbers were recorded at, and not theirs.
         is_sampled_twice = any(_SAMPLED.search(line) for line in of_numbers) and not _are_one(
             stated_steps | steps
         )
@@ -74,9 +74,9 @@ def contradicts(steps: Collection[float], step: float) -> bool:
 
 
 OF_ACCELERATION = re.compile(r"(?i)(?<![a-z])(acc|acel|beschl|amplitud)")
-"""Words beside which a unit in brackets is that of the numbers: elsewhere "(G)" may be the code of a network."""
+"""Words next to which a unit in brackets is that of the numbers: elsewhere "(G)" may be the code of a network."""
 _TIMES = re.compile(r"(?i)(?:[x×*]|\btimes|\b(?:multiplied|divided) by)\s*\d|\d\s*[x×*]\s*(?:acc|g\b)")
-"""A factor by which numbers are multiplied, as in "cm/s2 * 100": the unit beside it is not that of the numbers."""
+"""A factor by which numbers are multiplied, as in "cm/s2 * 100": the unit next to it is not that of the numbers."""
 _SCALED = re.compile(
     r"(?i)\b(s[ck]al\w*|fa[ck]?t+(?:eu|[eo])re?\w*|m[uo]ltipl\w*|gain|guadagno|ganancia|sensitivity|counts|conteggi|"
     r"cuentas|çarpan\w*|katsayı\w*|ölçek\w*)\b|倍率|係数|系数|カウント"
@@ -117,11 +117,11 @@ _RATE_STATED = re.compile(
 _SAMPLED = re.compile(
     r"(?i)sampl|decimat|interpol|digiti|muestr|abtast|chantill|campion|örnekle|サンプリング|采样|rate|frecuencia de m"
 )
-"""Words beside which a second rate leaves open which one the numbers have."""
+"""Words next to which a second rate leaves open which one the numbers have."""
 _OF_FILTER = re.compile(
     r"(?i)filt|pass|corner|cut|band|butter|natural|period|reson|dominant|range|nyquist|usable|taper|instrument|\bfn\b"
 )
-"""Words beside which a number of hertz is no rate of samples."""
+"""Words next to which a number of hertz is no rate of samples."""
 _FEWEST_PER_SECOND = 10.0
 """The lowest rate that a recorder has, Hz: below, a number of hertz is that of a motion."""
 _SAMPLES = re.compile(

@@ -60,14 +60,14 @@ _MARKS = "#", "%", "$", "!", "//"
 _TOUCHING = re.compile(rb"(\.\d+)(?=[+-]\d)")
 """The end of a number that a sign parts from the next, as in columns of Fortran."""
 _EXCEL = re.compile(r"sep=.?", re.I)
-"""The first line by which a spreadsheet is told what parts the cells."""
+"""The first line by which a spreadsheet learns what separates the cells."""
 _WORDS = re.compile(r"[A-Za-z=:,;()]+")
 _FEWEST_ROWS = 8
-"""Rows from which on it can be told whether numbers run along rows or along columns."""
+"""Rows from which on it can be decided whether numbers run along rows or along columns."""
 _FEWEST_OF_BOTH_SIGNS = 100
 """Samples from which on a motion has some of either sign."""
 LONGEST_STEP = 1.0
-"""The longest step of a record, s, by which two numbers are told to be samples and step."""
+"""The longest step of a record, s, by which two numbers are recognised as samples and step."""
 
 
 @dataclass(frozen=True)
@@ -207,7 +207,7 @@ _G_SUFFIX = re.compile(r"(?i)(.*(?<![a-z])acc(el(eration)?)?(_\w+)?)_g")
 
 
 def _without_suffixes(names: tuple[str, ...]) -> tuple[str, ...]:
-    """Return names like "acc_g" with the unit in brackets where times stand beside them: elsewhere "_g" may be of the
+    """Return names like "acc_g" with the unit in brackets where times accompany them: elsewhere "_g" may be of the
     ground."""
     if not any(ColumnLabel(name).is_time for name in names):
         return names
@@ -302,7 +302,7 @@ def signature_of(content: bytes, file: str, folder: str) -> Signature | None:
 class _Seen:
     """A table as it looks before anybody answers: its rows as bytes, and what its numbers are as far as they say it.
 
-    notes: on how the rows end. values: (n,), and drawn: their layout, None where the numbers cannot be told apart, as
+    notes: on how the rows end. values: (n,), and drawn: their layout, None where the numbers cannot be separated, as
     `fault` says.
     """
 
@@ -459,7 +459,7 @@ def _above(table: NumberTable, layout: TableLayout | None, content: bytes) -> tu
 _END = re.compile(
     r"(?i)(?:[#%$!]|//).*|[a-z]\w*[ \t]*\$|[\W_]*(?:end(?:[ \t]+of)?(?:[ \t]+\w+)?|eof)[\W_]*|[}\])]+;?"
 )
-"""Remarks, or a word for the end, below the numbers: of these nobody is told."""
+"""Remarks, or a word for the end, below the numbers: these are reported to nobody."""
 _NO_VALUE = re.compile(r"(?i)[\s,;]*(?:(?:nan|inf|na|null|none|n/a|#n/a)[\s,;]*)+")
 _LONGEST_TAIL = 20
 """Lines of text that may stand below the numbers."""
@@ -546,7 +546,7 @@ def _drawn(table: NumberTable, values: np.ndarray, is_parted: bool, declared: fl
         if _LETTER.fullmatch(label.text) and any(other.is_plain_acceleration for other in labels):
             columns[place] = Column(
                 "open", unit=said.unit
-            )  # v and u beside "a" are of velocity and displacement
+            )  # v and u next to "a" are of velocity and displacement
     if not table.labels and {column.role for column in columns} <= {"time", "other"}:
         columns[1:] = [Column("open", unit=said.unit)] * (width - 1)  # a motion that rises evenly
     return TableLayout(tuple(columns), time_step=said.time_step)
@@ -626,7 +626,7 @@ def _ask_where_open(
 ) -> None:
     """Raise AskedError where a table leaves open what it holds, but for the unit and the step of one series.
 
-    One column without a name beside times is that series, and so is one with a strange name whose unit is declared.
+    One column without a name next to times is that series, and so is one with a strange name whose unit is declared.
     """
     open_ones = [place for place, column in enumerate(drawn.columns) if column.role == "open"]
     accelerations = [column for column in drawn.columns if column.role == "acceleration"]

@@ -122,7 +122,7 @@ def test_the_worst_crack_gives_every_number_and_statics_stands_beside_it():
     assert result.decision.share == 40 / 64
     assert result.decision.interval == (0.0, 40 / 64)
     assert math.isinf(result.ensemble.rotation_ratio_high) and result.severity[1] == 40 / 64
-    beside = result.ensembles.statics_beside
+    beside = result.ensembles.reported_statics
     assert (beside.description, beside.ensemble.overturning_members) == ("crack at 3.0 m", 0)
     why = "40 of 64 members overturn with the crack at 8.5 m, 0 of 64 with the crack at 3.0 m of statics"
     assert result.decision.why == why

@@ -19,24 +19,26 @@ def of(
     integrated: float = 0.5,
     *,
     doubts: Sequence[Kind] = (),
-    tells: Sequence[Kind] = (),
+    would_settle: Sequence[Kind] = (),
     interval: tuple[float, float] = (math.nan, math.nan),
     **changed,
 ) -> Conclusion:
     """The conclusion on a structure of that word that rotates so far as recorded."""
-    decision = Decision(word, math.nan, interval, "", tuple(map(Remark, doubts)), tuple(map(Remark, tells)))
+    decision = Decision(
+        word, math.nan, interval, "", tuple(map(Remark, doubts)), tuple(map(Remark, would_settle))
+    )
     return Conclusion(decided(decision, **changed), compared("EW", integrated))
 
 
 @pytest.mark.parametrize(
     ("conclusion", "kind"),
     [
-        (of(Verdict.UNCERTAIN, tells=(AssessmentKind.RESTITUTION,)), AssessmentKind.RESTITUTION),
+        (of(Verdict.UNCERTAIN, would_settle=(AssessmentKind.RESTITUTION,)), AssessmentKind.RESTITUTION),
         # A range that ends where contact dynamics does is not one of cracks, which to find would tell nothing.
         (
             of(
                 Verdict.UNCERTAIN,
-                tells=(AssessmentKind.CRACK,),
+                would_settle=(AssessmentKind.CRACK,),
                 interval=(0.0, 0.5),
                 stack_falls=12,
                 stack_runs=24,
@@ -46,14 +48,17 @@ def of(
         (
             of(
                 Verdict.UNCERTAIN,
-                tells=(AssessmentKind.CRACK,),
+                would_settle=(AssessmentKind.CRACK,),
                 interval=(0.0, 0.6),
                 stack_falls=12,
                 stack_runs=24,
             ),
             AssessmentKind.CRACK,
         ),
-        (of(Verdict.OVERTURNS, math.inf, tells=(AssessmentKind.RESTITUTION,)), AssessmentKind.STRENGTHEN),
+        (
+            of(Verdict.OVERTURNS, math.inf, would_settle=(AssessmentKind.RESTITUTION,)),
+            AssessmentKind.STRENGTHEN,
+        ),
         (of(Verdict.STANDS, doubts=(AssessmentKind.OTHER_CRACK_WORSE,)), AssessmentKind.OTHER_CRACK_WORSE),
         (of(Verdict.PROBABLY_OVERTURNS), AssessmentKind.STANDS_AS_RECORDED),
         (of(Verdict.PROBABLY_STANDS, math.inf), AssessmentKind.FALLS_AS_RECORDED),

@@ -113,7 +113,7 @@ def test_few_runs_of_contact_dynamics_let_a_spire_probably_stand_and_many_let_it
     probably = rocking.assess(motion, SPIRE)
     assert probably.verdict is Verdict.PROBABLY_STANDS
     assert (probably.stacks.falls, probably.stacks.runs) == (0, 18)
-    assert [each.kind for each in probably.decision.tells] == [AssessmentKind.CONTACT_DYNAMICS]
+    assert [each.kind for each in probably.decision.would_settle] == [AssessmentKind.CONTACT_DYNAMICS]
     assert probably.with_reserve(Reserve(low=1.8, median=2.2, high=2.6, limit=3.0)).reserve.low == 1.8
     stands = rocking.assess(motion, SPIRE, settings=CONTACT)
     assert stands.verdict is Verdict.STANDS
@@ -399,7 +399,7 @@ def test_a_block_whose_corner_needs_more_friction_than_it_has_only_probably_stan
     limited = rocking.assess(record, block, settings=settings)
     assert (limited.verdict, limited.overturning_share) == (Verdict.PROBABLY_STANDS, 0.0)
     assert limited.friction_needed == pytest.approx(needed, rel=0.01)
-    assert AssessmentKind.FRICTION in [each.kind for each in limited.decision.tells]
+    assert AssessmentKind.FRICTION in [each.kind for each in limited.decision.would_settle]
     firm = rocking.assess(record, block, settings=replace(settings, friction_coefficient=1.1 * needed))
     assert firm.verdict is Verdict.STANDS
     assert np.isnan(firm.friction_needed)

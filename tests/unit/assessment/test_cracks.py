@@ -403,7 +403,7 @@ def test_a_restitution_typed_far_below_that_of_the_geometry_is_followed_beside_i
         if livelier.overturning_members:
             assert both.crack == "restitution 0.98 of its geometry"
             assert both.overturning_members == livelier.overturning_members
-            assert [each.kind for each in both.decision.tells] == [AssessmentKind.RESTITUTION]
+            assert [each.kind for each in both.decision.would_settle] == [AssessmentKind.RESTITUTION]
             assert both.decision.interval[0] < both.decision.interval[1] == livelier.overturning_share
         else:
             assert both.verdict is livelier.verdict

@@ -77,13 +77,13 @@ def test_sixteen_members_are_near_an_edge_unless_all_stay_far():
 
 
 def test_1_what_nothing_overturns_cannot_overturn():
-    held = Facts(cracks=(crack(0),), never_lets_go="stays tied", failures=("component X is cut",))
+    held = Facts(cracks=(crack(0),), never_overturns_because="stays tied", failures=("component X is cut",))
     decision = decide(held)
     assert str(decision.word) == "cannot overturn"
     assert decision.why == "stays tied"
-    assert kinds(decision.tells) == [AssessmentKind.TIE_STRENGTH]
+    assert kinds(decision.would_settle) == [AssessmentKind.TIE_STRENGTH]
     assert decision.share_in_words == ""
-    assert word(cracks=(crack(0),), never_lets_go="stays tied", doubts=(OPEN,)) == "cannot be told"
+    assert word(cracks=(crack(0),), never_overturns_because="stays tied", doubts=(OPEN,)) == "cannot be told"
 
 
 def test_2_what_nothing_lifts_stands():
@@ -95,7 +95,7 @@ def test_3_what_slides_first_cannot_be_told():
     decision = decide(Facts(cracks=(crack(0, slides=True),), slides_at=0.6))
     assert str(decision.word) == "cannot be told"
     assert decision.why == "slides before it lifts, at 0.6 g"
-    assert kinds(decision.tells) == [AssessmentKind.FRICTION]
+    assert kinds(decision.would_settle) == [AssessmentKind.FRICTION]
     assert math.isnan(decision.share) and decision.share_in_words == ""
     # a motion that does not reach so far lets nothing slide
     assert word(cracks=(crack(0),)) == "stands"
@@ -105,8 +105,8 @@ def test_3_the_stones_of_what_slides_first_tell_and_its_mechanism_makes_nothing_
     """Their runs are on the friction that it has; a stack of courses ends no row 3."""
     slides = Facts(cracks=(crack(0, slides=True),), slides_at=0.2, as_stones="as voussoirs")
     assert decide(slides).word is Verdict.CANNOT_BE_TOLD
-    assert kinds(decide(slides).tells) == [AssessmentKind.FRICTION, AssessmentKind.CONTACT_DYNAMICS]
-    assert kinds(decide(replace(slides, stackable=False)).tells) == [AssessmentKind.FRICTION]
+    assert kinds(decide(slides).would_settle) == [AssessmentKind.FRICTION, AssessmentKind.CONTACT_DYNAMICS]
+    assert kinds(decide(replace(slides, stackable=False)).would_settle) == [AssessmentKind.FRICTION]
     for stacks, falls, expected in (
         ((0, 24), 0, "probably stands"),
         ((0, 64), 0, "stands"),
@@ -131,7 +131,7 @@ def test_8b_only_its_stones_let_an_arch_on_piers_stand():
     alone = decide(piers)
     assert str(alone.word) == "probably stands"
     assert AssessmentKind.STONES_TELL in kinds(alone.doubts)
-    assert AssessmentKind.CONTACT_DYNAMICS in kinds(alone.tells)
+    assert AssessmentKind.CONTACT_DYNAMICS in kinds(alone.would_settle)
     assert word(settled=Verdict.STANDS, needs_stones=True) == "probably stands"
     assert word(cracks=(crack(0, farthest=0.0),), rests=True, needs_stones=True) == "stands"
     for runs, expected in ((24, "probably stands"), (64, "stands")):
@@ -157,7 +157,7 @@ def test_3_a_crack_that_slides_first_is_left_out_where_another_is_left():
 def test_4_without_a_result_it_cannot_be_told():
     decision = decide(Facts(failures=("the motion is too long",)))
     assert (str(decision.word), decision.why) == ("cannot be told", "the motion is too long")
-    assert kinds(decision.tells) == [AssessmentKind.INPUT]
+    assert kinds(decision.would_settle) == [AssessmentKind.INPUT]
     assert word() == "cannot be told"
 
 
@@ -169,7 +169,7 @@ def test_5_one_run_is_never_sure(ratio, expected):
     decision = decide(Facts(run_ratio=ratio))
     assert str(decision.word) == expected
     assert decision.share_in_words == "one run"
-    assert kinds(decision.tells) == [AssessmentKind.ENSEMBLE]
+    assert kinds(decision.would_settle) == [AssessmentKind.ENSEMBLE]
 
 
 @pytest.mark.parametrize("settled", [Verdict.STANDS, Verdict.OVERTURNS])
@@ -241,7 +241,7 @@ def test_7_members_that_failed_make_nothing_fall():
     assert str(decision.word) == "cannot be told"
     assert decision.interval == (0.0, 63 / 64)
     assert kinds(decision.doubts) == [AssessmentKind.MEMBERS_FAILED]
-    assert kinds(decision.tells) == [AssessmentKind.TOLERANCE]
+    assert kinds(decision.would_settle) == [AssessmentKind.TOLERANCE]
     assert math.isnan(decision.share)
 
 
@@ -269,7 +269,7 @@ def test_8b_a_contact_that_needs_more_friction_than_it_has_limits_the_word(runs,
     assert (str(decision.word), decision.share) == (expected, 0.0)
     limited = expected != "stands"
     assert (AssessmentKind.FRICTION_SHORT in kinds(decision.doubts)) is limited
-    assert (AssessmentKind.FRICTION in kinds(decision.tells)) is limited
+    assert (AssessmentKind.FRICTION in kinds(decision.would_settle)) is limited
     settled = decide(Facts(settled=Verdict.STANDS, friction_needed=math.inf))
     assert str(settled.word) == "probably stands"
 
@@ -278,19 +278,19 @@ def test_8b_a_contact_that_needs_more_friction_than_it_has_limits_the_word(runs,
 def test_contact_dynamics_is_advised_only_where_it_may_still_tell(far):
     """Not where it ran often enough already, nor of what it cannot follow, of which a doubt says so."""
     facts = Facts(cracks=(crack(0),), **far)
-    assert kinds(decide(facts).tells) == [AssessmentKind.CONTACT_DYNAMICS]
+    assert kinds(decide(facts).would_settle) == [AssessmentKind.CONTACT_DYNAMICS]
     cannot = decide(replace(facts, stackable=False))
-    assert cannot.tells == ()
+    assert cannot.would_settle == ()
     assert cannot.word is decide(facts).word
     told = [Remark(AssessmentKind.NO_STACK)] if facts.doubts else []
     assert [each for each in cannot.doubts if each not in decide(facts).doubts] == told
-    assert decide(replace(facts, stacks=(0, 64))).tells == ()
+    assert decide(replace(facts, stacks=(0, 64))).would_settle == ()
 
 
 def test_more_runs_are_advised_where_none_of_few_falls_and_the_members_all_stand():
     facts = Facts(cracks=(crack(0),), doubts=(OPEN,))
-    assert kinds(decide(replace(facts, stacks=(0, 18))).tells) == [AssessmentKind.CONTACT_DYNAMICS]
-    assert decide(replace(facts, stacks=(1, 19))).tells == ()
+    assert kinds(decide(replace(facts, stacks=(0, 18))).would_settle) == [AssessmentKind.CONTACT_DYNAMICS]
+    assert decide(replace(facts, stacks=(1, 19))).would_settle == ()
 
 
 @pytest.mark.parametrize(
@@ -366,7 +366,7 @@ def test_10_a_doubt_leaves_only_the_least_share():
     assert str(decision.word) == "cannot be told"
     assert decision.interval == (12 / 64, 1.0)
     assert decision.share_in_words == "at least 19\u00a0%"
-    assert kinds(decision.tells) == [AssessmentKind.CONTACT_DYNAMICS]
+    assert kinds(decision.would_settle) == [AssessmentKind.CONTACT_DYNAMICS]
     assert decision.why == "contacts open; 12 of 64 members overturn with the hinge"
 
 
@@ -375,14 +375,14 @@ def test_10_a_missing_component_is_not_settled_by_contact_dynamics():
     decision = decide(Facts(cracks=(crack(0),), **missing))
     assert str(decision.word) == "cannot be told"
     assert kinds(decision.doubts) == [AssessmentKind.COMPONENT_MISSING]
-    assert kinds(decision.tells) == [AssessmentKind.COMPONENT]
+    assert kinds(decision.would_settle) == [AssessmentKind.COMPONENT]
     assert "too short" in decision.why
     assert word(cracks=(crack(50),), **missing) == "probably overturns"
 
 
 def test_11_tells_what_decides():
     decision = decide(Facts(cracks=(crack(30),), remarks=(Remark(AssessmentKind.RESTITUTION),)))
-    assert kinds(decision.tells) == [AssessmentKind.RESTITUTION]
+    assert kinds(decision.would_settle) == [AssessmentKind.RESTITUTION]
     assert decision.share_in_words == "47\u00a0%"
 
 
@@ -443,7 +443,7 @@ def drawn(chance):
         rests=chance() < 0.03,
         run_ratio=one_of(math.nan, 0.1, 0.5, math.inf),
         settled=one_of(Verdict.STANDS, Verdict.OVERTURNS) if chance() < 0.1 else None,
-        never_lets_go="stays tied" if chance() < 0.05 else "",
+        never_overturns_because="stays tied" if chance() < 0.05 else "",
         slides_at=0.6 if chance() < 0.1 else math.nan,
         friction_needed=one_of(0.7, math.inf) if chance() < 0.1 else math.nan,
         doubts=one_of((), (), (), (OPEN,), (THROWN,)),
@@ -495,7 +495,7 @@ def oracle(facts):
 
     count = [each for each in facts.cracks if each.counts]
     count = [each for each in count if not each.slides] or count
-    if facts.never_lets_go and not facts.doubts:
+    if facts.never_overturns_because and not facts.doubts:
         return SAFEST_FIRST[0]
     if facts.rests:
         return SAFEST_FIRST[1]
@@ -539,7 +539,7 @@ def share_of_the_table(facts):
     count = [each for each in facts.cracks if each.counts]
     count = [each for each in count if not each.slides] or count
     of_each = [Fraction(each.falls + each.failed, each.followed + each.failed) for each in count]
-    if not of_each or facts.rests or (facts.never_lets_go and not facts.doubts):
+    if not of_each or facts.rests or (facts.never_overturns_because and not facts.doubts):
         return None
     return max([*of_each, *([Fraction(*facts.stacks)] if facts.stacks else [])])
 

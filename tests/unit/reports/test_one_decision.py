@@ -257,7 +257,9 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
 
 def in_print(decision):
     """What a table holds of a decision: of its doubts, and of what would tell more, the kinds alone."""
-    kinds = ("; ".join(remark.kind for remark in remarks) for remarks in (decision.doubts, decision.tells))
+    kinds = (
+        "; ".join(remark.kind for remark in remarks) for remarks in (decision.doubts, decision.would_settle)
+    )
     shares = (decision.share, *decision.interval)
     return repr((str(decision.word), *map(float, shares), decision.why, *kinds))
 
@@ -265,7 +267,7 @@ def in_print(decision):
 def printed(row):
     """The same of a row of verdicts.csv."""
     shares = (row.overturning_share, row.share_low, row.share_high)
-    return repr((str(row.verdict), *shares, row.why, row.doubts, row.tells))
+    return repr((str(row.verdict), *shares, row.why, row.doubts, row.would_settle))
 
 
 def workbook_lines(tables):

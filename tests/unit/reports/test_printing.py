@@ -73,7 +73,7 @@ def crack(falls: int) -> CrackFacts:
         (Facts(cracks=(crack(8),), doubts=(Remark(AssessmentKind.CONTACTS_OPEN),)), "? ≥ 12 %"),
         (Facts(cracks=(crack(0),), stacks=(20, 24)), "△ 0–83 %"),
         (Facts(failures=("No.",)), "?"),
-        (Facts(cracks=(crack(0),), never_lets_go="stays tied"), "■"),
+        (Facts(cracks=(crack(0),), never_overturns_because="stays tied"), "■"),
         (Facts(run_ratio=0.2), "○ one run"),
     ],
 )
