@@ -48,7 +48,7 @@ def scored(
     sample: Sample | Labels,
     replicates: int = REPLICATES,
 ) -> Iterator[Score]:
-    """Yield every measure of the cases (n,), with its interval.
+    """Yield every measure of the cases (n,), with its interval, and how many sites, earthquakes and cases count.
 
     sample: the site and the earthquake of each case, or labels (n,) of what is independent.
     """
@@ -57,6 +57,8 @@ def scored(
     for name, each in measures.items():
         measure = each if callable(each) else mean(each)
         low, high = interval_of(each, measure, drawn, replicates)
+        counting = every if callable(each) else np.flatnonzero(~np.isnan(np.asarray(each, dtype=float)))
+        behind = drawn.of_records(counting)
         yield Score(
             subject=subject,
             part=part,
@@ -64,9 +66,9 @@ def scored(
             value=measure(every),
             value_low=low,
             value_high=high,
-            sites=drawn.count,
-            earthquakes=drawn.earthquakes,
-            cases=every.size,
+            sites=behind.count,
+            earthquakes=behind.earthquakes,
+            cases=counting.size,
         )
 
 

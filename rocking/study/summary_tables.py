@@ -24,7 +24,7 @@ from rocking.assessment.rows import (
     counted_cases,
     falls_over,
     falls_under,
-    named_records,
+    sample_of_records,
     structure_rows,
 )
 from rocking.errors import RockingError, one_structure
@@ -97,7 +97,11 @@ def write_summary(
                 kept[CapacityRow] += capacity_rows({name: structure})
         write[FailureRow](failures)
         kept[FailureRow] += failures if reports else ()
-        names = named_records(read, each_unnamed)
+        identifiers, sample = sample_of_records(read, each_unnamed)
+        of_sample = RemarkRow.of_study(sample.remarks)
+        write[RemarkRow](of_sample)
+        kept[RemarkRow] += of_sample if reports else ()
+        names = dict(zip(identifiers, zip(sample.stations, sample.events, strict=True), strict=True))
         of_all = falls_over(falls_of_records, Sample.named(names[falls.record] for falls in falls_of_records))
         kept[ExpectedFallsRow] = [*falls_of_records, *([of_all] if of_all else [])]
         kept[AgreementRow] = list(agreement_rows(cases, names))

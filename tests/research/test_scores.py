@@ -159,3 +159,12 @@ def test_a_share_of_the_sites_has_as_many_earthquakes_as_can_be():
         [["a", "b", "c"], ["d"]],
         [["a", "b", "c"], ["d", "e"]],
     ]
+
+
+def test_a_score_counts_the_cases_that_tell_it():
+    """Cases of nan count nowhere: neither as cases nor by their sites and earthquakes."""
+    sample = Sample(("a", "a", "b", "c"), ("one", "one", "one", "two"))
+    (told,) = scores.scored("s", "p", {"m": [1.0, np.nan, 0.0, np.nan]}, sample)
+    assert (told.value, told.cases, told.sites, told.earthquakes) == (0.5, 2, 2, 1)
+    (none,) = scores.scored("s", "p", {"m": [np.nan] * 4}, sample)
+    assert (none.cases, none.sites, none.earthquakes) == (0, 0, 0) and np.isnan(none.value)

@@ -48,4 +48,5 @@ from rocking.assessment.rows.of_study import falls_under as falls_under
 from rocking.assessment.rows.of_study import hardly_spread as hardly_spread
 from rocking.assessment.rows.of_study import interval_of_mean as interval_of_mean
 from rocking.assessment.rows.of_study import named_records as named_records
+from rocking.assessment.rows.of_study import sample_of_records as sample_of_records
 from rocking.assessment.rows.of_study import spectrum_rows as spectrum_rows

@@ -21,11 +21,18 @@ def named_records(
     records: Iterable[inputs.RecordRow], each_unnamed: bool = False
 ) -> dict[str, tuple[str, str]]:
     """Return station and earthquake of each record, by its identifier. each_unnamed: as of `Sample.of`."""
+    names, sample = sample_of_records(records, each_unnamed)
+    return dict(zip(names, zip(sample.stations, sample.events, strict=True), strict=True))
+
+
+def sample_of_records(
+    records: Iterable[inputs.RecordRow], each_unnamed: bool = False
+) -> tuple[list[str], Sample]:
+    """Return the identifiers of the records (r,), and their sample with what there is to say of it."""
     firsts: dict[str, inputs.RecordRow] = {}
     for component in records:
         firsts.setdefault(component.record, component)
-    sample = Sample.of(list(firsts.values()), rows=list(firsts), each_unnamed=each_unnamed)
-    return dict(zip(firsts, zip(sample.stations, sample.events, strict=True), strict=True))
+    return list(firsts), Sample.of(list(firsts.values()), rows=list(firsts), each_unnamed=each_unnamed)
 
 
 @dataclass(frozen=True, eq=False)
