@@ -189,7 +189,7 @@ def test_every_count_is_of_each_structure_once_at_the_period_of_its_verdict():
     page = summary_data(summarised(RecordRows(comparison=comparison, verdicts=verdicts), {}), SETTINGS)
     (method, *counts) = page.methods.table.rows[0]
     assert counts[0] == "4", method
-    assert page.agreement.table.rows[0][2] == "4"
+    assert page.agreement.table.rows[0][3] == "4"
     assert len(page.unsafe.table.rows) == 2
 
 
