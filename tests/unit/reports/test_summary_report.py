@@ -76,7 +76,7 @@ def test_agreement_counts_all_and_each_structure():
     rows = {row.structure: row for row in agreement_rows(CASES, {})}
     assert {name: row.cases for name, row in rows.items()} == {"": 5, "pier": 2, "arch": 1, "wall": 2}
     content = summary_data(summary_tables(CASES), SETTINGS).agreement.table.rows
-    # stations, earthquakes (no record names one), cases, both rock, within a factor 2, median ratio; overturning, found, missed, false
+    # stations, earthquakes, cases, both rock, within a factor 2, median ratio; overturning, found, missed, false
     assert list(content[0]) == ["all", "3", "1", "5", "2", "1", "0.696", "2", "1", "1", "1"]
     assert rows[""].median_ratio == (0.5 / 0.4 + 0.1 / 0.7) / 2 and rows["pier"].median_ratio == 1.25
     more = [*CASES, case("pier", 0.8, 0.1, "two")]
