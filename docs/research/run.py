@@ -37,6 +37,7 @@ def targets() -> "dict[str, Callable[[Target], None]]":
         stability,
         stacks,
         tie_forces,
+        voussoirs,
         worth,
     )
     from docs.research.comparison import table
@@ -58,6 +59,7 @@ def targets() -> "dict[str, Callable[[Target], None]]":
         "between_ties": between_ties.between_ties,
         "anchors": anchors.anchors,
         "leaves": leaves.leaves,
+        "voussoirs": voussoirs.voussoirs,
         "screen": ensembles.screen,
         "stability": stability.stability,
         "floors": floors.floors,

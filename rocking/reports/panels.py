@@ -443,7 +443,8 @@ def _plot_structure(
             draw_bay(axes, structure.bay)
     if not rotation and len(structure.thrust_line()):
         axes.plot(*structure.thrust_line().T, color="C3", linewidth=1.0, label="thrust line at uplift")
-        axes.legend(loc="upper right")
+        # above the axes: an arch reaches into every corner of them
+        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), borderaxespad=0.2, frameon=False)
     axes.set(xlabel="[m]", ylabel="[m]")
     axes.set_aspect("equal", adjustable="datalim")
     axes.margins(0.06)

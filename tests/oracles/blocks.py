@@ -3,6 +3,8 @@
 Each joint bears at its two ends, by two forces that press and share the friction along it.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 from scipy.optimize import linprog
 
@@ -18,6 +20,26 @@ def sector(inner: float, outer: float, first: float, last: float) -> tuple[float
     y = weights * np.outer(radii, np.cos(angles))
     area = weights.sum()
     return float(area), np.array([x.sum(), y.sum()]) / area
+
+
+def columns(outer: float, level: float, first: float, last: float) -> tuple[float, np.ndarray]:
+    """Area [m²] of what lies between an arc and a level, and where it bears: in vertical columns, on the arc below."""
+    angles, weights = np.polynomial.legendre.leggauss(20)
+    angles = (last + first) / 2 + (last - first) / 2 * angles
+    areas = weights * (last - first) / 2 * outer * np.cos(angles) * (level - outer * np.cos(angles))
+    points = outer * np.stack([np.sin(angles), np.cos(angles)], axis=1)
+    return float(areas.sum()), areas @ points / areas.sum()
+
+
+def rectangle(width: float, height: float) -> tuple[float, np.ndarray]:
+    """Area [m²] and centre (2,) of a rectangle on the middle of its foot."""
+    return width * height, np.array([0.0, height / 2])
+
+
+def together(parts: Sequence[tuple[float, np.ndarray]]) -> tuple[float, np.ndarray]:
+    """Mass and centre (2,) of some parts."""
+    masses = np.array([mass for mass, _ in parts])
+    return float(masses.sum()), masses @ np.array([centre for _, centre in parts]) / masses.sum()
 
 
 def greatest_multiplier(

@@ -51,8 +51,13 @@ def run(case: StructureQuestion, step: float) -> Answer:
     return run_of(case, times, rotation, energy, bodies.outside_hinges(turns[largest]))
 
 
-def follow(case: Question, bodies: RigidBodies, step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Times (n,), counterclockwise turns (n, bodies) and centres of mass (n, bodies, 2), until the end or a fall."""
+def follow(
+    case: Question, bodies: RigidBodies, step: float, friction: float = FRICTION
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Times (n,), counterclockwise turns (n, bodies) and centres of mass (n, bodies, 2), until the end or a fall.
+
+    friction: coefficient of every contact.
+    """
     from compas_lmgc90.solver import Solver
 
     solver = Solver(dt=step, theta=0.5, density=2000.0)
@@ -64,7 +69,7 @@ def follow(case: Question, bodies: RigidBodies, step: float) -> tuple[np.ndarray
             if component != "Vz" or body in bodies.driven:
                 solver.apply_velocity(body, component, 0.0)
         solver.apply_velocity(body, "Vx", np.array([[*times, times[-1] + 1], [*speed, speed[-1]]]))
-    solver.contact_law("IQS_CLB", FRICTION, alert=ALERT)
+    solver.contact_law("IQS_CLB", friction, alert=ALERT)
     solver.preprocess()
     # LMGC90 turns the frame of a body into its principal axes before it starts.
     axes = np.array(solver.init_frame)
