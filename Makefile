@@ -76,7 +76,8 @@ check: $(TOOLS)
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy rocking
 	$(BIN)/snakefmt --check Snakefile workflow
-	$(BIN)/python -m pytest -q -n 0 tests/contracts/test_columns.py tests/contracts/test_docstrings.py
+	$(BIN)/python -m pytest -q -n 0 tests/contracts/test_columns.py tests/contracts/test_docstrings.py \
+	  tests/unit/reports/test_pages.py
 
 # The scripts of the research, which are no part of the package.
 check-research: $(TOOLS)

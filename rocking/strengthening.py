@@ -446,7 +446,7 @@ def strengthen_scene(
     *,
     early: bool = True,
     store: Store | None = None,
-    show_line: Callable[[str], object] = lambda line: None,
+    show_line: Callable[[str], object] = lambda _line: None,
 ) -> Strengthening:
     """Return what `strengthen` does, for a scene: on a support its worst period counts.
 

@@ -119,20 +119,18 @@ def cracks(structure: Structure) -> tuple[Candidate, ...]:
     """
     every = structure.candidates(CRACKS)
     if not structure.leaves_alone:
-        return _with_geometry(structure, every)
+        return _with_geometry(every)
     forming: list[Candidate] = []
     alone = dict(structure.leaves_alone)
     for part in dict.fromkeys(candidate.part for candidate in every):
         if part:
             forming += [of_leaf(part, candidate) for candidate in cracks(alone[part])]
         else:
-            forming += _with_geometry(
-                structure, tuple(candidate for candidate in every if not candidate.part)
-            )
+            forming += _with_geometry(tuple(candidate for candidate in every if not candidate.part))
     return tuple(forming)
 
 
-def _with_geometry(structure: Structure, several: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
+def _with_geometry(several: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
     """The candidates of one part, with the first crack once more where its restitution is typed too low."""
     first = next((candidate for candidate in several if candidate.counts and not candidate.bulges), None)
     balanced = None if first is None else first.structure.restitution_of_geometry

@@ -141,15 +141,30 @@ def lattice(size: int) -> np.ndarray:
     return points
 
 
-def draw(situation: Situation, points: np.ndarray) -> Mapping[str, np.ndarray]:
-    """Return the value of every cause by member, (m,) each, by name.
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CauseValues:
+    """The value of each of CAUSES by member, (m,) each."""
 
-    points: (m, c) in (0, 1), one coordinate for each of CAUSES.
-    """
-    return {
-        cause.name: cause.range_in(situation).at(coordinates)
-        for cause, coordinates in zip(CAUSES, points.T, strict=True)
-    }
+    amplitude: np.ndarray
+    restitution: np.ndarray
+    polarity: np.ndarray
+    direction: np.ndarray
+    processing: np.ndarray
+    vertical: np.ndarray
+
+    def of_members(self, places: np.ndarray) -> "CauseValues":
+        """Return those of some members, by their places (k,)."""
+        return CauseValues(**{cause.name: getattr(self, cause.name)[places] for cause in CAUSES})
+
+
+def draw(situation: Situation, points: np.ndarray) -> CauseValues:
+    """Return the values of members at `points`, (m, c) in (0, 1): one coordinate for each of CAUSES."""
+    return CauseValues(
+        **{
+            cause.name: cause.range_in(situation).at(coordinates)
+            for cause, coordinates in zip(CAUSES, points.T, strict=True)
+        }
+    )
 
 
 FIRST = 16
@@ -341,7 +356,7 @@ def drawn(
     situation = Situation.of(reduced, motions, settings)
     values = draw(situation, points)
     followed = followed_at(reduced, motions, values, np.ones(1), tolerance=tolerance)
-    varied = {cause.name: values[cause.name] for cause in CAUSES if cause.range_in(situation).varies}
+    varied = {cause.name: getattr(values, cause.name) for cause in CAUSES if cause.range_in(situation).varies}
     return Ensemble(followed.rotation_ratios[0], varied, situation.settings, reasons=followed.reasons)
 
 
@@ -358,26 +373,23 @@ class Followed(NamedTuple):
 def followed_at(
     structure: Mechanism | EquivalentBlock,
     motions: GroundMotions,
-    values: Mapping[str, np.ndarray],
+    values: CauseValues,
     factors: np.ndarray,
     *,
     tolerance: float,
 ) -> Followed:
-    """Follow members at `factors` (k,) on the motion, the vertical component included.
-
-    values: of every cause, by member (m,), as `causes.draw` gives them.
-    """
-    horizontal = values["amplitude"] * values["polarity"]
-    vertical = values["amplitude"] * values["vertical"]
+    """Follow members with these `values` at `factors` (k,) on the motion, the vertical component included."""
+    horizontal = values.amplitude * values.polarity
+    vertical = values.amplitude * values.vertical
     own_restitution = np.array([structure.sides[0].restitution, structure.sides[-1].restitution])
     # A structure that states a smaller loss than the least keeps its own.
     most = np.maximum(own_restitution, 1 - LEAST_LOSS)
-    restitution = np.clip(own_restitution + values["restitution"][:, None], 0.0, most)
+    restitution = np.clip(own_restitution + values.restitution[:, None], 0.0, most)
 
     ratios = np.full((factors.size, horizontal.size), np.nan)
     reasons: dict[int, str] = {}
     for direction, processing in motions.horizontal:
-        is_own = (values["direction"] == direction) & (values["processing"] == processing)
+        is_own = (values.direction == direction) & (values.processing == processing)
         own = np.flatnonzero(is_own)
         if not own.size:
             continue

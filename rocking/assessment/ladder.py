@@ -12,6 +12,7 @@ regression over factors evenly spaced in their logarithm).
 """
 
 import math
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -120,8 +121,8 @@ class _Ladder:
 
         generator = np.array([cause.generator % LATTICE for cause in CAUSES])
         points = (rungs[:, None] * generator % LATTICE / LATTICE + 0.5 / LATTICE + shift) % 1.0
-        of_causes = draw(Situation.of(mechanism, motions, settings), points)
-        self.values = {**of_causes, "amplitude": self.amplitudes}
+        drawn = draw(Situation.of(mechanism, motions, settings), points)
+        self.values = replace(drawn, amplitude=self.amplitudes)
 
         first = math.log(lowest / (1 + self.width))
         last = math.log(settings.reserve)
@@ -132,7 +133,7 @@ class _Ladder:
         places = np.flatnonzero(wanted & np.isnan(self.falls))
         if not places.size:
             return False
-        values = {name: values[places] for name, values in self.values.items()}
+        values = self.values.of_members(places)
         followed = followed_at(self.mechanism, self.motions, values, np.ones(1), tolerance=TOLERANCE)
         ratios = followed.rotation_ratios[0]
         self.falls[places] = np.isinf(ratios) | np.isnan(ratios)

@@ -79,7 +79,7 @@ class IntensityMeasure:
     unit: str
     meaning: str
     of_record: Callable[[Accelerogram], float]
-    per: Callable[[Mechanism], float] = lambda mechanism: 1.0
+    per: Callable[[Mechanism], float] = lambda _mechanism: 1.0
     power: int = 1
     openquake: str = ""
     openquake_scale: float = 1.0

@@ -203,8 +203,8 @@ def _packed(archive: Path, place: str) -> _Packed:
 
 
 @lru_cache(maxsize=8)
-def _opened_once(path: str, place: str, changed: int, size: int, process: int) -> _Packed:
-    """Return the archive at `path` as it is: `changed` and `size` are its state, and each process has its own."""
+def _opened_once(path: str, place: str, _changed: int, _size: int, _process: int) -> _Packed:
+    """Return the archive at `path`, once for each state of it (when it changed, its size) and each process."""
     if not place:
         return _of_content(path, path)
     outer, rest = _place_in(Path(path), place)

@@ -41,7 +41,7 @@ from rocking.reports.panels import moving_span
 from rocking.reports.printing import LOOKS, SHARES, band_text, cell_text, ratio
 from rocking.reports.record import warnings_of
 from rocking.reports.variants import strips_in_html
-from rocking.structures import Mechanism, Structure
+from rocking.structures import Structure
 
 Content = dict[str, Any]
 """The content that JSON can hold."""
@@ -94,7 +94,7 @@ def record_content(result: RecordResult, rows: RecordRows, structures: Mapping[s
             row = worst.get((result.record, name, period_result.support_period_s))
             # One that cannot be shown costs no other: the page says that it has no result.
             with suppress(FaultError), one_structure(name):
-                cases[name] = _case(period_result, row, structures[name].mechanism())
+                cases[name] = _case(period_result, row)
                 if name in moving:
                     cases[name] |= _moving(moving[name], structures[name], several)
     peaks = [(row.peak_acceleration_m_s2 / GRAVITY, row.peak_velocity_m_s) for row in rows.record]
@@ -236,7 +236,7 @@ def _css(verdict: Verdict) -> str:
     return verdict.replace(" ", "-")
 
 
-def _case(period_result: PeriodResult, row: ComparisonRow | None, mechanism: Mechanism) -> Content:
+def _case(period_result: PeriodResult, row: ComparisonRow | None) -> Content:
     """Return what became of a structure, in words and numbers."""
     predicted = row.predicted_rotation_ratio if row else math.nan
     closed = ratio(predicted, 2)

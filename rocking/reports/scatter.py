@@ -56,8 +56,8 @@ def prediction_scatter(
     places = np.stack([_placed(predicted), _placed(integrated)])
     sees = np.isinf(predicted)
     falls = np.isinf(integrated)
-    _spread(places[0], places[1], falls & ~sees, 0)
-    _spread(places[1], places[0], sees & ~falls, 0)
+    _spread(places[0], places[1], falls & ~sees)
+    _spread(places[1], places[0], sees & ~falls)
     packed = _pack(places, sees & falls)
     count = len(cases)
     for which, colour in ((~dark, _LIGHT), (dark, _DARK)):
@@ -95,7 +95,7 @@ def _placed(ratios: np.ndarray) -> np.ndarray:
     return np.where(np.isinf(ratios), (_ZONE + _END) / 2, places)
 
 
-def _spread(along: np.ndarray, across: np.ndarray, which: np.ndarray, first: int) -> None:
+def _spread(along: np.ndarray, across: np.ndarray, which: np.ndarray) -> None:
     """Move points of a zone `across` it into lines where they would stand on one another `along` it."""
     lines: list[float] = []
     for place in np.flatnonzero(which)[np.argsort(along[which], kind="stable")]:

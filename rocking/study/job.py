@@ -165,7 +165,7 @@ class Job:
     records: Sequence[CatalogueRecord]
     log: Path
     show_line: Callable[..., None]
-    keep: Callable[[str, RecordOutcome], None] = lambda record, outcome: None
+    keep: Callable[[str, RecordOutcome], None] = lambda _record, _outcome: None
 
     @property
     def kind(self) -> str:

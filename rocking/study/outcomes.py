@@ -37,7 +37,7 @@ def outcomes_written(path: Path) -> Iterator[Callable[[str, RecordOutcome], None
     In a file that ends in .zip, which holds those of a batch, each is a member; else the file is that of one record.
     """
     if path.suffix != ".zip":
-        yield lambda record, outcome: write_whole(path, _encoded_outcome(outcome))
+        yield lambda _record, outcome: write_whole(path, _encoded_outcome(outcome))
         return
     with whole(path) as stream, zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as batch:
         # A member without a date: the same input gives the same bytes.

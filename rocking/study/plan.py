@@ -257,7 +257,7 @@ def scenes_of(path: str | Path, contents: ContentHashes) -> Mapping[str, Scene]:
 
 
 @lru_cache(maxsize=1)
-def _listed(path: str | Path, sha256: str) -> Mapping[str, Scene]:
+def _listed(path: str | Path, _sha256: str) -> Mapping[str, Scene]:
     """The scenes of a list of this content."""
     return load_scenes(path)
 

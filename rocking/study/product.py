@@ -16,7 +16,7 @@ TOLD = ("study", "client", "project_number", "author", "date", "display_units")
 """The settings that the head of every document prints."""
 
 
-def always(settings: "Settings") -> bool:
+def always(_settings: "Settings") -> bool:
     """Return that a file belongs to every study."""
     return True
 

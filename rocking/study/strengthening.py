@@ -133,7 +133,7 @@ def write_strengthening(
     between: str,
     target: float,
     output: Path | None = None,
-    show_line: Callable[[str], object] = lambda line: None,
+    show_line: Callable[[str], object] = lambda _line: None,
 ) -> list[str]:
     """Write table and figure of what holds a structure of the study in `folder`, and return the lines for the terminal.
 

@@ -43,8 +43,8 @@ def trade(
     *,
     settings: AssessmentSettings | None = None,
     each_unnamed: bool = False,
-    tell: Callable[[str], None] = lambda line: None,
-    within: Callable[[str], AbstractContextManager[None]] = lambda structure: nullcontext(),
+    tell: Callable[[str], None] = lambda _line: None,
+    within: Callable[[str], AbstractContextManager[None]] = lambda _structure: nullcontext(),
 ) -> list[TradeRow]:
     """Return a row for each method and structure, and one for each method over all structures.
 

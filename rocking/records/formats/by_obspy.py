@@ -384,7 +384,7 @@ _CODE = re.compile(r'<(?:\w+:)?(Network|Station)\b[^>]*\bcode="([^"]*)"')
 
 
 @lru_cache(maxsize=1000)
-def _codes_in(path: str, changed: int, size: int) -> frozenset[tuple[str, str]]:
+def _codes_in(path: str, _changed: int, _size: int) -> frozenset[tuple[str, str]]:
     """Return the networks and stations that an XML file describes, none where it is no StationXML.
 
     changed, size: its state, by which each file of a folder is looked through once, and not for each record in it.
