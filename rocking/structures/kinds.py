@@ -9,16 +9,14 @@ class StructureKind(Kind):
     """What there is to say of a structure, in every language."""
 
     # fmt: off
-    # What else makes a decision doubtful.
+    # What a model leaves out.
     CURVE_ALONE = auto(), Sentence(
-        "a capacity curve says nothing of impacts, sliding or opening contacts",
-        "una curva di capacità non dice nulla di urti, scorrimenti e contatti che si aprono",
-        brief="curve alone",
+        "A capacity curve says nothing of impacts, sliding or opening contacts.",
+        "Una curva di capacità non dice nulla di urti, scorrimenti e contatti che si aprono.",
     )
     FRAME_CONTACTS = auto(), Sentence(
-        "the contact forces of a frame are indeterminate: no verdict says whether its contacts slide as it rocks",
-        "le forze di contatto di un telaio sono indeterminate: nessun esito dice se i contatti scorrono mentre oscilla",
-        brief="contacts unknown",
+        "The contact forces of a frame are indeterminate: no verdict says whether its contacts slide as it rocks.",
+        "Le forze di contatto di un telaio sono indeterminate: nessun esito dice se i contatti scorrono mentre oscilla.",
     )
 
     # A structure, and where it stands.
@@ -34,7 +32,7 @@ class StructureKind(Kind):
         "oscillare; controllare quale sia quale.",
     )
     ONE_LEAF = auto(), Sentence(
-        "Taken as one leaf of {thickness} m: where it has leaves that may part, give leaves_m.",
+        "Taken as one leaf of {thickness} m; give leaves_m where leaves may part.",
         "Si assume un solo paramento di {thickness} m: se i paramenti possono separarsi, assegnarne gli spessori "
         "(leaves_m).",
     )
