@@ -202,7 +202,7 @@ class Arch(Crackable):
 
     @property
     def crack_position(self) -> float:
-        """nan: a height does not tell where the hinges of an arch are."""
+        """nan: no height locates the hinges of an arch."""
         return np.nan
 
     @property

@@ -2,7 +2,7 @@
 
 Inertia forces act to the right. The loads are 1 downwards and λ to the right on each radian of the ring, at
 the radius of an element's centroid. λ is the largest multiplier whose thrust line stays inside the ring. With the
-reaction at the left springing u = (M₀, V, H) that is a linear programme in (u, λ), which tells the four sections where
+reaction at the left springing u = (M₀, V, H) that is a linear programme in (u, λ), which gives the four sections where
 the line touches; between joints (a continuous ring) each of them then slides to where the line is tangent. The tests
 compare it with the smallest multiplier over all four-hinge mechanisms, by virtual work. On joints of little friction
 the line has to stay within their cones as well (`multiplier_on_friction`).
@@ -123,8 +123,8 @@ _CLEARANCE = 1e-12
 """A gap (of order t/r) that is zero to rounding."""
 _ASIDE = 1e-5
 """Rotation of a section [rad] over which the slope of a gap is differenced: Newton's steps need few digits of it."""
-_SOUGHT = 25
-"""Sections at most between which the hinges of other mechanisms are sought: 15 thousand mechanisms."""
+_MOST_SECTIONS = 25
+"""Sections at most between which the hinges of other mechanisms are searched: 15 thousand mechanisms."""
 _APART = 1e-6
 """Nearer than this [rad] two hinges are one section, on which the ring would slide."""
 
@@ -220,12 +220,12 @@ def onset_at(ring: Ring, hinges: np.ndarray) -> Onset:
 def other_hinges(ring: Ring, onset: Onset, count: int) -> list[np.ndarray]:
     """Return the hinges of up to `count` mechanisms besides that of a static `onset`, of the least multiplier first.
 
-    Hinges open at voussoir joints, or in a continuous ring at sections of which there are _SOUGHT; of two mechanisms
-    some hinge is at least one of these apart. λ is the dual of the linear programme: by virtual work.
+    Hinges open at voussoir joints, or in a continuous ring at _MOST_SECTIONS sections; of two mechanisms some
+    hinge is at least one of these apart. λ is the dual of the linear programme: by virtual work.
     """
     static = onset.hinges - ring.embrace_angle / 2
     sections = ring.sections()
-    coarse = sections[:: -(-sections.size // _SOUGHT)]
+    coarse = sections[:: -(-sections.size // _MOST_SECTIONS)]
     sections = np.unique(np.concatenate([coarse, sections[-1:], static]))
     spacing = 0.99 * np.diff(coarse).max()
     places = np.array(list(combinations(range(sections.size), 4)))

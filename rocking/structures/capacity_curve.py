@@ -46,7 +46,7 @@ Weight = Annotated[float, Value("Weight of all that moves", 100.0, "kN", (0.1, 1
 
 @dataclass(frozen=True, repr=False)
 class CapacityCurve(Structure):
-    """A structure of which another program tells the curve alone: it is followed from point to point along lines.
+    """A structure of which another program gives the curve alone: it is followed from point to point along lines.
 
     By virtual work Σ m δ² q'' = −(α (g + ü_v) + ü_g) Σ m δ, so that d* = q Σ m δ²/Σ m δ has d*'' = −α(d*) (g
     + ü_v) − ü_g, as long as the virtual displacements δ stay those at rest.
@@ -195,7 +195,7 @@ class CapacityCurve(Structure):
 
     @property
     def _leaves_out(self) -> Remark:
-        """What a curve does not tell."""
+        """What a curve leaves out."""
         return Remark(StructureKind.CURVE_ALONE)
 
     @cached_property
@@ -275,7 +275,7 @@ class CapacityCurve(Structure):
             displacement=displacement,
             effective_displacement=displacement,
             control_point=(0.0, self.height),
-            participating_mass_ratio=math.nan,  # which no curve tells
+            participating_mass_ratio=math.nan,  # which no curve gives
         )
 
     def static_capacity(self, side: int = 1) -> StaticCapacity:

@@ -18,7 +18,7 @@ S = TypeVar("S")
 """A structure: its class stands above this module, as each describes itself."""
 
 NOT_KEYS = ("type", "name")
-"""What an entry of a list holds beside the keys of a form."""
+"""What an entry of a list holds in addition to the keys of a form."""
 LONGEST_KEY = 80
 """Characters of a key that is compared with those that exist, and repeated as it is."""
 _ROCKS_OVER = ("thickness", "breadth", "width", "column_breadth")
@@ -148,7 +148,7 @@ class Description:
 
     @property
     def front(self) -> np.ndarray:
-        """The outline of its front (k, 2), m, beside the section; (0, 2) where its form knows none."""
+        """The outline of its front (k, 2), m, next to the section; (0, 2) where its form knows none."""
         return self.form.front_of({given.field.name: given.value for given in self.values})
 
     def dimensions(self, paths: Mapping[str, Path | list[Path]]) -> tuple[Dimension, ...]:

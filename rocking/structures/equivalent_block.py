@@ -167,7 +167,7 @@ def _pieces(
         if not np.all(np.isfinite(values)):
             return None
         coefficients = chebyshev.chebfit(_NODES, values.T, _ORDER)
-        # The last two coefficients of each piece tell what a longer expansion would add.
+        # The last two coefficients of each piece show what a longer expansion would add.
         if np.abs(coefficients[-2:]).max() <= accuracy * np.abs(values).max():
             return coefficients, values
         count *= 2

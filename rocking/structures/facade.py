@@ -253,7 +253,7 @@ class Facade(Tied):
             raise unplaced("crack_storey or crack_height")
         if self.thrust_height is not None:
             check_inside("thrust_height", self.thrust_height, self.height)
-        # The ground floor beside a height was the default once, and stands in files.
+        # A crack_storey of 1 with a crack_height was once the default, and still occurs in files.
         if self.crack_height is not None and self.crack_storey not in (None, 1):
             raise StructureError(
                 f"crack_height is {self.crack_height!r} m and crack_storey {self.crack_storey}, but one crack is "

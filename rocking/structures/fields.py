@@ -37,7 +37,7 @@ of which inertias are made, are no numbers any more."""
 
 @dataclass(frozen=True, eq=False)
 class Value:
-    """The declaration of a parameter beside its type.
+    """The declaration of a parameter in addition to its type.
 
     example: of a structure that stands; None of what stands in place of other parameters. unit: of the file; lengths m,
     angles °, forces kN. usual: plausible range in that unit; beyond it a remark, not a refusal. letter: in drawings.
@@ -57,12 +57,12 @@ class Value:
     dimension: str = ""
 
     def __repr__(self) -> str:
-        """What `help` shows of it beside its type."""
+        """What `help` shows of it after its type."""
         return ", ".join(filter(None, (self.meaning, self.unit)))
 
 
 class PlainSignature:
-    """The signature of a class by the types of its parameters alone, without what is declared beside them."""
+    """The signature of a class by the types of its parameters alone, without what is declared with them."""
 
     def __get__(self, _: object, kind: type) -> Signature:
         """Return the signature by which `help` shows the class."""
@@ -223,7 +223,7 @@ class Form:
     def of(cls, kind: Any, make: str, meaning: str) -> "Form":
         """Return the form of a structure's class `kind` that its constructor takes, or its class method `make`.
 
-        Such a method hands on, besides, the options of the constructor.
+        Such a method also passes on the options of the constructor.
         """
         parameters = dict(signature(kind).parameters)
         hints = get_type_hints(kind, include_extras=True)

@@ -620,8 +620,8 @@ class HeldWall:
     def family(self, joints: Sequence[float] = ()) -> tuple[tuple[Opening, float], ...]:
         """Return the opening of least λ by each name, with its λ, by their λ.
 
-        joints: at which alone it may open beside feet of storeys and holds, m above the ground; without them it may
-        open anywhere, and the hinge of each is where λ is least. What a tie without a strength keeps shut is left out,
+        joints: at which alone it may open, apart from feet of storeys and holds, m above the ground; without them it
+        may open anywhere, and the hinge is where λ is least. What a tie without a strength keeps shut is left out,
         and, unless nothing to that side is weaker, what has its foot at no foot of a storey and at no hold, or bulges
         below something that only pushes it on.
         """
@@ -687,13 +687,13 @@ class HeldWall:
         def moved(hinge: float) -> Opening:
             return replace(opening, hinge=float(hinge))
 
-        sought = minimize_scalar(
+        least = minimize_scalar(
             lambda hinge: self.multiplier(moved(hinge)),
             bounds=(low, high),
             method="bounded",
             options={"xatol": 1e-6 * (high - low)},
         )
-        return min((opening, multiplier), (moved(sought.x), float(sought.fun)), key=itemgetter(1))
+        return min((opening, multiplier), (moved(least.x), float(least.fun)), key=itemgetter(1))
 
     def pieces(self, opening: Opening) -> list[Storey]:
         """Return the masonry cut at the joints of `opening`, from the ground up."""

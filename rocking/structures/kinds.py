@@ -16,7 +16,8 @@ class StructureKind(Kind):
     )
     FRAME_CONTACTS = auto(), Sentence(
         "The contact forces of a frame are indeterminate: no verdict says whether its contacts slide as it rocks.",
-        "Le forze di contatto di un telaio sono indeterminate: nessun esito dice se i contatti scorrono mentre oscilla.",
+        "Le forze di contatto di un telaio sono indeterminate: nessun esito dice se i contatti scorrono mentre "
+        "oscilla.",
     )
 
     # A structure, and where it stands.

@@ -27,7 +27,7 @@ from rocking.structures.mechanism import Side, SideTie, Tie
 
 
 class UnknownContacts(StructureError):
-    """Contact forces that the mechanism alone does not tell; the message says why."""
+    """Contact forces that the mechanism alone does not determine; the message says why."""
 
 
 class MotionState(NamedTuple):

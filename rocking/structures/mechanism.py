@@ -12,7 +12,7 @@ moves outwards all the time with φ, the largest rotation so far is all that a s
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import cached_property
 from operator import methodcaller
@@ -123,10 +123,10 @@ class SideTie:
         known: dict[tuple[float, float], float] = self.__dict__.setdefault("_rotations", {})
         asked = stretch, end_rotation
         if asked not in known:
-            known[asked] = self._rotation_of_stretch(stretch, end_rotation)
+            known[asked] = self._rotation_at_stretch(stretch, end_rotation)
         return known[asked]
 
-    def _rotation_of_stretch(self, stretch: float, end_rotation: float) -> float:
+    def _rotation_at_stretch(self, stretch: float, end_rotation: float) -> float:
         from scipy.optimize import brentq  # slow to import, and needed by ties with a strength only
 
         def beyond(rotation: float) -> float:
@@ -170,7 +170,7 @@ class Side:
         G without the ties, needed where there are ties. Its weights grow and fall with g + ü_v; the ties do
         not, and they remember the largest rotation.
     can_overturn : bool, default True
-        False where G vanishes nowhere, as what holds it never lets go; critical_rotation is then the rotation
+        False where G vanishes nowhere, as what restrains it never yields; critical_rotation is then the rotation
         just below the end, and whatever reaches the end counts as overturned all the same.
     kinks : tuple of float, optional
         Rotations up to φ_cr at which G bends, while it runs straight between them and I and B are constant,
@@ -352,8 +352,8 @@ class Mechanism(Drawn):
 
     positive: Side
     negative: Side | None = None
-    one_sided: bool = False
-    restitution_range: float | None = None
+    one_sided: bool = field(default=False, kw_only=True)
+    restitution_range: float | None = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
         if self.one_sided and self.negative is not None:
@@ -393,7 +393,7 @@ class Mechanism(Drawn):
 
     @property
     def can_overturn(self) -> bool:
-        """Whether it can overturn to any side; where ties never let go it may not."""
+        """Whether it can overturn to any side; where ties never yield it may not."""
         return any(side.can_overturn for side in self.sides)
 
     @property
@@ -403,8 +403,8 @@ class Mechanism(Drawn):
             return ""
         end = max(side.end_rotation for side in self.sides)
         return (
-            f"lifts at {self.uplift_multiplier:.3g} g, and what holds it never lets go up to {end:.3g} rad, where its "
-            "geometry ends (ties without a tie_strength count as unbreakable)"
+            f"lifts at {self.uplift_multiplier:.3g} g, and what restrains it does not yield up to {end:.3g} rad, where "
+            "its geometry ends (ties without a tie_strength count as unbreakable)"
         )
 
     @property

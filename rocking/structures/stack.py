@@ -125,7 +125,7 @@ class BodiesAtRest:
     centres: (n, 2) of mass, m. corners: (n, 4, 2) from the centre, counterclockwise: those of the face to the body
     before it, then those of the face to the one behind it, m. mobility: (n, 3) inverse inertias along x, z and the
     turn, 0 where a body is held. drops: (n,) by how much a centre sinks whose body has fallen, m; inf where turns alone
-    tell. softness: share by which a contact gives more than a rigid one. pinned: x, z from the centre of the last body
+    count. softness: share by which a contact gives more than a rigid one. pinned: x, z from the centre of the last body
     of the point that is held sideways; nan where none is.
     """
 

@@ -24,7 +24,7 @@ MOST_VOUSSOIRS = 60
 VOUSSOIRS = 21
 """Voussoirs of an arch that does not say how many it has: from 13 to 40 its limit shows no trend."""
 _SOFTNESS = 1e-8
-"""Share by which a contact gives more than a rigid one: of many impulses in equilibrium it tells which ones act."""
+"""Share by which a contact gives more than a rigid one: of many impulses in equilibrium it decides which act."""
 _FALLEN = 0.6
 """Turn of a stone from which none comes back, rad."""
 _SETTLED = 2e-3
@@ -41,8 +41,8 @@ class Stone:
     """One rigid body of a chain.
 
     corners: (4, 2) of its faces at rest, counterclockwise, m: first the face to the stone before it from the left end
-    to the right one, then the face to the one behind it from the right end to the left one; what it has beside them
-    touches nothing. mass. centre: of mass, m. inertia: about it, mass · m². Raises StructureError.
+    to the right one, then the face to the one behind it from the right end to the left one; its other sides
+    touch nothing. mass. centre: of mass, m. inertia: about it, mass · m². Raises StructureError.
     """
 
     corners: tuple[tuple[float, float], ...]

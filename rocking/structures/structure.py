@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-AS_DESCRIBED = "as given"
+AS_DESCRIBED = "as described"
 """The description of the one mechanism of what does not crack."""
 CRACKS = 11
 """Number of mechanisms that are followed where more than one may form."""
@@ -69,7 +69,7 @@ class Structure(ABC):
     it may fall as stones where its mechanism stands, so that only these may say that it does. _usual_restitution:
     where none is given. statics_chooses: whether codes check the mechanism of least λ alone, as between supports limit
     analysis finds it; otherwise every crack that may open is a mechanism of its own.
-    _contacts_unknown: why no contact forces are known; "" where the moving parts tell them. together: the values of its
+    _contacts_unknown: why no contact forces are known; "" where the moving parts give them. together: the values of its
     fields with which its leaves do not part.
     """
 
@@ -415,7 +415,7 @@ class Structure(ABC):
         """Return the mechanisms that may form, `count` or one more; the first decides, the others by their λ.
 
         The first is the one that statics chooses, of least λ; where the crack is known that one, and the others do not
-        count. One, the structure as given, of what does not crack. A wall that is held above its foot may bulge
+        count. One, the structure as described, of what does not crack. A wall that is held above its foot may bulge
         wherever it is cracked: its bulge of least λ counts besides, and comes first where it is weaker. The same
         objects at every call, as they keep what they compute.
         """
@@ -466,7 +466,9 @@ class Structure(ABC):
         negative = None
         if len(self.linkages) > 1:
             negative = self.linkages[-1].side(self._impact(mirrored=True))
-        built = Mechanism(positive, negative, self.one_sided, self.restitution_range)
+        built = Mechanism(
+            positive, negative, one_sided=self.one_sided, restitution_range=self.restitution_range
+        )
         object.__setattr__(built, "structure", self)  # what it is built again from after pickling
         return built
 
@@ -701,7 +703,7 @@ class Crackable(Crushable):
     """A structure that may open somewhere else than where it is described.
 
     crack: "known" where it exists at the place of its description (a survey, a joint): it decides, and what another
-    one would do is told beside it. None, the default: the place of the description is one of those at which it may
+    one would do is reported as well. None, the default: the place of the description is one of those at which it may
     crack, and each of them counts.
     """
 
@@ -718,7 +720,7 @@ class Crackable(Crushable):
     @property
     @abstractmethod
     def crack_position(self) -> float:
-        """Height of the crack of its description above the base, m; nan where a height does not tell it."""
+        """Height of the crack of its description above the base, m; nan where a height does not locate it."""
 
     @property
     @abstractmethod
@@ -738,12 +740,12 @@ class Crackable(Crushable):
                     candidate.structure.__dict__["_mechanism"] = self.mechanism()
             return others
         own = Candidate(self.crack_in_words, self.crack_position, self)
-        beside = (
+        not_counting = (
             replace(candidate, counts=False)
             for candidate in others
             if candidate.description != own.description
         )
-        return (own, *beside)
+        return (own, *not_counting)
 
     @abstractmethod
     def _may_form(self, count: int) -> tuple[Candidate, ...]:

@@ -252,7 +252,7 @@ class Tied(CrackedAtHeight, Leaved):
 
     @property
     def side_names(self) -> tuple[str, str]:
-        """Outwards and inwards, where ties, loads or what it leans on tell them apart."""
+        """Outwards and inwards, where ties, loads or what it leans on distinguish them."""
         return super().side_names if self.symmetric and not self.one_sided else ("outwards", "inwards")
 
     @property
@@ -312,7 +312,7 @@ class Tied(CrackedAtHeight, Leaved):
     def mechanisms(self) -> tuple[Candidate, ...]:
         """Return every mechanism in which it may fall, by their λ of limit analysis (theory: section 12).
 
-        The cracks of `candidates`, and of the family beside them one by each name. Where the crack is known: that
+        The cracks of `candidates`, and one by each further name of the family. Where the crack is known: that
         one, and its bulges. The same objects at every call.
         """
         return self._mechanisms
@@ -323,12 +323,12 @@ class Tied(CrackedAtHeight, Leaved):
         others = self._bulges if self.crack_is_known else self._family
         if self.symmetric:
             others = tuple(candidate for candidate in others if candidate.sign >= 0)
-        beside = [candidate for candidate in others if not any(_is_that(own, candidate) for own in cracked)]
+        further = [candidate for candidate in others if not any(_is_that(own, candidate) for own in cracked)]
         of_leaves = [
             of_leaf(name, candidate) for name, leaf in self.leaves_alone for candidate in leaf.mechanisms()
         ]
         return tuple(
-            sorted((*cracked, *beside, *of_leaves), key=lambda candidate: candidate.uplift_multiplier)
+            sorted((*cracked, *further, *of_leaves), key=lambda candidate: candidate.uplift_multiplier)
         )
 
     @cached_property
@@ -382,12 +382,14 @@ class Tied(CrackedAtHeight, Leaved):
         slipping = [bulge for bulge in at_ties if self._slips(bulge)][:1]
         bulging = [bulge for bulge in at_ties if not self._slips(bulge)][:1]
         counting = [crack for crack in cracked if crack.counts]
-        beside = [crack for crack in cracked if not crack.counts and math.isfinite(crack.uplift_multiplier)]
+        not_counting = [
+            crack for crack in cracked if not crack.counts and math.isfinite(crack.uplift_multiplier)
+        ]
         if not self.crack_is_known:
             opens = [crack for crack in counting if math.isfinite(crack.uplift_multiplier)]
             counting = opens if opens or followed else counting
         if not followed:
-            return (*counting, *beside)
+            return (*counting, *not_counting)
         if not self.crack_is_known and any(
             candidate.structure.mechanism().can_overturn for candidate in (*bulging, *slipping, *between)
         ):
@@ -398,7 +400,7 @@ class Tied(CrackedAtHeight, Leaved):
         for bulge in (*bulging, *slipping, *between):
             is_weakest = all(bulge.uplift_multiplier < crack.uplift_multiplier for crack in counting)
             counting.insert(0 if is_weakest else len(counting), bulge)
-        return (*counting, *beside)
+        return (*counting, *not_counting)
 
     def _check_restitution(self) -> None:
         """Refuse what bulges with no restitution of the geometry: it may fall so, and no record could say whether."""
@@ -473,7 +475,7 @@ class Tied(CrackedAtHeight, Leaved):
         (theory: section 12.4). Positive where it holds the wall back. What stretches pulls as its tie does; what the
         mechanism takes for rigid gives what the balance of the bodies asks for. A floor that rests on the top and is
         held sideways asks for its own inertia besides.
-        Raises UnknownContacts where the bodies do not tell.
+        Raises UnknownContacts where the bodies do not determine them.
 
         >>> wall = rocking.LoadedWall.hinged_at(3.6, 2.4, 0.35, 18e3, top_load=40e3, top_slab="flat", restitution=0.5)
         >>> [(each.kind, each.height, round(float(each.force[0]))) for each in wall.reactions()]
@@ -668,7 +670,7 @@ class Tied(CrackedAtHeight, Leaved):
         for hung in self._hung(mirrored):
             if hung.kind == "friction":
                 continue
-            stays = hung.part == STILL or (apart and hung.kind == "tie")  # the ties stand beside the section
+            stays = hung.part == STILL or (apart and hung.kind == "tie")  # the ties stand next to the section
             shift = 0j if stays else linkage.carried(hung.part, hung.start, motion).moved
             head = plane(np.asarray(hung.start + shift), mirrored)
             tail = {"load": [0.0, size], "thrust": [-size, 0.0], "tie": [anchorage - head[0], 0.0]}[hung.kind]

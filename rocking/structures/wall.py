@@ -694,7 +694,7 @@ class LoadedWall(CrackedWall, Tied):
 
     @property
     def symmetric(self) -> bool:
-        """Whether no tie and no bearing off the middle tells the sides apart."""
+        """Whether no tie and no bearing off the middle distinguishes the sides."""
         bears_off_the_middle = self.top_load and self.top_slab == "hinged" and self.eccentricity != 0
         return not self.tie_heights and not bears_off_the_middle
 

@@ -30,6 +30,7 @@ from rocking.motion import integrate
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.structures import Arch, Block, Facade, LoadedWall, Spire, Wall
+from rocking.structures.structure import AS_DESCRIBED
 
 STEP, TIMES = 0.01, np.arange(0, 4, 0.01)
 SPIRE = Spire(width=3.0, height=15.0, wall_thickness=0.3)
@@ -144,7 +145,7 @@ def test_the_crack_that_governs_is_found_by_its_description():
     several = cracks(WALL)
     assert len(several) > 3
     assert all(governing_crack(WALL, each.description) is each for each in several)
-    assert governing_crack(WALL, "as given") is several[0]
+    assert governing_crack(WALL, AS_DESCRIBED) is several[0]
 
 
 def test_beside_a_known_crack_that_overturns_the_worst_other_is_told_and_followed_no_farther():

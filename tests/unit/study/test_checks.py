@@ -31,6 +31,7 @@ from rocking.reports.pages import Fact
 from rocking.reports.sentences import Sentences
 from rocking.reports.summary import summary_data
 from rocking.structures.kinds import StructureKind
+from rocking.structures.structure import AS_DESCRIBED
 from rocking.study.job import Study
 from rocking.study.kept import keep_rows, kept_conclusion
 from rocking.study.settings import Settings, read_settings
@@ -196,7 +197,7 @@ def test_a_structure_that_cannot_be_checked_costs_no_other(study):
 def found(passed, exceeding=0, **others):
     values = {
         "clause": "C8.7.1.2.1.9", "limit_state": "SLV", "capacity": 0.1, "demand": 0.05 if passed else 0.2,
-        "mechanism": "as given", "unit": "m", "refusal": None if passed else Remark(CheckKind.CHECK_NOT_MET),
+        "mechanism": AS_DESCRIBED, "unit": "m", "refusal": None if passed else Remark(CheckKind.CHECK_NOT_MET),
         "exceeding": exceeding,
         "motions": 40, "stations": 57,
         "earthquakes": 20, "sets": 200, "share": 1.0 if passed else 0.1, "interval": (0.0, 1.0),
