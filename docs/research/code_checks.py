@@ -184,9 +184,11 @@ def code_sets(target: Target) -> None:
         trials += _trials(selections, split)
         target.tell(f"split {split}: {sum(each.covered for each in trials)} of {len(trials)} covered")
     if not trials:
-        raise ConfigurationError(
+        raise ConfigurationError.naming(
+            "sites",
+            len(sites),
             f"no half of {len(sites)} sites gave sets of {SET_STATIONS} stations at the design level; give more "
-            "records."
+            "records.",
         )
     scores = list(_set_scores(trials))
     subtitle = (

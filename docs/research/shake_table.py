@@ -67,8 +67,10 @@ class Campaign:
         folder = next((folder for folder in tried if (folder / TESTS).is_file()), None)
         if folder is None:
             places = ", ".join(map(str, tried)) or "the setting mirror, which is null"
-            raise RecordError(
-                f"no {TESTS} of the shake-table campaign in {places}; name its folder, or one beside it, as mirror."
+            raise RecordError.naming(
+                "mirror",
+                mirror,
+                f"no {TESTS} of the shake-table campaign in {places}; name its folder, or one beside it, as mirror.",
             )
         listed = {motion.test: motion for motion in read_rows(TableMotion, catalogue)}
         return cls(read_tests(folder / TESTS), folder, listed)
@@ -83,9 +85,11 @@ class Campaign:
         else:
             raise RecordError(f"test {number}: no samples in {self.folder / MOTIONS} nor in the catalogue.")
         if listed is not None and not listed.holds(samples):
-            raise RecordError(
+            raise RecordError.naming(
+                "samples_sha256",
+                listed.samples_sha256,
                 f"test {number}: the samples have another sha256 than {listed.samples_sha256} of the catalogue; "
-                "it is another version."
+                "it is another version.",
             )
         (test,) = self.tests[self.tests.test == number].itertuples()
         source = Source(path=f"Test{name}", unit="g", format="shake table")
@@ -110,13 +114,15 @@ def read_tests(path: Path) -> pd.DataFrame:
     kinds = {"test": int, "dt": float, "pga_g": float, "pgv_over_pga": float, "motion": str, **verdicts}
     for name, kind in kinds.items():
         if name not in tests:
-            raise RecordError(f"{path}: the column {name!r} is missing; mend the table.")
+            raise RecordError.naming(
+                name, "missing", f"{path}: the column {name!r} is missing; mend the table."
+            )
         allowed, pattern = CELLS[kind]
         fits = tests[name].str.fullmatch(pattern)
         if not fits.all():
             line, value = int(np.argmin(fits)) + 2, tests[name][np.argmin(fits)]
-            raise RecordError(
-                f"{path}, line {line}: {name} is {value!r}, but must be {allowed}; mend the row."
+            raise RecordError.naming(
+                name, value, f"{path}, line {line}: {name} is {value!r}, but must be {allowed}; mend the row."
             )
     tests = tests.astype(dict.fromkeys(verdicts, int)).astype(kinds)
     tests["nominal_peak_velocity"] = tests.pga_g * tests.pgv_over_pga * GRAVITY
@@ -136,7 +142,8 @@ def _download(listed: TableMotion) -> np.ndarray:
         is_right = listed.holds(samples)
         return samples
     except (UnicodeDecodeError, IndexError, ValueError) as error:
-        raise RecordError(f"{path.name}: the file is no table of a test, {error}; fetch it again.") from None
+        sentence = f"{path.name}: the file is no table of a test, {error}; fetch it again."
+        raise RecordError.naming("file", path.name, sentence) from None
     finally:
         if not is_right:
             path.unlink()

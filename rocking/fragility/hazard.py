@@ -289,7 +289,7 @@ def _measure(of: _OfOpenQuake) -> tuple[str, float]:
     try:
         return of_openquake(of.imt)
     except ConfigurationError as error:
-        raise ConfigurationError(f"{of.path}: {error}") from None
+        raise ConfigurationError.naming("imt", of.imt, f"{of.path}: {error}") from None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -163,7 +163,9 @@ class _Direct(urllib.request.HTTPRedirectHandler):
         newurl: str,
     ) -> urllib.request.Request | None:
         if not newurl.startswith("https://"):
-            raise RecordError(f"the server redirects to {newurl[:100]}, which is not https")
+            raise RecordError.naming(
+                "newurl", newurl, f"the server redirects to {newurl[:100]}, which is not https"
+            )
         return super().redirect_request(req, fp, code, msg, headers, newurl)
 
 

@@ -332,8 +332,10 @@ def _plot_spectrum(spectrum: RockingSpectrum, axes: Axes) -> None:
     """
     whole = spectrum.frequency_parameters.size, spectrum.uplift_multipliers.size
     if spectrum.shape != whole or min(whole) < 2:
-        raise MotionError(
-            f"the spectrum has shape {spectrum.shape}, but lines need the whole of it, {whole}, and at least (2, 2)."
+        raise MotionError.naming(
+            "shape",
+            spectrum.shape,
+            f"the spectrum has shape {spectrum.shape}, but lines need the whole of it, {whole}, and at least (2, 2).",
         )
     across = spectrum.frequency_parameters
     up = spectrum.uplift_multipliers
@@ -472,7 +474,7 @@ _PLOTS: dict[str, Callable[..., None]] = {
 def _history(response: Response, otherwise: str) -> tuple[np.ndarray, np.ndarray]:
     """Return times [s] and rotation [rad] while the structure moves. Raises MotionError without a history."""
     if response.times is None or response.rotation is None:
-        raise MotionError(f"the history of the response is not there; {otherwise}.")
+        raise MotionError.naming("history", False, f"the history of the response is not there; {otherwise}.")
     begin, end = moving_span([(response.times, response.rotation)])
     inside = (response.times >= begin) & (response.times <= end)
     return response.times[inside], response.rotation[inside]

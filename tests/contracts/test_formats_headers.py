@@ -86,7 +86,7 @@ def test_a_dash_of_typography_before_a_number_is_refused_by_name(name: str, dash
 
 
 def test_a_pattern_of_a_fact_that_no_header_states_is_refused() -> None:
-    with pytest.raises(ValueError, match="states no peka, but one of component"):
+    with pytest.raises(ValueError, match="peka"):
         Layout("cm/s2", keyed(peka="PGA", samples="NDATA"))
 
 

@@ -31,9 +31,9 @@ def test_its_members_are_those_of_its_structure():
 def test_what_needs_a_geometry_is_refused():
     alone = as_structure(BLOCK.mechanism())
     assert as_structure(BLOCK) is BLOCK
-    with pytest.raises(UnknownContacts, match="no contacts that are known"):
+    with pytest.raises(UnknownContacts):
         alone.contact_forces(0.01, 0.1)
-    with pytest.raises(StructureError, match="a stack of courses"):
+    with pytest.raises(StructureError):
         alone.stack()
 
 

@@ -47,7 +47,7 @@ def test_what_is_loaded_soon_is_not_spoken_of(tmp_path: Path, monkeypatch) -> No
 
 def test_what_does_not_compile_is_told_and_tried_again(tmp_path: Path, monkeypatch) -> None:
     for _ in range(2):
-        with pytest.raises(RockingError, match=r"the numerical parts do not compile: \['no room'\]"):
+        with pytest.raises(RockingError, match="no room"):
             compiled_within(1.0, tmp_path, monkeypatch, errors="Traceback\n  in a file\nno room\n")
 
 

@@ -142,9 +142,7 @@ def test_lists_that_cannot_be(tmp_path, lines, sentence):
 
 @pytest.mark.parametrize("place", ["[roof]", "{roof: 1}", "3", "true"])
 def test_a_structure_stands_on_a_name(tmp_path, place):
-    with pytest.raises(
-        ConfigurationError, match=r"structure 1 \(a\): stands_on is .*, but no support of the list"
-    ):
+    with pytest.raises(ConfigurationError, match=r"structure 1 \(a\): stands_on is "):
         listed(tmp_path, f"name: a, {BLOCK}, stands_on: {place}")
 
 

@@ -434,7 +434,7 @@ def test_what_cannot_be_checked_is_refused_in_a_sentence():
         kinematic_check(block, SPECTRUM, CodeTerms(confidence_factor=0.9))
     with refused(ConfigurationError, "limit_state", "SLX"):
         kinematic_check(block, SPECTRUM, CodeTerms(limit_state="SLX"))
-    with pytest.raises(StructureError, match="a Mechanism, which has no capacity curve"):
+    with refused(StructureError, "structure"):
         kinematic_check(block.mechanism(), SPECTRUM)
     with refused(RecordError, "damping_ratio of the support", 0.0):
         kinematic_check(
@@ -442,9 +442,9 @@ def test_what_cannot_be_checked_is_refused_in_a_sentence():
             SPECTRUM,
             CodeTerms(support=Support((Mode(period=0.3, damping_ratio=0.0, participation=1.0),))),
         )
-    with pytest.raises(ConfigurationError, match=r"spectrum is a float, but must be a DesignSpectrum, as"):
+    with refused(ConfigurationError, "spectrum", 2.0):
         rocking.check(block, 2.0)
-    with pytest.raises(ConfigurationError, match=r"records is a dict, but must be sets of records, as"):
+    with refused(ConfigurationError, "records", {}):
         rocking.check(block, SPECTRUM, records={})
 
 

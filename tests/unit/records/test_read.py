@@ -192,7 +192,7 @@ def test_an_archive_and_a_file_of_many_members_are_refused_at_once(tmp_path: Pat
     with refused(RecordError, "size", 0):
         read(tmp_path / "many.gz")
     (tmp_path / "other.dat").write_bytes(b"of a format that only obspy reads\n" * 3)
-    with pytest.raises(RecordError, match=r"rocking\.from_obspy\(obspy\.read"):
+    with refused(RecordError, "format", "of a format that only obspy reads"):
         read(tmp_path / "other.dat")
 
 

@@ -215,13 +215,13 @@ def test_a_notebook_shows_the_sentence_of_a_result_and_its_table():
 
 
 def test_what_cannot_be_drawn_is_said():
-    with pytest.raises(rocking.MotionError, match="history=True"):
+    with refused(rocking.MotionError, "history", False):
         rocking.integrate(BLOCK, RECORD).plot()
     with refused(rocking.MotionError, "history", False):
         rocking.integrate(BLOCK, RECORD).frame()
-    with pytest.raises(rocking.MotionError, match="the whole of it"):
+    with refused(rocking.MotionError, "shape", (9, 10)):
         SPECTRUM[3:].plot()
-    with pytest.raises(rocking.MotionError, match="at least"):
+    with refused(rocking.MotionError, "shape", (1, 10)):
         rocking.rocking_spectrum(RECORD, FREQUENCIES[:1], MULTIPLIERS, 0.9).plot()
 
 
