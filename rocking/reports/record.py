@@ -193,11 +193,19 @@ class RecordReport:
             )
 
     @cached_property
+    def as_stones(self) -> frozenset[str]:
+        """The structures that were followed as stones, which say what their contacts do, in the reason of a verdict."""
+        followed = {row.structure for row in self.tables.verdicts if row.stack_runs}
+        return frozenset(name for name in followed & set(self.structures) if self.structures[name].as_stones)
+
+    @cached_property
     def left_out(self) -> dict[Remark, list[str]]:
         """What the models of structures that lift leave out, or take from what was typed, with the structures."""
         concerned: dict[Remark, list[str]] = {}
         for period_result in self.result.worst_first:
             for caution in period_result.scene.structure.cautions if period_result.rotation_ratio > 0 else ():
+                if caution.kind is StructureKind.FRAME_CONTACTS and period_result.structure in self.as_stones:
+                    continue
                 concerned.setdefault(caution, []).append(self.called(period_result.structure))
         would_crush = [each.structure for each in self.result.worst_first if _would_crush(each)]
         if would_crush:
@@ -705,12 +713,11 @@ def _contacts(report: RecordReport) -> list[str]:
     friction = report.friction
     failing: dict[str, set[str]] = {}
     needed: dict[str, float] = {}
-    followed = {row.structure for row in report.tables.verdicts if row.stack_runs}
     for row in report.tables.comparison:
+        if row.structure in report.as_stones:
+            continue
         name = report.called(row.structure)
         structure = report.structures.get(row.structure)
-        if structure is not None and structure.as_stones and row.structure in followed:
-            continue  # its stones say what its contacts do, in the reason of its verdict
         stands = structure is not None and friction >= structure.stands_on_friction
         if row.bounces:
             failing.setdefault(name, set()).add("bounces")

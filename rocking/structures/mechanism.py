@@ -287,7 +287,7 @@ class Side:
             if arc is not None and inverse is not None:
                 return arc, inverse
         raise StructureError(
-            f"the mechanism's inertia is not smooth up to {self.critical_rotation!r} rad, its critical_rotation, but "
+            f"the mechanism's inertia is not smooth up to {self.critical_rotation:.4g} rad, its critical_rotation, but "
             "must be to be followed, or for a block exact at rest; take the block linearised about φ_cr."
         )
 

@@ -20,7 +20,7 @@ from rocking.reports.kinds import ReportKind
 from rocking.reports.pages import Part, RecordPage, Table, TableCell
 from rocking.reports.printing import MEASURED, compile_document
 from rocking.reports.record import RecordReport, failure_page
-from rocking.structures import Arch, ArchOnPiers, Block, Facade, LoadedWall, Spire, Wall
+from rocking.structures import Arch, ArchOnPiers, Block, Facade, Frame, LoadedWall, Spire, Wall
 from rocking.structures.kinds import StructureKind
 from rocking.tables import cell
 
@@ -312,6 +312,37 @@ def test_an_arch_that_stands_on_its_friction_is_no_model_that_fails(example):
         verdicts = [replace(row, stack_falls=0, stack_runs=18) for row in example.tables.verdicts]
         texts = known(with_tables(report, comparison=comparison, verdicts=verdicts))
         assert stands not in texts and not any(f"{name} (slides)" in each for each in texts)
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_of_a_frame_that_was_followed_as_stones_its_contacts_are_known(example):
+    """The sentence that nobody knows them stays with a frame of more columns, and where none was followed."""
+    name = next(each.structure for each in example.result.worst_first if each.rotation_ratio > 0)
+    followed = [replace(row, stack_falls=0, stack_runs=18) for row in example.tables.verdicts]
+    scene = example.result.scenes[name]
+    for columns, verdicts, told in (
+        (2, example.tables.verdicts, True),
+        (2, followed, False),
+        (4, followed, True),
+    ):
+        frame = Frame(Block.of_size(breadth=1.1, height=8.0), columns, 0.3)
+        periods = tuple(replace(each, scene=replace(each.scene, structure=frame)) for each in scene.periods)
+        result = replace(
+            example.result, scenes={**example.result.scenes, name: replace(scene, periods=periods)}
+        )
+        report = replace(
+            example,
+            result=result,
+            structures={**example.structures, name: frame},
+            tables=replace(example.tables, verdicts=verdicts),
+        )
+        assert (
+            any(
+                each.kind is StructureKind.FRAME_CONTACTS and name in names
+                for each, names in report.left_out.items()
+            )
+            is told
+        )
 
 
 @pytest.mark.usefixtures("undrawn")
