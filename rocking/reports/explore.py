@@ -38,7 +38,7 @@ from rocking.reports.against import (
 from rocking.reports.drawings import fallen_rotation
 from rocking.reports.pages import Strip
 from rocking.reports.panels import moving_span
-from rocking.reports.printing import LOOKS, SHARES, band_text, cell_text, ratio
+from rocking.reports.printing import LOOKS, SHARES, band_text, cell_text, known_crack, ratio, sentence
 from rocking.reports.record import warnings_of
 from rocking.reports.variants import strips_in_html
 from rocking.structures import Structure
@@ -163,7 +163,11 @@ def explore_page(
             "size": structure.described.size,
             "below": sizes_of(name, structure),
             "type": structure.described.type_name,
-            "remarks": [*notes.get(name, ()), *_remarks_of(name, structures, remarks)],
+            "remarks": [
+                *(f"{sentence(known)}." for known in [known_crack(structure)] if known),
+                *notes.get(name, ()),
+                *_remarks_of(name, structures, remarks),
+            ],
             "frames": _frames(name, structure),
         }
         for name, structure in structures.items()

@@ -30,4 +30,20 @@ class ReportKind(Kind):
         " che ribalta: assegnare la resistenza.",
         brief="{about}: crushing at 2 MPa would matter",
     )
+
+    # What a strip of variants says of each beside the first.
+    THE_FIRST = auto(), Sentence("the first", "riferimento")
+    SHARE_DIFFERS = auto(), Sentence("{points} points of share", "{points} punti percentuali")
+    SAME_SHARE = auto(), Sentence("same share", "stessa percentuale")
+    RESERVE_DIFFERS = auto(), Sentence("reserve × {ratio}", "margine × {ratio}")
+    NO_DIFFERENCE = auto(), Sentence("not comparable", "non confrontabile")
+    RESERVE_OF_VARIANT = auto(), Sentence(
+        "5–50 % fall at {reserve} × the record",
+        "5–50 % delle simulazioni ribalta a {reserve} × la registrazione",
+    )
+    RESERVE_OF_MECHANISM = auto(), Sentence(
+        "5–50 % fall at {reserve} × the record (mechanism alone)",
+        "5–50 % delle simulazioni ribalta a {reserve} × la registrazione (solo meccanismo)",
+    )
+    NOT_JUDGED = auto(), Sentence("not judged", "non valutato")
     # fmt: on

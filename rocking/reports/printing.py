@@ -38,6 +38,8 @@ from rocking.reports.pages import (
     pictures_in,
 )
 from rocking.reports.style import COMMON, FONT_FOLDER, glyphs
+from rocking.structures import Structure
+from rocking.structures.structure import Crackable
 from rocking.tables import Row, rows_of, write_whole
 
 if TYPE_CHECKING:
@@ -196,6 +198,12 @@ def of(part: float, whole: float) -> str:
 def sentence(text: str) -> str:
     """Return the text with a capital first letter."""
     return text[:1].upper() + text[1:]
+
+
+def known_crack(structure: Structure | None) -> str:
+    """Return that the crack of a structure is known, and at what height; "" where it is not."""
+    remark = structure.known_crack if isinstance(structure, Crackable) else None
+    return str(remark) if remark else ""
 
 
 def strong(text: str, really: bool = True) -> TableCell:

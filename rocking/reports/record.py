@@ -79,6 +79,7 @@ from rocking.reports.printing import (
     displaying,
     facts_of,
     footer_of,
+    known_crack,
     number,
     plain,
     remainder,
@@ -87,7 +88,6 @@ from rocking.reports.printing import (
     words,
 )
 from rocking.reports.record_figures import History
-from rocking.reports.sentences import Sentences
 from rocking.reports.style import pictures
 from rocking.reports.supports import SupportPanel, floor_sentences, support_panels, supports_figure
 from rocking.structures import Structure
@@ -527,13 +527,9 @@ def _turned(verdict: VerdictRow, structure: Structure) -> Picture:
 
 def _known_crack(structure: Structure | None, verdict: VerdictRow) -> str:
     """That the crack of a structure is known, and what the worst other one would do; "" where it is not."""
-    if not isinstance(structure, Crackable) or not structure.crack_is_known:
-        return ""
-    words = Sentences()
-    position = structure.crack_position
-    known = (
-        words("crack known at", height=plain(position)) if math.isfinite(position) else words("crack known")
-    )
+    known = known_crack(structure)
+    if not known or not isinstance(structure, Crackable):
+        return known
     if not verdict.statics_crack or verdict.statics_crack == structure.crack_in_words:
         return f"{known}; no other is in doubt" if verdict.members else known
     falls = f"{verdict.statics_overturning_members} of {verdict.statics_members}"

@@ -3,6 +3,7 @@
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -40,6 +41,7 @@ from rocking.reports.design_figure import design_summary_figure
 from rocking.reports.matrix import MOST_RECORDS as MOST_RECORDS_BESIDE
 from rocking.reports.matrix import MOST_WITH_ALL, matrix
 from rocking.reports.pages import (
+    Cell,
     MapCell,
     MapRow,
     Notice,
@@ -51,11 +53,13 @@ from rocking.reports.pages import (
     Strip,
     SummaryPage,
     Table,
+    TableCell,
 )
 from rocking.reports.printing import (
     Column,
     columns_of,
     displaying,
+    known_crack,
     number,
     plain,
     ratio,
@@ -68,6 +72,7 @@ from rocking.reports.printing import (
 from rocking.reports.scatter import lifts, prediction_scatter
 from rocking.reports.style import elided, new_figure, picture, pictures, styled, wrapped
 from rocking.reports.supports import shares_by_period_figure
+from rocking.structures import Structure
 from rocking.tables import Row, rows_of
 
 if TYPE_CHECKING:
@@ -112,14 +117,16 @@ def summary_data(
     strips: Sequence[Strip] = (),
     conclusions_beside: Sequence[str] = (),
     panels: Sequence[Panel] = (),
+    structures: Mapping[str, Structure] = MappingProxyType({}),
 ) -> SummaryPage:
     """Return the page of the summary: texts, tables and figures.
 
     rows: of the tables of the summary. design: None where the study has no design level. strips: of the variants of
-    structures. conclusions_beside, panels: of the other products over all records.
+    structures. conclusions_beside, panels: of the other products over all records. structures: by name, of which it is
+    said whose crack is known.
     """
     with displaying(settings):
-        return _page(rows, settings, design, strips, conclusions_beside, panels)
+        return _page(rows, settings, design, strips, conclusions_beside, panels, structures)
 
 
 def _page(
@@ -129,6 +136,7 @@ def _page(
     strips: Sequence[Strip],
     conclusions_beside: Sequence[str],
     panels: Sequence[Panel],
+    structures: Mapping[str, Structure],
 ) -> SummaryPage:
     verdicts = rows_of(VerdictRow, rows)
     shown = worst_period_each(verdicts)
@@ -181,7 +189,7 @@ def _page(
             ),
             caption=_OF_SUPPORTS,
         ),
-        structures=Part(table=structure_table(shown), caption=_STRUCTURE_TABLE, size=_LETTERS),
+        structures=Part(table=structure_table(shown, structures), caption=_STRUCTURE_TABLE, size=_LETTERS),
         scatter=_scatter(comparison, pulses, agreed[0], _LOW if low else _HIGH),
         panels=tuple(panels),
         failures=Part(
@@ -416,23 +424,36 @@ def _cell(verdict_row: VerdictRow | None) -> MapCell:
     return MapCell(text=text, fill=fill, ink=ink)
 
 
-def structure_table(verdicts: Sequence[VerdictRow]) -> Table:
-    """Return one row per structure: under how many records it overturns, and the record that is worst for it."""
+def structure_table(
+    verdicts: Sequence[VerdictRow], structures: Mapping[str, Structure] = MappingProxyType({})
+) -> Table:
+    """Return one row per structure: under how many records it overturns, and the record that is worst for it.
+
+    Below the name of one whose crack is known this is said.
+    """
     by_severity = sorted(verdicts, key=lambda row: row.severity, reverse=True)
     worst = {row.structure: row for row in reversed(by_severity)}
     counts = outcome_counts(verdicts)
     present = {row.verdict for row in verdicts}
     kinds = [verdict for verdict in ORDER if verdict in present]
     heads = [printing.sentence(verdict) for verdict in kinds]
+    # A name that one line holds keeps to it; a longer one would take the room of the numbers.
+    width = "auto" if max((len(row.record) for row in verdicts), default=0) <= _BESIDE else "1.6"
     return table_of(
         [(name, *[counts[name][verdict] for verdict in kinds], worst[name]) for name in counts],
-        ("Structure", "1.6", "l", lambda row: strong(row[0])),
+        ("Structure", "1.6", "l", lambda row: TableCell(row[0], True, known_crack(structures.get(row[0])))),
         *((head, "0.9", "r", lambda row, at=at: str(row[at])) for at, head in enumerate(heads, start=1)),
-        ("Worst record", "1.6", "l", lambda row: placed(row[-1].record, row[-1].support_period_s)),
+        ("Worst record", width, "l", lambda row: _record(row[-1])),
         ("Overturns there in", "0.8", "l", lambda row: words(row[-1].decision.share_in_words)),
         ("As given", "0.7", "r", lambda row: ratio(row[-1].rotation_ratio, 2)),
         ("5–95 % of the members", "1.3", "r", lambda row: printing.band_text(row[-1], " – ")),
     )
+
+
+def _record(row: VerdictRow) -> Cell:
+    """The record of a verdict, with the period of the support below it."""
+    period = placed("", row.support_period_s).removeprefix(", ")
+    return TableCell(row.record, below=period) if period else row.record
 
 
 # What the methods are worth --------------------------------------------------------------------------------

@@ -9,8 +9,11 @@ from html import escape
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
+from rocking.assessment.decide import word_in
 from rocking.errors import FaultError, one_structure
+from rocking.remarks import Remark
 from rocking.reports.drawings import drawn_by_hand, room, sketch
+from rocking.reports.kinds import ReportKind
 from rocking.reports.pages import Chip, Strip, VariantCell
 from rocking.reports.printing import chip
 from rocking.reports.sentences import Sentences
@@ -76,16 +79,19 @@ def _cell(
 ) -> VariantCell:
     conclusion = variant.conclusion
     shapes = sketch(structure, rotation, _WIDTH, _HEIGHT, scale)
-    word = Chip(word=words("not judged"), share="", fill="#ffffff", ink="#000000", hatched=False)
+    word = Chip(
+        word=words.of(Remark(ReportKind.NOT_JUDGED)), share="", fill="#ffffff", ink="#000000", hatched=False
+    )
     reserve = ""
     if conclusion is not None:
         decision = conclusion.verdict.decision
         share = words.decimal(decision.share_in_words) if not math.isnan(decision.share) else ""
-        word = chip(decision.word, share, words(f"verdict {decision.word}"))
+        word = chip(decision.word, share, word_in(decision.word, words.language))
         figures = words.decimal(conclusion.verdict.reserve.in_figures if conclusion.verdict.reserve else "")
         if figures:
-            caveat = "strip reserve alone" if conclusion.verdict.reserve_doubts else "strip reserve"
-            reserve = words(caveat, reserve=figures)
+            alone = bool(conclusion.verdict.reserve_doubts)
+            kind = ReportKind.RESERVE_OF_MECHANISM if alone else ReportKind.RESERVE_OF_VARIANT
+            reserve = words.of(Remark.of(kind, reserve=figures))
     return VariantCell(
         drawing=drawn_by_hand(shapes, _WIDTH, _HEIGHT, f"{variant.name}, turned, and at rest."),
         name=variant.variant_name,
@@ -99,16 +105,18 @@ def _cell(
 def _difference(variant: Variant, words: Sentences) -> str:
     """By how much the share and the reserve differ from those of the first, where both are known."""
     if variant.first is None:
-        return words("the first")
-    texts = []
+        return words.of(Remark(ReportKind.THE_FIRST))
+    differences = []
     if not math.isnan(variant.share_difference):
         points = round(100 * variant.share_difference)
-        texts.append(
-            words("share differs", points=f"{points:+d}".replace("-", "−")) if points else words("same share")
+        signed = f"{points:+d}".replace("-", "−")
+        differences.append(
+            Remark.of(ReportKind.SHARE_DIFFERS, points=signed) if points else Remark(ReportKind.SAME_SHARE)
         )
     if not math.isnan(variant.reserve_ratio):
-        texts.append(words("reserve differs", ratio=words.number(variant.reserve_ratio, 2)))
-    return ", ".join(texts) or words("no difference")
+        ratio = words.number(variant.reserve_ratio, 2)
+        differences.append(Remark.of(ReportKind.RESERVE_DIFFERS, ratio=ratio))
+    return ", ".join(map(words.of, differences or [Remark(ReportKind.NO_DIFFERENCE)]))
 
 
 def strips_in_html(made: Sequence[Strip]) -> str:

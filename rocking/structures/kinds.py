@@ -75,6 +75,14 @@ class StructureKind(Kind):
         "controllarla, o tralasciarla.",
     )
 
+    # A crack that a survey found.
+    CRACK_KNOWN = auto(), Sentence("crack known (survey)", "posizione della lesione nota (da rilievo)")
+    CRACK_KNOWN_AT = auto(), Sentence(
+        "crack known at {height_m:.6g} m (survey)",
+        "lesione nota a {height_m:.6g} m (da rilievo)",
+        brief="crack known at {height_m:.6g} m",
+    )
+
     # What holds a wall sideways. In motion: the largest forces of ties in 65 walls (theory: what the hold needs).
     TIE_MUST_BEAR = auto(), Sentence(
         "The tie at {height_m:.4g} m has no strength (tie_strength) and is assumed to hold: when the wall "

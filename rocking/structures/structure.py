@@ -731,6 +731,15 @@ class Crackable(Crushable):
     def crack_is_known(self) -> bool:
         return self.crack == "known"
 
+    @property
+    def known_crack(self) -> Remark | None:
+        """That its crack is known, and at what height where one tells it; None of one that may crack anywhere."""
+        if not self.crack_is_known:
+            return None
+        if not math.isfinite(self.crack_position):
+            return Remark(StructureKind.CRACK_KNOWN)
+        return Remark.of(StructureKind.CRACK_KNOWN_AT, height_m=float(self.crack_position))
+
     def _ranked_candidates(self, count: int) -> tuple[Candidate, ...]:
         others = self._may_form(count)
         if not self.crack_is_known:

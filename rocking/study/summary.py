@@ -191,7 +191,7 @@ def _report(
     design = (level, spectra) if level is not None and spectra else None
     panels = [panel for product in made if (panel := product.work.panel(product.rows))]
     findings = [product.conclusion for product in made if product.conclusion]
-    page = summary_data(rows, study.settings.for_pages, design, strips, findings, panels)
+    page = summary_data(rows, study.settings.for_pages, design, strips, findings, panels, study.structures)
     write_document(pdf, page, study.settings.figures)
 
 

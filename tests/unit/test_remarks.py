@@ -94,6 +94,13 @@ def test_every_remark_that_the_package_makes_has_the_values_of_its_sentence():
     assert not wrong
 
 
+def test_every_sentence_of_the_catalogue_is_said_somewhere():
+    """A kind that no code of the package names, but where it is declared, would be one that nobody creates."""
+    sources = (path.read_text(encoding="utf-8") for path in PACKAGE.rglob("*.py") if path.name != "kinds.py")
+    named = set(re.findall(r"\bKind\.([A-Z_]+)\b|\b\w+Kind\.([A-Z_0-9]+)\b", "\n".join(sources)))
+    assert set(KINDS) <= {name.lower() for pair in named for name in pair}
+
+
 @pytest.mark.process
 def test_the_words_of_the_catalogue_stand_in_no_other_test():
     """So that a better word is a change in one place. Of twenty characters and four words: fewer say other things."""

@@ -12,10 +12,10 @@ from rocking.codes.check import Check, DynamicCheck, StructureCheck
 from rocking.codes.code_capacity import LIMIT_STATES, CodeCapacity
 from rocking.codes.selection import Selection
 from rocking.products.checks.rows import KINDS
+from rocking.products.checks.sentences import SignSentences
 from rocking.reports.drawings import draw_bay, draw_dimensions, draw_structure
 from rocking.reports.panels import ZERO, plot
 from rocking.reports.printing import unit_of
-from rocking.reports.sentences import Sentences
 from rocking.reports.style import PREDICTED, PULSE, new_figure, panel_at, room_for_texts, styled
 from rocking.structures import Structure
 from rocking.structures.tied import Tied
@@ -41,7 +41,7 @@ _BAR = 0.24
 
 @styled
 def bars_figure(
-    structure: Structure, checked: StructureCheck, untied: StructureCheck | None, words: Sentences
+    structure: Structure, checked: StructureCheck, untied: StructureCheck | None, words: SignSentences
 ) -> Figure:
     """Draw the mechanism that governs, turned, and beside it capacity over demand of each check on one scale.
 
@@ -122,7 +122,7 @@ def bars_figure(
     return figure
 
 
-def _draw_bar(axes: Axes, place: float, check: Check, words: Sentences, look: dict[str, Any]) -> None:
+def _draw_bar(axes: Axes, place: float, check: Check, words: SignSentences, look: dict[str, Any]) -> None:
     """One bar from 1 on, with its ratio: within it where it is not met, beside it where it is."""
     end = min(max(check.ratio, _LEAST), _MOST)
     axes.barh(place, end - 1, _BAR, 1, linewidth=0.8, zorder=3, **look)
@@ -166,7 +166,7 @@ def _write_beside(axes: Axes, place: float, text: str, **look: Any) -> None:
 
 
 @styled
-def basis_figure(structure: Structure, checked: StructureCheck, words: Sentences) -> Figure:
+def basis_figure(structure: Structure, checked: StructureCheck, words: SignSentences) -> Figure:
     """Draw the structure with its sizes and loads, and the capacity curve of the mechanism that governs."""
     figure = new_figure(_BASIS_HEIGHT)
     bay = structure.bay
@@ -193,7 +193,7 @@ def _to_scale(figure: Figure, axes: Axes) -> None:
     room_for_texts(figure, axes)
 
 
-def _draw_capacity(axes: Axes, mechanism: CodeCapacity, words: Sentences) -> None:
+def _draw_capacity(axes: Axes, mechanism: CodeCapacity, words: SignSentences) -> None:
     """a against d with its limit displacements and the secants whose periods the check takes."""
     side = mechanism.static.side
     bends = np.array(side.bends)

@@ -3,12 +3,11 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
-from pathlib import Path
 
 import numpy as np
 
 from rocking.assessment.conclusion import TO_CHECK, Conclusion
-from rocking.assessment.decide import ORDER, Verdict
+from rocking.assessment.decide import ORDER, Verdict, predicate_in
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.variants import variants
 from rocking.codes.check import (
@@ -30,20 +29,19 @@ from rocking.products.checks.conclusion import CodeConclusion, code_conclusions
 from rocking.products.checks.figures import bars_figure, basis_figure, selection_figure
 from rocking.products.checks.pages import Answer, Basis, SetFigure, Sheet, SignWords, StructuresPage, Sure
 from rocking.products.checks.rows import KINDS, code_check_rows
+from rocking.products.checks.sentences import SignSentences
 from rocking.quantities import GRAVITY, percent
 from rocking.records.design_spectrum import DesignSpectrum, NtcSpectrum, PointSpectrum
 from rocking.remarks import Kind, Remark
 from rocking.reports.pages import Cell, Fact, Footer, PageSettings, Strip, Table
 from rocking.reports.printing import displaying, stamp, strong, table, unit_of
 from rocking.reports.printing import words as or_a_dash
-from rocking.reports.sentences import Sentences
 from rocking.reports.style import picture
 from rocking.reports.variants import strips
 from rocking.structures import Structure
 from rocking.structures.structure import AS_DESCRIBED, Candidate, Crackable
 from rocking.structures.tied import Tied
 
-OWN_SENTENCES = Path(__file__).with_name("sentences.csv")
 _QUANTILE = 1.645
 """The deviation of the normal distribution within which nine tenths lie."""
 _OFTEN = 0.1
@@ -120,7 +118,7 @@ def structures_data(
     be checked would have been checked on. selection: the sets of the dynamic check, None without; without_sets: why
     there are none. unread: the records of the pool that could not be read, each with its reason.
     """
-    words = Sentences(settings.language, OWN_SENTENCES)
+    words = SignSentences(settings.language)
     with displaying(settings):
         spectra: tuple[SetFigure, ...] = ()
         motions = Table()
@@ -152,7 +150,7 @@ def _sheets(
     structures: Sequence[CheckedStructure],
     spectrum: DesignSpectrum,
     terms: CodeTerms,
-    words: Sentences,
+    words: SignSentences,
 ) -> tuple[Sheet, ...]:
     """The page of each structure: at the worst period of its support, with the others as lines."""
     by_name: dict[str, list[CheckedStructure]] = {}
@@ -235,7 +233,7 @@ def _sheets(
     return tuple(pages)
 
 
-def _ratios_and_conclusion(conclusion: CodeConclusion, words: Sentences) -> tuple[str, str]:
+def _ratios_and_conclusion(conclusion: CodeConclusion, words: SignSentences) -> tuple[str, str]:
     """The ratios of the checks of a structure and what follows from them, each in a line."""
     ratios = (
         f"{words(kind)} {words('falls') if ratio == 'falls' else words.decimal(ratio)}"
@@ -245,7 +243,7 @@ def _ratios_and_conclusion(conclusion: CodeConclusion, words: Sentences) -> tupl
     return ", ".join(ratios), words(key, clause=conclusion.decisive.clause)
 
 
-def _place(page: CheckedStructure, words: Sentences) -> str:
+def _place(page: CheckedStructure, words: SignSentences) -> str:
     """Where the structure stands on this page, where that is one place of several."""
     if not page.period:
         return ""
@@ -258,7 +256,7 @@ def _conclusion(
     checked: StructureCheck,
     conclusion: CodeConclusion,
     spectrum: DesignSpectrum,
-    words: Sentences,
+    words: SignSentences,
 ) -> tuple[str, tuple[str, ...]]:
     """The conclusion as a headline, and what there is to say beside it."""
     decisive = conclusion.decisive
@@ -303,12 +301,12 @@ def _conclusion(
     return headline, tuple(details)
 
 
-def _to_check(page: CheckedStructure, words: Sentences) -> list[str]:
+def _to_check(page: CheckedStructure, words: SignSentences) -> list[str]:
     """What has to be checked of what was typed, before anything else is read."""
     return [words.of(each) for each in page.remarks if each.kind in TO_CHECK]
 
 
-def _were_it_unknown(checked: StructureCheck, words: Sentences) -> list[str]:
+def _were_it_unknown(checked: StructureCheck, words: SignSentences) -> list[str]:
     """What the kinematic check would say of a structure whose crack is known, were it not."""
     if checked.were_it_unknown is None:
         return []
@@ -322,7 +320,7 @@ def _were_it_unknown(checked: StructureCheck, words: Sentences) -> list[str]:
     return [words(key, clause=other.clause, ratio=ratio_words(other, words), mechanism=opens)]
 
 
-def _refusal(checked: StructureCheck, words: Sentences) -> str:
+def _refusal(checked: StructureCheck, words: SignSentences) -> str:
     """The conclusion that it is not verified, with the finding of the check that decides."""
     decisive = checked.decisive
     assert decisive is not None
@@ -346,7 +344,7 @@ def _refusal(checked: StructureCheck, words: Sentences) -> str:
 
 
 def _finding(
-    page: CheckedStructure, conclusion: CodeConclusion, spectrum: DesignSpectrum, words: Sentences
+    page: CheckedStructure, conclusion: CodeConclusion, spectrum: DesignSpectrum, words: SignSentences
 ) -> str:
     """What the records of the study say otherwise, and why that is no contradiction; "" where they agree."""
     low, high = (words.number(each / GRAVITY, 2) for each in page.peaks)
@@ -365,7 +363,7 @@ def _finding(
     return ""
 
 
-def _sure(page: CheckedStructure, dynamic: DynamicCheck | None, words: Sentences) -> tuple[Sure, ...]:
+def _sure(page: CheckedStructure, dynamic: DynamicCheck | None, words: SignSentences) -> tuple[Sure, ...]:
     """How sure the conclusion is: figures, each with what it is the figure of."""
     lines: list[tuple[str, str]] = []
     if dynamic is not None:
@@ -387,7 +385,7 @@ def _sure(page: CheckedStructure, dynamic: DynamicCheck | None, words: Sentences
     return tuple(Sure(value=value, text=text) for value, text in lines)
 
 
-def _reserve(page: CheckedStructure, words: Sentences) -> tuple[str, str]:
+def _reserve(page: CheckedStructure, words: SignSentences) -> tuple[str, str]:
     """By how much the records may be stronger, and what there is to say of it: its caveat goes where it goes."""
     lows = np.array([reserve.low for reserve in page.reserves])
     reached = lows[~np.isnan(lows)]
@@ -408,7 +406,7 @@ def _reserve(page: CheckedStructure, words: Sentences) -> tuple[str, str]:
     return f"{words.number(reached.min(), 2)}\u00a0×", words("sure reserve", doubts=doubts)
 
 
-def _assumptions(page: CheckedStructure, mechanism: CodeCapacity, words: Sentences) -> list[str]:
+def _assumptions(page: CheckedStructure, mechanism: CodeCapacity, words: SignSentences) -> list[str]:
     """What the checks take for given, to be confirmed on site."""
     structure = page.structure
     given = [each for each in structure.described.values if each.value is not False]
@@ -416,11 +414,8 @@ def _assumptions(page: CheckedStructure, mechanism: CodeCapacity, words: Sentenc
     lines = [words("assumed sizes", sizes=sizes[:1].upper() + sizes[1:])]
     restitution = min(each.restitution for each in structure.mechanism().sides)
     lines.append(words("assumed restitution", restitution=words.number(restitution, 2)))
-    if isinstance(structure, Crackable) and structure.crack_is_known:
-        position = structure.crack_position
-        known = words("crack known")
-        if math.isfinite(position):
-            known = words("crack known at", height=words.plain(position))
+    if isinstance(structure, Crackable) and structure.known_crack:
+        known = words.of(structure.known_crack)
         lines.append(f"{known[:1].upper()}{known[1:]}.")
     lines += [words.of(each) for each in page.remarks if each.kind not in TO_CHECK]
     lines.append(words("assumed rigid"))
@@ -454,7 +449,7 @@ def _basis(
     conclusion: CodeConclusion,
     everywhere: Sequence[CheckedStructure],
     beside: tuple[Strip, ...],
-    words: Sentences,
+    words: SignSentences,
 ) -> Basis:
     """The page behind it: the capacity curve, the checks with their values, the other places, and the study's share."""
     others = [each for each in everywhere if each is not page]
@@ -471,7 +466,7 @@ def _basis(
     )
 
 
-def _check_table(checked: StructureCheck, words: Sentences) -> Table:
+def _check_table(checked: StructureCheck, words: SignSentences) -> Table:
     heads = [
         (words("head check"), "0.9", "l"),
         (words("head clause"), "auto", "l"),
@@ -499,7 +494,7 @@ def _check_table(checked: StructureCheck, words: Sentences) -> Table:
     return table(heads, lines)
 
 
-def _mechanism_table(page: CheckedStructure, words: Sentences) -> Table:
+def _mechanism_table(page: CheckedStructure, words: SignSentences) -> Table:
     """The weakest mechanism of each kind, and those that were followed, with what holds them back."""
     heads = [
         (words("head what falls"), "2.2", "l"),
@@ -529,7 +524,7 @@ def _mechanism_table(page: CheckedStructure, words: Sentences) -> Table:
     return table(heads, lines)
 
 
-def _falls(candidate: Candidate, words: Sentences) -> str:
+def _falls(candidate: Candidate, words: SignSentences) -> str:
     """What falls, and where it opens."""
     if words.language != "en":
         return _opens(candidate, words)
@@ -539,7 +534,7 @@ def _falls(candidate: Candidate, words: Sentences) -> str:
     return candidate.name if opens in ("", AS_DESCRIBED) else f"{candidate.name}: {opens}"
 
 
-def _holds(candidate: Candidate, largest_forces: Sequence[float], words: Sentences) -> str:
+def _holds(candidate: Candidate, largest_forces: Sequence[float], words: SignSentences) -> str:
     """The force at each height at which something holds it, as it starts and the largest over the records."""
     holds = candidate.reactions if math.isfinite(candidate.uplift_multiplier) else ()
     texts = []
@@ -558,26 +553,26 @@ def _holds(candidate: Candidate, largest_forces: Sequence[float], words: Sentenc
     return "; ".join(texts) or "–"
 
 
-def ratio_words(check: Check, words: Sentences) -> str:
+def ratio_words(check: Check, words: SignSentences) -> str:
     """Return capacity over demand as a page prints it."""
     return words("falls") if not check.ratio else words.decimal(check.ratio_in_words)
 
 
-def _valued(check: Check, value: float, words: Sentences) -> str:
+def _valued(check: Check, value: float, words: SignSentences) -> str:
     if math.isinf(value):  # of the dynamic check alone
         return words("exceeded")
     letter = "d" if check.unit == "m" else "a_g"
     return f"{letter} = {words.quantity(value, check.unit)}"
 
 
-def opening_words(mechanism: CodeCapacity, words: Sentences) -> str:
+def opening_words(mechanism: CodeCapacity, words: SignSentences) -> str:
     """Return what opens, and to which side it falls."""
     if words.language == "en":
         return mechanism.description
     return _opens(mechanism.candidate, words)
 
 
-def _opens(candidate: Candidate, words: Sentences) -> str:
+def _opens(candidate: Candidate, words: SignSentences) -> str:
     """What opens, and to which side it falls."""
     body = candidate.structure
     opening = body.opening if isinstance(body, Tied) else None
@@ -598,7 +593,7 @@ def _opens(candidate: Candidate, words: Sentences) -> str:
     return ", ".join(filter(None, (words(f"alone {candidate.part}") if candidate.part else "", opens, side)))
 
 
-def _sentences(page: CheckedStructure, checked: StructureCheck, words: Sentences) -> list[str]:
+def _sentences(page: CheckedStructure, checked: StructureCheck, words: SignSentences) -> list[str]:
     """The basis of the checks, in sentences."""
     mechanism = checked.governing
     static = mechanism.static
@@ -674,7 +669,7 @@ def _sentences(page: CheckedStructure, checked: StructureCheck, words: Sentences
     return lines
 
 
-def _lowered(checked: StructureCheck, untied: StructureCheck | None, words: Sentences) -> list[str]:
+def _lowered(checked: StructureCheck, untied: StructureCheck | None, words: SignSentences) -> list[str]:
     """The sentence on a tie that brings a mechanism of a lower nonlinear ratio to govern; none where it does not."""
     if untied is None or untied.nonlinear is None or checked.nonlinear is None:
         return []
@@ -690,7 +685,9 @@ def _lowered(checked: StructureCheck, untied: StructureCheck | None, words: Sent
     return [said]
 
 
-def _period_table(others: Sequence[CheckedStructure], conclusion: CodeConclusion, words: Sentences) -> Table:
+def _period_table(
+    others: Sequence[CheckedStructure], conclusion: CodeConclusion, words: SignSentences
+) -> Table:
     """The lines of the other places of a structure on a support: the ratios, the conclusion, the study's share."""
     kinds = [each.check for each in conclusion.checks]
     heads = [(words("head place"), "1.4", "l"), *((words(kind), "0.8", "r") for kind in kinds)]
@@ -713,12 +710,12 @@ def _period_table(others: Sequence[CheckedStructure], conclusion: CodeConclusion
     return table(heads, lines)
 
 
-def _share(page: CheckedStructure, words: Sentences) -> str:
+def _share(page: CheckedStructure, words: SignSentences) -> str:
     """What the study says of the structure there: its words by station, with their doubts."""
     counts = ", ".join(
         words(
             "under",
-            predicate=words(f"predicate {word}"),
+            predicate=predicate_in(word, words.language),
             count=words.counted(page.verdicts[word], "station"),
         )
         for word in ORDER
@@ -734,7 +731,7 @@ def _share(page: CheckedStructure, words: Sentences) -> str:
     return text[:1].upper() + text[1:]
 
 
-def _spectrum_words(spectrum: DesignSpectrum, words: Sentences) -> str:
+def _spectrum_words(spectrum: DesignSpectrum, words: SignSentences) -> str:
     damping = words.number(100 * spectrum.damping, 2)
     if isinstance(spectrum, NtcSpectrum):
         return words(
@@ -757,7 +754,7 @@ def _spectrum_words(spectrum: DesignSpectrum, words: Sentences) -> str:
     )
 
 
-def _selection_words(selection: Selection, words: Sentences) -> str:
+def _selection_words(selection: Selection, words: SignSentences) -> str:
     """The deviations and scale factors of the chosen set."""
     low, high = selection.deviations
     factors = selection.factors[selection.chosen]
@@ -778,7 +775,7 @@ def _selection_words(selection: Selection, words: Sentences) -> str:
     )
 
 
-def _motion_table(selection: Selection, words: Sentences) -> Table:
+def _motion_table(selection: Selection, words: SignSentences) -> Table:
     """The records of the chosen set, each with its factor and its peak when scaled."""
     peak = unit_of("m/s²")
     heads = [

@@ -11,7 +11,7 @@ import pytest
 
 import rocking
 from rocking import Block, CapacityCurve, DesignSpectrum, Facade, check
-from rocking.assessment.decide import Verdict
+from rocking.assessment.decide import Verdict, predicate_in, word_in
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.reserve import Reserve
 from rocking.codes.check import Part
@@ -19,15 +19,19 @@ from rocking.codes.kinds import CheckKind
 from rocking.codes.selection import random_sets, search
 from rocking.errors import RockingError
 from rocking.products.checks.pages import SignWords
-from rocking.products.checks.report import OWN_SENTENCES, CheckedStructure, structures_data
+from rocking.products.checks.report import CheckedStructure, structures_data
+from rocking.products.checks.rows import KINDS
+from rocking.products.checks.sentences import SignSentences, catalogue
 from rocking.remarks import Language, Remark
 from rocking.reports.pages import Picture
 from rocking.reports.printing import displaying
-from rocking.reports.sentences import Sentences, catalogue
+from rocking.reports.sentences import Sentences
+from rocking.structures.names import ITALIAN as ITALIAN_NAMES
+from rocking.structures.names import OPTIONS
 from rocking.structures.structure_list import TYPES
 from rocking.study.settings import Settings
 
-ITALIAN = Sentences("it", OWN_SENTENCES)
+ITALIAN = SignSentences("it")
 SPECTRUM = DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35, soil="C")
 
 
@@ -35,16 +39,16 @@ def named(text):
     return sorted({name for _, name, _, _ in Formatter().parse(text) if name})
 
 
-@pytest.mark.parametrize("key", catalogue(OWN_SENTENCES))
+@pytest.mark.parametrize("key", catalogue())
 def test_both_languages_name_the_same_values(key):
-    texts = catalogue(OWN_SENTENCES)[key]
+    texts = catalogue()[key]
     assert named(texts["it"]) == named(texts["en"])
     assert all(texts[language] for language in get_args(Language))
 
 
 def test_a_sentence_that_lacks_a_language_is_refused(monkeypatch, tmp_path):
     (tmp_path / "sentences.csv").write_text("key,en,it\ntitle,Checks,\n")
-    monkeypatch.setattr("rocking.reports.sentences.__file__", str(tmp_path / "sentences.py"))
+    monkeypatch.setattr("rocking.products.checks.sentences.__file__", str(tmp_path / "sentences.py"))
     with pytest.raises(ValueError, match="title"):
         catalogue.__wrapped__()
 
@@ -54,14 +58,18 @@ FIELDS = [field for form in TYPES.values() for each in form for field in each.fi
 
 def test_every_word_that_code_looks_up_stands_in_the_catalogue():
     keys = [
-        *(f"{place} {word}" for word in Verdict for place in ("predicate", "verdict")),
         *(f"part {part}" for part in Part),
-        *(f"field {field.name}" for field in FIELDS),
-        *(f"value {option}" for field in FIELDS for option in field.options),
+        *(f"check {kind}" for kind in KINDS.values()),
     ]
-    assert set(keys) <= set(catalogue(OWN_SENTENCES))
-    looked_up = {key for key in keys if key.startswith(("field ", "value "))}
-    assert looked_up == {key for key in catalogue(OWN_SENTENCES) if key.startswith(("field ", "value "))}
+    assert set(keys) <= set(catalogue())
+
+
+def test_each_key_of_a_structure_and_each_verdict_has_its_name_in_every_language():
+    assert set(ITALIAN_NAMES) == {field.name for field in FIELDS}
+    assert set(OPTIONS) == {option for field in FIELDS for option in field.options}
+    for language in get_args(Language):
+        for said in (word_in, predicate_in):
+            assert len({said(word, language) for word in Verdict}) == len(Verdict)
 
 
 def test_a_page_says_what_stands_behind_in_the_words_of_its_language():
@@ -92,10 +100,7 @@ def test_every_sentence_of_the_catalogue_is_looked_up():
     """By its whole key, or by one whose end is a name of a kind, a word, a part or a field."""
     source = "".join(
         (Path(rocking.__file__).parent / f"{name}.py").read_text()
-        for name in (
-            *("products/checks/report", "products/checks/figures"),
-            *("reports/sentences", "reports/variants"),
-        )
+        for name in (*("products/checks/report", "products/checks/figures", "products/checks/sentences"),)
     )
     prefixes = re.findall(r'f"([a-z ]+ )\{', source)
     looked_up = set(re.findall(r'"([a-zA-Z &,-]+)"', source)) | {
@@ -106,7 +111,7 @@ def test_every_sentence_of_the_catalogue_is_looked_up():
     computed |= {"study", "client", "project number", "author", "date"}  # what a study is told to be
     unused = [
         key
-        for key in catalogue(OWN_SENTENCES)
+        for key in catalogue()
         if key not in looked_up | computed and not any(key.startswith(each) for each in prefixes)
     ]
     assert unused == []

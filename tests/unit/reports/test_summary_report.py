@@ -28,16 +28,20 @@ from rocking.products.fragility.report import fragility_data, fragility_figure, 
 from rocking.products.fragility.rows import FragilityRow, FragilitySummaryRow, IdaRow, IntensityMeasureRow
 from rocking.products.fragility.work import Fragilities
 from rocking.records.measures import response_spectrum
+from rocking.remarks import Remark
 from rocking.reports.design_figure import (
     MOST_LINES,
     component_spectra,
     design_summary_figure,
     spectrum_periods,
 )
+from rocking.reports.explore import explore_page
 from rocking.reports.pages import Part, TableCell
 from rocking.reports.scatter import prediction_scatter
 from rocking.reports.style import svg
 from rocking.reports.summary import outcomes_figure, severity_map, summary_data
+from rocking.structures import Wall
+from rocking.structures.kinds import StructureKind
 from rocking.tables import frame
 from tests.unit.assessment.made_rows import case as run
 from tests.unit.assessment.made_rows import filled, station, verdicts
@@ -118,6 +122,18 @@ def test_the_summary_counts_the_verdicts_of_each_structure_and_names_its_worst_r
         r">(wall|pier|arch|▲ overturns|≈ uncertain|○ probably stands|● stands)<", svg(outcomes_figure(judged))
     )
     assert sorted(drawn[:3]) == ["arch", "pier", "wall"] and len(drawn) == 7
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_the_summary_and_the_page_to_explore_say_whose_crack_is_known():
+    wall = Wall.of_size(3.2, 0.25, 1.6)
+    structures = {"known": replace(wall, crack="known"), "free": wall}
+    judged = [verdict("one", name, 0.5, 4) for name in structures]
+    data = summary_data(summary_tables(CASES, verdicts=judged), SETTINGS, structures=structures)
+    known = str(Remark.of(StructureKind.CRACK_KNOWN_AT, height_m=1.6))
+    assert {row[0].text: row[0].below for row in data.structures.table.rows} == {"known": known, "free": ""}
+    page = explore_page([], structures).decode()
+    assert page.count(known[1:]) == 1
 
 
 @pytest.mark.usefixtures("undrawn")

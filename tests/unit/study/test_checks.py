@@ -22,7 +22,7 @@ from rocking.codes.kinds import CheckKind
 from rocking.errors import ConfigurationError
 from rocking.motion.response import ModelCheck
 from rocking.products.checks.conclusion import code_conclusion_in_words, code_conclusions
-from rocking.products.checks.report import OWN_SENTENCES, CheckedStructure, structures_data
+from rocking.products.checks.report import CheckedStructure, structures_data
 from rocking.products.checks.rows import CodeCheckRow, code_check_rows
 from rocking.products.checks.work import Checks, write_checks
 from rocking.remarks import Kind, Remark
@@ -367,12 +367,12 @@ def test_a_structure_that_only_its_tie_holds_says_so():
 def test_a_page_says_that_a_crack_is_known_and_what_the_check_would_be_were_it_not(language):
     spectrum = DesignSpectrum.ntc(0.2 * 9.80665, 2.4, 0.35)
     wall = Wall.of_size(3.2, 0.25, 1.6, crack="known")
-    words = Sentences(language, OWN_SENTENCES)
+    words = Sentences(language)
     told = {}
     for each in (wall, replace(wall, crack=None)):
         page = CheckedStructure(name="wall", structure=each, checked=check(each, spectrum))
         (told[each.crack],) = structures_data([page], spectrum, Settings(language=language).for_pages).sheets
-    known = words("crack known at", height=words.plain(1.6))
+    known = words.of(Remark.of(StructureKind.CRACK_KNOWN_AT, height_m=1.6))
     assert f"{known[:1].upper()}{known[1:]}." in told["known"].answers[0].assumptions
     assert not any(known in line.lower() for line in told[None].answers[0].assumptions)
     (other,) = (each for each in told["known"].details if words.number(0.888) in each)
