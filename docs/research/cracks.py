@@ -58,6 +58,8 @@ SCALES = 2
 """Trials of each kind of member under each record."""
 UNIT_WEIGHT = 18e3
 """Of the masonry, N/m³."""
+RISK = 0.05
+"""Share of an ensemble up to which a mechanism stands, as in a study."""
 STEP = 2e-4
 """Time step of the stacks, s: a rotation is then within 1.5 % of its limit, from below."""
 LMGC90_STEP = 2e-3
@@ -324,6 +326,7 @@ def crack_scores(rows: Sequence[CrackRow]) -> Iterator[scores.Score]:
             'survivals among "overturns"': (~own.falls).where(own.verdict == Verdict.OVERTURNS),
             "open": ~own.verdict.map(lambda word: word.is_sure),
             "falls at the joint of least λ": (own.opened == own.static_joint).where(own.falls),
+            f"falls where at most {RISK:.0%} overturn at any joint": own.falls.where(own.largest_share <= RISK),
             "falls or stands as in LMGC90": as_lmgc90,
         }
         yield from scores.scored("governing crack", kind, measures, sample_of(own.site, own.earthquake))
