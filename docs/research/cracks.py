@@ -326,7 +326,9 @@ def crack_scores(rows: Sequence[CrackRow]) -> Iterator[scores.Score]:
             'survivals among "overturns"': (~own.falls).where(own.verdict == Verdict.OVERTURNS),
             "open": ~own.verdict.map(lambda word: word.is_sure),
             "falls at the joint of least λ": (own.opened == own.static_joint).where(own.falls),
-            f"falls where at most {RISK:.0%} overturn at any joint": own.falls.where(own.largest_share <= RISK),
+            f"falls where at most {RISK:.0%} overturn at any joint": own.falls.where(
+                own.largest_share <= RISK
+            ),
             "falls or stands as in LMGC90": as_lmgc90,
         }
         yield from scores.scored("governing crack", kind, measures, sample_of(own.site, own.earthquake))
