@@ -369,6 +369,9 @@ class Wall(CrackedWall):
         η in [0, 1] or "momentum" (the default): the impulses at the hinges of the mirrored mechanism do no
         work on it. For equal blocks that is (1 − 4.5 sin²α)/(1 + 3 sin²α), which reaches 0 at sin²α = 2/9;
         squatter walls get 0 and a StructureWarning.
+    one_sided : bool, default False
+        Whether it leans on cross walls and bends outwards only, thrown back at every impact; it needs a
+        restitution number.
     restitution_range : float or None, optional
         η is known to plus or minus this much; None: as the settings of the ensemble say.
     leaves : tuple of float, optional
@@ -572,15 +575,12 @@ class LoadedWall(CrackedWall, Tied):
         Force of a rod at rest, N; needs `one_sided`.
     loaded_leaf : {'inner', 'outer'} or None, optional
         The leaf on which loads bear; None: the inner one.
-    one_sided : bool, default False
-        Whether it bends outwards only; needs a restitution number.
     opening : Opening or None, optional
         Which of its mechanisms this is alone; None of a structure as it is listed.
     held_at : tuple of float, optional
         Heights at which the rest of a wall holds this leaf of it, m; () of a structure as it is listed.
     one_sided : bool, default False
-        Whether it leans on cross walls and bends outwards only, thrown back at every impact; it needs a
-        restitution number.
+        Whether it bends outwards only; needs a restitution number.
     top_friction : float or None, optional
         Friction coefficient between load and wall, by which the load holds the top; None: as the settings
         say. Without any it never slips, and a top without a load is held.
