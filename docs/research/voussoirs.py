@@ -44,7 +44,7 @@ from rocking.tables import column, read_rows, row, write_rows
 
 CAMPAIGN = 14
 """Structures and scales are drawn anew for each campaign."""
-TRIALS = {"arch": 6, "arch on piers": 2, "frame of two columns": 3}
+TRIALS = {"arch": 8, "arch on piers": 2, "frame of two columns": 3}
 """Under one component of each site."""
 UPLIFTS = {"arch": (1.1, 3.0), "arch on piers": (1.1, 3.0), "frame of two columns": (1.1, 5.0)}
 """Ranges of peak acceleration over the least uplift acceleration to which records are scaled, log-uniform."""
