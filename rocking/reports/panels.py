@@ -75,8 +75,10 @@ def plot(thing: object, axes: Axes | None = None, **options: Any) -> Axes:
     """
     names = [kind.__name__ for kind in type(thing).__mro__ if kind.__name__ in _PLOTS]
     if not names:
-        raise RockingError(
-            f"thing is {shown(thing)}, but must be something that has a picture: {', '.join(sorted(_PLOTS))}."
+        raise RockingError.naming(
+            "thing",
+            thing,
+            f"thing is {shown(thing)}, but must be something that has a picture: {', '.join(sorted(_PLOTS))}.",
         )
     draw = _PLOTS[names[0]]
     if axes is None:

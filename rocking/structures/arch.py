@@ -137,10 +137,12 @@ class Arch(Crackable):
 
     def __post_init__(self) -> None:
         if self.restitution == "momentum":
-            raise StructureError(
+            raise StructureError.naming(
+                "restitution",
+                "momentum",
                 "restitution is 'momentum', but that balance takes more speed from an arch than its hinges do, on "
                 "the unsafe side; give a number, such as the default of 0.9, or, of an arch without piers, "
-                f"{UNSAFE_MOMENTUM!r} to take it all the same."
+                f"{UNSAFE_MOMENTUM!r} to take it all the same.",
             )
         super().__post_init__()
         if self.thickness >= 2 * self.radius:
@@ -176,9 +178,11 @@ class Arch(Crackable):
             return self._as_crushed(lambda ring: onset_at(ring, np.array(self.hinge_angles)))
         except (NoMechanism, TooThin, ValueError):
             angles = ", ".join(f"{angle:.6g}" for angle in np.degrees(self.hinge_angles))
-            raise StructureError(
+            raise StructureError.naming(
+                "hinge_angles",
+                self.hinge_angles,
                 f"hinge_angles is {angles}°, but must be four angles of a mechanism that turns about the intrados "
-                "at the first and the third and about the extrados at the others; leave it out for those of statics."
+                "at the first and the third and about the extrados at the others; leave it out for those of statics.",
             ) from None
 
     def _may_form(self, count: int) -> tuple[Candidate, ...]:
@@ -279,11 +283,15 @@ class Arch(Crackable):
             return self._as_crushed(static_onset)
         except (TooThin, NoMechanism) as reason:
             if whole is not None:
-                raise DoesNotStandError(
+                raise DoesNotStandError.naming(
+                    "compressive_strength",
+                    self.compressive_strength,
                     f"{self._sentence} does not stand or rock where its joints crush at a compressive_strength of "
-                    f"{self.compressive_strength!r} Pa."
+                    f"{self.compressive_strength!r} Pa.",
                 ) from None
-            raise StructureError(f"{self._sentence} {self._refusal(type(reason))}.") from None
+            raise StructureError.naming(
+                "thickness", self.thickness, f"{self._sentence} {self._refusal(type(reason))}."
+            ) from None
 
     def _refusal(self, reason: type[StructureError]) -> str:
         limit = limiting_thickness(self.ring, reason) * self.radius

@@ -269,9 +269,11 @@ class RigidBody(Crushable):
     def stack(self, courses: int | None = None) -> Stack:
         """Return it as one body, as high as twice its centre of mass, for its courses are not known."""
         if courses not in (None, 1):
-            raise StructureError(
+            raise StructureError.naming(
+                "courses",
+                courses,
                 f"courses is {courses!r}, but must be 1 for a body that is known by its centre of mass only; leave "
-                "it out."
+                "it out.",
             )
         face = (-self.left, self.right)
         body = Course(

@@ -106,34 +106,46 @@ class CapacityCurve(Structure):
         displacements = self.displacements
         multipliers = self.multipliers
         if len(displacements) != len(multipliers) or len(displacements) < 2:
-            raise StructureError(
+            raise StructureError.naming(
+                "displacements",
+                displacements,
                 f"the curve has {len(displacements)} displacements and {len(multipliers)} multipliers, but must have "
-                "as many of both, and two at least."
+                "as many of both, and two at least.",
             )
         if displacements[0] != 0:
-            raise StructureError(
-                f"the curve begins at a displacement of {displacements[0]!r} m, but must begin at 0."
+            raise StructureError.naming(
+                "displacements",
+                displacements[0],
+                f"the curve begins at a displacement of {displacements[0]!r} m, but must begin at 0.",
             )
         for before, after in pairwise(displacements):
             if after <= before:
-                raise StructureError(
+                raise StructureError.naming(
+                    "displacements",
+                    after,
                     f"the curve has a displacement of {after!r} m after {before!r} m, but they must ascend; sort the "
-                    "points, and leave one of two at the same displacement out."
+                    "points, and leave one of two at the same displacement out.",
                 )
         if not multipliers[0] > 0:
-            raise StructureError(
+            raise StructureError.naming(
+                "multipliers",
+                multipliers[0],
                 f"the curve begins with a multiplier of {multipliers[0]!r}, but must begin above 0, with the one at "
-                "which the mechanism opens; leave its elastic branch out."
+                "which the mechanism opens; leave its elastic branch out.",
             )
         if min(multipliers) > 0:
-            raise StructureError(
+            raise StructureError.naming(
+                "multipliers",
+                multipliers[-1],
                 f"the curve ends with a multiplier of {multipliers[-1]!r} at {displacements[-1]!r} m and never reaches "
-                "0, but must, for that is where it overturns; give its points up to there."
+                "0, but must, for that is where it overturns; give its points up to there.",
             )
         if not self._reach > 0:
-            raise StructureError(
+            raise StructureError.naming(
+                "multipliers",
+                multipliers[0],
                 f"the curve begins with a multiplier of {multipliers[0]!r} and comes down to 0 at once, but must bear "
-                "something up to a displacement above 0; give it as it is there."
+                "something up to a displacement above 0; give it as it is there.",
             )
 
     @classmethod
@@ -155,7 +167,9 @@ class CapacityCurve(Structure):
         Raises StructureError naming what is missing or no number.
         """
         if not isinstance(file, str | Path):
-            raise StructureError(f"file is {file!r}, but must be a text, the name of a CSV file.")
+            raise StructureError.naming(
+                "file", file, f"file is {file!r}, but must be a text, the name of a CSV file."
+            )
         displacements, loads, head = _points(Path(file))
         units = {
             "force_kN": 1e3 / weight,
@@ -163,9 +177,11 @@ class CapacityCurve(Structure):
             "acceleration_m_s2": mass_ratio / GRAVITY,
         }
         if mass_ratio != 1 and not head.startswith("acceleration"):
-            raise StructureError(
+            raise StructureError.naming(
+                "mass_ratio",
+                mass_ratio,
                 f"mass_ratio is {mass_ratio!r}, but a {head} takes none, as it stands before the division by e*; leave "
-                "it out."
+                "it out.",
             )
         return cls(
             tuple(displacements),
@@ -307,9 +323,11 @@ def _points(path: Path) -> tuple[list[float], list[float], str]:
             displacements.append(_DISPLACEMENTS[heads[place]] * float(cells[place]))
             loads.append(float(cells[other]))
         except (IndexError, ValueError):
-            raise StructureError(
+            raise StructureError.naming(
+                heads[place],
+                cells,
                 f"{path}, line {number}, holds {shown(','.join(cells))}, but must hold a number under {heads[place]} "
-                f"and under {heads[other]}."
+                f"and under {heads[other]}.",
             ) from None
     return displacements, loads, heads[other]
 
@@ -318,7 +336,9 @@ def _only(path: Path, heads: Sequence[str], allowed: Sequence[str] | set[str] | 
     """The place of the one head that is allowed."""
     found = [place for place, head in enumerate(heads) if head in allowed]
     if len(found) != 1:
-        raise StructureError(
-            f"{path} has the columns {shown(', '.join(heads))}, but must have one of {', '.join(sorted(allowed))}."
+        raise StructureError.naming(
+            "columns",
+            heads,
+            f"{path} has the columns {shown(', '.join(heads))}, but must have one of {', '.join(sorted(allowed))}.",
         )
     return found[0]

@@ -235,13 +235,17 @@ class Facade(Tied):
         thicknesses = self.thicknesses
         loads = self.floor_loads
         if len(heights) > _MOST_STOREYS:
-            raise StructureError(
-                f"storey_heights has {len(heights)} values, but must have {_MOST_STOREYS} at most."
+            raise StructureError.naming(
+                "storey_heights",
+                heights,
+                f"storey_heights has {len(heights)} values, but must have {_MOST_STOREYS} at most.",
             )
         for name, values in (("thicknesses", thicknesses), ("floor_loads", loads or heights)):
             if len(values) != len(heights):
-                raise StructureError(
-                    f"{name} has {counted(len(values), 'value')}, but must have {len(heights)}, one for each storey."
+                raise StructureError.naming(
+                    name,
+                    values,
+                    f"{name} has {counted(len(values), 'value')}, but must have {len(heights)}, one for each storey.",
                 )
         bearing = [t for load, t in zip(loads, thicknesses, strict=False) if load]
         check_eccentricity(value=self.eccentricity, thickness=min(bearing or thicknesses))
@@ -255,9 +259,11 @@ class Facade(Tied):
             check_inside("thrust_height", self.thrust_height, self.height)
         # A crack_storey of 1 with a crack_height was once the default, and still occurs in files.
         if self.crack_height is not None and self.crack_storey not in (None, 1):
-            raise StructureError(
+            raise StructureError.naming(
+                "crack_height",
+                self.crack_height,
                 f"crack_height is {self.crack_height!r} m and crack_storey {self.crack_storey}, but one crack is "
-                "meant; give one of them."
+                "meant; give one of them.",
             )
         if self.crack_height is not None and not self.crack_height < self.height:
             raise SizeError.of(
@@ -545,9 +551,11 @@ class Facade(Tied):
     def _flat_slab(self, thickness: float, load: float) -> Course:
         """The uppermost floor as a body that stays flat and moves along."""
         if self.loads_held:
-            raise StructureError(
+            raise StructureError.naming(
+                "loads_held",
+                True,
                 "loads_held is true under a flat slab, but contact dynamics needs the mass of a slab; leave loads_held "
-                "out, or choose another fidelity than contact."
+                "out, or choose another fidelity than contact.",
             )
         return slab(-thickness, 0.0, self.height, load, upright=True)
 

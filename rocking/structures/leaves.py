@@ -149,9 +149,11 @@ class Leaved(Structure):
                     structure.mechanism()
                 alone.append(LeafAlone(name, structure))
             except DoesNotStandError as wrong:
-                raise DoesNotStandError(
+                raise DoesNotStandError.naming(
+                    "leaves",
+                    self.leaves,
                     f"leaves is {list(self.leaves)!r} m, but the {name} alone does not stand under its loads at rest; "
-                    "mend its loads or its sizes."
+                    "mend its loads or its sizes.",
                 ) from wrong
         return tuple(alone)
 

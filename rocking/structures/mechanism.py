@@ -202,13 +202,17 @@ class Side:
 
     def __post_init__(self) -> None:
         if self.ties and self.untied_gravity is None:
-            raise StructureError(
-                "untied_gravity is missing, but must be given with ties; it is G without them."
+            raise StructureError.naming(
+                "untied_gravity",
+                None,
+                "untied_gravity is missing, but must be given with ties; it is G without them.",
             )
         critical = positive(StructureError, "critical_rotation", self.critical_rotation, "rad")
         if not self.end_rotation > critical:
-            raise StructureError(
-                f"end_rotation is {self.end_rotation!r} rad, but must exceed critical_rotation = {critical!r} rad."
+            raise StructureError.naming(
+                "end_rotation",
+                self.end_rotation,
+                f"end_rotation is {self.end_rotation!r} rad, but must exceed critical_rotation = {critical!r} rad.",
             )
         object.__setattr__(
             self, "restitution", within(StructureError, "restitution", self.restitution, low=0, high=1)
@@ -217,8 +221,10 @@ class Side:
             for name in names:
                 value = self.at(name, at)
                 if not value > 0:
-                    raise StructureError(
-                        f"{name} is {value!r} at a rotation of {at!r} rad, but must be positive there."
+                    raise StructureError.naming(
+                        name,
+                        value,
+                        f"{name} is {value!r} at a rotation of {at!r} rad, but must be positive there.",
                     )
 
     def __repr__(self) -> str:
@@ -298,7 +304,9 @@ class Side:
         mean = (linearised + alternative) / 2
         scales = {"exact_at_rest": alternative, "linearised": linearised, "uplift": alternative, "mean": mean}
         if scale not in scales:
-            raise StructureError(f"scale is {scale!r}, but must be one of {', '.join(scales)}.")
+            raise StructureError.naming(
+                "scale", scale, f"scale is {scale!r}, but must be one of {', '.join(scales)}."
+            )
         block = EquivalentBlock(
             frequency_parameter=self.frequency_parameter,
             critical_rotation=self.critical_rotation,
@@ -357,8 +365,10 @@ class Mechanism(Drawn):
 
     def __post_init__(self) -> None:
         if self.one_sided and self.negative is not None:
-            raise StructureError(
-                "negative is given, but a one-sided mechanism has the positive side only; leave it out."
+            raise StructureError.naming(
+                "negative",
+                self.negative,
+                "negative is given, but a one-sided mechanism has the positive side only; leave it out.",
             )
 
     def __repr__(self) -> str:
@@ -476,8 +486,10 @@ class Mechanism(Drawn):
     def side_of(self, rotation: np.ndarray, velocity: np.ndarray) -> np.ndarray:
         """Return the side of each state, 1 or −1: the sign of the rotation, at 0 of the velocity; positive at rest."""
         if self.one_sided and (rotation < 0).any():
-            raise StructureError(
-                "rotation is negative, but a one-sided mechanism rocks to the positive side only."
+            raise StructureError.naming(
+                "rotation",
+                rotation,
+                "rotation is negative, but a one-sided mechanism rocks to the positive side only.",
             )
         negative = (rotation < 0) | ((rotation == 0) & (velocity < 0) & (not self.one_sided))
         return np.where(negative, -1.0, 1.0)

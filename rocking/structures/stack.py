@@ -187,8 +187,10 @@ class Stack:
                     f"{lower.base + lower.height:.6g} m; give courses that touch."
                 )
         if not self.friction >= 0:
-            raise StructureError(
-                f"friction is {self.friction!r}, but must be 0 or more; give the coefficient of the joints."
+            raise StructureError.naming(
+                "friction",
+                self.friction,
+                f"friction is {self.friction!r}, but must be 0 or more; give the coefficient of the joints.",
             )
         for held in self.held:
             if not 0 <= held.course < len(self.courses):

@@ -269,8 +269,10 @@ class Structure(ABC):
         """
         mechanism = self.mechanism()
         if side not in (1, -1) or (side == -1 and mechanism.one_sided):
-            raise StructureError(
-                f"side is {side!r}, but must be 1, or -1 where the structure rocks to both sides."
+            raise StructureError.naming(
+                "side",
+                side,
+                f"side is {side!r}, but must be 1, or -1 where the structure rocks to both sides.",
             )
         known: dict[int, StaticCapacity] = self.__dict__.setdefault("_capacities", {})
         if side not in known:

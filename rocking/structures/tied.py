@@ -278,9 +278,11 @@ class Tied(CrackedAtHeight, Leaved):
     def _check_plane(self) -> None:
         """Refuse a stack, which is plane, of a wall that may fall between its ties."""
         if self.ties_apart:
-            raise StructureError(
+            raise StructureError.naming(
+                "tie_spacing",
+                self.tie_spacing,
                 "tie_spacing lets the wall fall between its ties, where a plane stack of courses holds it all along, "
-                "so that contact dynamics cannot follow it; choose another fidelity than contact."
+                "so that contact dynamics cannot follow it; choose another fidelity than contact.",
             )
 
     @property

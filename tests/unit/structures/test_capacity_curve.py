@@ -128,7 +128,7 @@ def test_the_curve_that_ended_every_record_of_its_study_is_followed():
 
 
 def test_a_curve_that_bears_nothing_up_to_any_displacement_is_refused():
-    with pytest.raises(StructureError, match="comes down to 0 at once"):
+    with refused(StructureError, "multipliers", 5e-324):
         CapacityCurve((0.0, 0.1), (5e-324, -100.0), weight=1e3, restitution=0.9)
 
 
@@ -231,7 +231,7 @@ def test_a_file_that_is_not_there_is_named(tmp_path):
 
 def test_a_multiplier_takes_no_mass_ratio(tmp_path):
     path = _written(tmp_path, "displacement_m,multiplier\n0,0.2\n0.4,0\n")
-    with pytest.raises(StructureError, match="a multiplier takes none"):
+    with refused(StructureError, "mass_ratio", 0.9):
         CapacityCurve.read(path, weight=50e3, restitution=0.8, mass_ratio=0.9)
 
 

@@ -12,18 +12,18 @@ TIED = {"tie_heights": (1.6,), "tie_strength": 4e3}
 
 
 @pytest.mark.parametrize(
-    ("make", "says"),
+    ("make", "field"),
     [
-        (lambda: rocking.LoadedWall(1.6, 1.6, 0.25, 20e3, tie_stiffness=5e-324, **TIED), "at least 1e-12"),
-        (lambda: rocking.LoadedWall(1.6, 1.6, 0.25, 20e3, tie_stiffness=1e308, **TIED), "from 0 to 1e"),
-        (lambda: rocking.Facade((3.5,), (0.6,), 1e308), "unit_weight is 1e.305 kN/m³"),
-        (lambda: rocking.structure_from_config({"type": "x" * 3_000_000}), "3000002 characters"),
-        (lambda: rocking.structure_from_config({"type": "wall", "h" * 3_000_000: 1}), "3000002 characters"),
-        (lambda: rocking.plot(3), "thing is 3, but must be something that has a picture: Accelerogram"),
+        (lambda: rocking.LoadedWall(1.6, 1.6, 0.25, 20e3, tie_stiffness=5e-324, **TIED), "tie_stiffness"),
+        (lambda: rocking.LoadedWall(1.6, 1.6, 0.25, 20e3, tie_stiffness=1e308, **TIED), "tie_stiffness"),
+        (lambda: rocking.Facade((3.5,), (0.6,), 1e308), "unit_weight"),
+        (lambda: rocking.structure_from_config({"type": "x" * 3_000_000}), "type"),
+        (lambda: rocking.structure_from_config({"type": "wall", "h" * 3_000_000: 1}), "h" * 3_000_000),
+        (lambda: rocking.plot(3), "thing"),
     ],
 )
-def test_extreme_values_are_refused_in_one_short_sentence(make, says):
-    with pytest.raises(RockingError, match=says) as caught:
+def test_extreme_values_are_refused_in_one_short_sentence(make, field):
+    with refused(RockingError, field) as caught:
         make()
     assert str(caught.value).endswith((".", ")")) and "\n" not in str(caught.value)
     assert len(str(caught.value)) < 600

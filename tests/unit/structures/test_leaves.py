@@ -18,6 +18,7 @@ from rocking.structures import Block, Facade, LoadedWall, Wall
 from rocking.structures.building_parts import FreeWall
 from rocking.structures.held_wall import Storey
 from rocking.structures.kinds import StructureKind
+from tests.refusals import refused
 
 G = 9.80665
 SIZES = {
@@ -305,41 +306,32 @@ def test_contact_dynamics_follows_each_leaf():
 
 
 @pytest.mark.parametrize(
-    ("kind", "values", "words"),
+    ("kind", "values", "key", "value"),
     [
-        ("wall", {"leaves_m": [0.3, 0.3]}, r"leaves_m is \[0.3, 0.3\] m, but must add up to no more than"),
-        ("facade", {"leaves_m": [0.3, 0.3]}, r"no more than the thickness of the wall, 0.5 m"),
-        ("wall", {"leaves_m": [0.3]}, r"leaves_m is \[0.3\] m, but must be two or three thicknesses"),
-        ("wall", {"leaves_m": [0.1] * 4}, "must be two or three thicknesses"),
-        ("wall", {"leaves_m": [0.2, -0.1]}, "leaves_m is"),
-        (
-            "free_wall",
-            {"leaves_m": [0.2, 0.2], "bonders_m": [2.5]},
-            "bonders_m is 2.5 m, but must lie on the wall",
-        ),
-        (
-            "free_wall",
-            {"leaves_m": [0.2, 0.2], "bonders_m": 2.5},
-            "bonders_m is 2.5 m, but must be a spacing below",
-        ),
-        ("gable", {"bonders_m": 0.8}, "bonders_m is 0.8, but says what holds the leaves"),
-        ("parapet", {"thrown_back": 0.8}, "thrown_back is 0.8, but says what holds the leaves"),
-        ("parapet", {"leaves_m": [0.2, 0.2], "thrown_back": 1.8}, "thrown_back is 1.8"),
-        ("loaded_wall", {"loaded_leaf": "outer"}, "loaded_leaf is 'outer', but says which of its leaves"),
-        ("buttress", {"leaves_m": [0.2, 0.2]}, "leaves_m is not a key of a buttress"),
+        ("wall", {"leaves_m": [0.3, 0.3]}, "leaves_m", "[0.3, 0.3]"),
+        ("facade", {"leaves_m": [0.3, 0.3]}, "leaves_m", "[0.3, 0.3]"),
+        ("wall", {"leaves_m": [0.3]}, "leaves_m", "[0.3]"),
+        ("wall", {"leaves_m": [0.1] * 4}, "leaves_m", "[0.1, 0.1, 0.1, 0.1]"),
+        ("wall", {"leaves_m": [0.2, -0.1]}, "leaves_m", "[0.2, -0.1]"),
+        ("free_wall", {"leaves_m": [0.2, 0.2], "bonders_m": [2.5]}, "bonders_m", "2.5"),
+        ("free_wall", {"leaves_m": [0.2, 0.2], "bonders_m": 2.5}, "bonders_m", "2.5"),
+        ("gable", {"bonders_m": 0.8}, "bonders_m", "0.8"),
+        ("parapet", {"thrown_back": 0.8}, "thrown_back", "0.8"),
+        ("parapet", {"leaves_m": [0.2, 0.2], "thrown_back": 1.8}, "thrown_back", "1.8"),
+        ("loaded_wall", {"loaded_leaf": "outer"}, "loaded_leaf", "'outer'"),
+        ("buttress", {"leaves_m": [0.2, 0.2]}, "leaves_m", [0.2, 0.2]),
     ],
 )
-def test_what_is_said_of_leaves_hangs_together(kind, values, words):
+def test_what_is_said_of_leaves_hangs_together(kind, values, key, value):
     sizes = SIZES.get(kind, {"height_m": 3.0, "thickness_m": 0.5})
-    with pytest.raises(RockingError, match=words):
+    with refused(RockingError, key, value):
         rocking.structure_from_config({"type": kind, **sizes, **values})
 
 
 def test_a_leaf_that_its_thrust_pushes_over_is_named():
-    with pytest.raises(
-        DoesNotStandError, match="the inner leaf alone does not stand under its loads at rest"
-    ):
+    with refused(DoesNotStandError, "leaves", (0.2, 0.2)) as caught:
         described("facade", leaves_m=[0.2, 0.2], thrust_kN_m=2.0)
+    assert "inner leaf" in str(caught.value)
     assert isinstance(described("facade", thrust_kN_m=2.0), Facade)
     assert issubclass(DoesNotStandError, StructureError)
 
