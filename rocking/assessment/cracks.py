@@ -225,7 +225,9 @@ def cracked(structure: Structure, description: str) -> Structure:
 
 def part_cracked(structure: Structure, description: str) -> str:
     """Return the leaf that falls alone with the crack of this description, "" where it is no leaf's."""
-    return next((each.part for each in cracks(structure) if each.description == description), "")
+    return next(
+        (candidate.part for candidate in cracks(structure) if candidate.description == description), ""
+    )
 
 
 def ensemble_over_cracks(

@@ -186,7 +186,7 @@ Thickness = Annotated[float, length("Thickness", 0.25, (0.05, 5), "t")]
 Balanced = Annotated[Restitution, restitution_value("momentum")]
 
 
-Crack = Literal["known"] | None
+KnownCrack = Literal["known"] | None
 """See `Crackable`."""
 
 
@@ -245,7 +245,7 @@ class CrackedWall(CrackedAtHeight, Leaved):
     thickness: Thickness
 
     @classmethod
-    def _heights(cls, height: float, hinge_height: float | None, crack: Crack) -> tuple[float, float]:
+    def _heights(cls, height: float, hinge_height: float | None, crack: KnownCrack) -> tuple[float, float]:
         """The heights below and above the hinge [m], in the middle where none is typed.
 
         Raises StructureError for a hinge outside the wall, or a crack that is known, but not where.
@@ -478,7 +478,7 @@ class Wall(CrackedWall):
         restitution: Restitution = None,
         one_sided: bool = False,
         *,
-        crack: Crack = None,
+        crack: KnownCrack = None,
         **options: Unpack[WallOptions],
     ) -> Self:
         """Return the wall of that height and thickness [m], hinged where it is typed, or else where statics puts it."""
@@ -495,7 +495,7 @@ class Wall(CrackedWall):
         restitution: Restitution = None,
         one_sided: bool = False,
         *,
-        crack: Crack = None,
+        crack: KnownCrack = None,
         **options: Unpack[WallOptions],
     ) -> Self:
         """Return the wall of that total height whose hinge lies at `hinge_height` [m] above the base."""
@@ -663,7 +663,7 @@ class LoadedWall(CrackedWall, Tied):
         unit_weight: UnitWeight,
         hinge_height: HingeHeight = None,
         *,
-        crack: Crack = None,
+        crack: KnownCrack = None,
         **options: Unpack[LoadedWallOptions],
     ) -> Self:
         """Return the wall of that height and thickness [m], hinged as `Wall.of_size`; options as for the class."""
@@ -679,7 +679,7 @@ class LoadedWall(CrackedWall, Tied):
         thickness: float,
         unit_weight: float,
         *,
-        crack: Crack = None,
+        crack: KnownCrack = None,
         **options: Unpack[LoadedWallOptions],
     ) -> Self:
         """Return the wall of that total height whose hinge lies at `hinge_height` [m] above the base."""
