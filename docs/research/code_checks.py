@@ -21,7 +21,7 @@ from rocking import (
     response_spectrum,
     select,
 )
-from rocking.codes.check import LEAST_SHARE, CodeTerms
+from rocking.codes.check import LEAST_OTHERS, LEAST_SHARE, CodeTerms
 from rocking.codes.selection import SETS, Selection
 from rocking.codes.static_check import kinematic_check
 from rocking.errors import ConfigurationError, RockingError
@@ -203,9 +203,7 @@ def _set_scores(trials: Sequence[SetTrial]) -> Iterator[Score]:
     parts = {
         "all": list(trials),
         "sets disagree": [each for each in trials if each.sets_disagree],
-        "called met by one half": [
-            each for each in trials if each.share >= LEAST_SHARE and each.sets_disagree
-        ],
+        "met by all that a pool's own sets say": [each for each in trials if each.share >= LEAST_SHARE],
     }
     for part, own in parts.items():
         measures = {
@@ -215,6 +213,7 @@ def _set_scores(trials: Sequence[SetTrial]) -> Iterator[Score]:
             ],
             "width of the interval": [each.share_high - each.share_low for each in own],
             "the other half calls it met": [float(each.other_share >= LEAST_SHARE) for each in own],
+            "the lower end reaches what is asked": [float(each.share_low >= LEAST_OTHERS) for each in own],
         }
         if own:
             yield from scored("share of sets that pass", part, measures, [each.wall for each in own])
