@@ -54,11 +54,13 @@ def structures() -> str:
 
 def tables() -> str:
     """Every column of every table."""
-    of_products = [rows_of_table(each, name) for each in PRODUCTS for name in each.tables]
+    of_products = [rows_of_table(product, name) for product in PRODUCTS for name in product.tables]
     classes = dict.fromkeys(
         (*RECORD_TABLES, HistoryRow, *SUMMARY_TABLES, *of_products, StrengtheningRow, SpectrumRow)
     )
-    package = json.loads(data_package("tables", {each: each.table.file_name for each in classes}))
+    package = json.loads(
+        data_package("tables", {row_class: row_class.table.file_name for row_class in classes})
+    )
     return "\n\n".join(map(_table_section, package["resources"]))
 
 
@@ -151,13 +153,13 @@ def trade() -> str:
         "ms a record",
     )
     body = []
-    for each in measured_trade():
-        error = f"{100 * each.error:.2g} %"
-        counts = (str(each.wrong_verdicts), str(each.unsafe_verdicts))
-        found = (f"{each.falls_found} of {each.falls}", str(each.false_alarms))
-        times = (f"{1e3 * each.cpu_s:.2g}", f"{1e3 * each.preparation_record_s:.2g}")
-        of = f"{each.stations} of {counted(each.earthquakes, 'earthquake')}"
-        body.append((each.method, of, str(each.cases), error, *counts, *found, *times))
+    for row in measured_trade():
+        error = f"{100 * row.error:.2g} %"
+        counts = (str(row.wrong_verdicts), str(row.unsafe_verdicts))
+        found = (f"{row.falls_found} of {row.falls}", str(row.false_alarms))
+        times = (f"{1e3 * row.cpu_s:.2g}", f"{1e3 * row.preparation_record_s:.2g}")
+        of = f"{row.stations} of {counted(row.earthquakes, 'earthquake')}"
+        body.append((row.method, of, str(row.cases), error, *counts, *found, *times))
     return table(head, body)
 
 
@@ -305,10 +307,10 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 def _setting_rows(section: Any, above: str = "") -> Iterator[Sequence[str]]:
     for name in parts_of(type(section)):
         yield from _setting_rows(getattr(section, name), f"{above}{name}.")
-    for each in described_values(type(section)).values():
-        meaning = f"{each.meaning}, {each.unit}" if each.unit else each.meaning
-        default = json.dumps(each.default).strip('"')
-        yield f"`{above}{each.key}`", meaning, each.must, f"`{default}`"
+    for described in described_values(type(section)).values():
+        meaning = f"{described.meaning}, {described.unit}" if described.unit else described.meaning
+        default = json.dumps(described.default).strip('"')
+        yield f"`{above}{described.key}`", meaning, described.must, f"`{default}`"
 
 
 def _structure(drawing: str, kind: str, form: Form) -> str:
@@ -327,7 +329,8 @@ def _table_section(resource: Mapping[str, Any]) -> str:
     """The columns of a table, as the data package has them."""
     keys = ("type", "unit", "description", "equation")
     rows = (
-        (f"`{each['name']}`", *(each.get(key, "") for key in keys)) for each in resource["schema"]["fields"]
+        (f"`{field['name']}`", *(field.get(key, "") for key in keys))
+        for field in resource["schema"]["fields"]
     )
     body = table(("column", "type", "unit", "meaning", "equation"), rows)
     return f"## {resource['path']}\n\n{resource['description']}.\n\n{body}"

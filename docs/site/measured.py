@@ -94,7 +94,7 @@ def figures(path: Path = FIGURES) -> dict[str, Figure]:
         rows = list(csv.DictReader(stream))
     found: dict[str, Figure] = {}
     for line, row in enumerate(rows, start=2):
-        if list(row) != [each.name for each in fields(Figure)] or None in row.values():
+        if list(row) != [field.name for field in fields(Figure)] or None in row.values():
             raise ConfigurationError(f"{path}, line {line}, must hold the columns of a Figure; mend the row.")
         if row["name"] in found:
             raise ConfigurationError(f"{path}, line {line}, names {row['name']!r} again; leave one out.")
@@ -145,7 +145,7 @@ class _Plain(ast.NodeTransformer):
     def visit(self, node: ast.AST) -> ast.AST:
         self.generic_visit(node)
         if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
-            node.body = [each for each in node.body if not _says_nothing(each)] or [ast.Pass()]
+            node.body = [statement for statement in node.body if not _says_nothing(statement)] or [ast.Pass()]
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
             node.returns = None
         if isinstance(node, ast.Raise):
@@ -192,7 +192,7 @@ class _Apart(ast.NodeTransformer):
         self.generic_visit(node)
         assert isinstance(node, ast.ListComp | ast.SetComp | ast.DictComp | ast.GeneratorExp)
         first = node.generators[0]
-        names = [name for each in node.generators for name in _stored(each.target)]
+        names = [name for generator in node.generators for name in _stored(generator.target)]
         outside, first.iter = first.iter, ast.Constant(None)  # which is evaluated outside of it
         self._rename(names, node)
         first.iter = outside
@@ -271,7 +271,7 @@ def _not_its_own(function: ast.FunctionDef) -> set[str]:
         elif isinstance(node, ast.ClassDef):
             names.update(name for part in node.body for name in _stored(part))
         elif isinstance(node, ast.FunctionDef) and node is not function:
-            names.update(each.arg for each in ast.walk(node.args) if isinstance(each, ast.arg))
+            names.update(argument.arg for argument in ast.walk(node.args) if isinstance(argument, ast.arg))
             names.add(node.name)
     return names
 
@@ -346,7 +346,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 code_sha256=code_sha256(figure.files.split()),
                 records_sha256=records_sha256(options.records) if options.records else figure.records_sha256,
             )
-        lines = [",".join(each.name for each in fields(Figure))]
+        lines = [",".join(field.name for field in fields(Figure))]
         lines += [",".join(_cell(cell) for cell in asdict(figure).values()) for figure in known.values()]
         write_whole(FIGURES, ("\n".join(lines) + "\n").encode())
     older = [figure for figure in known.values() if figure.is_older]

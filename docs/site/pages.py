@@ -80,7 +80,7 @@ def write_pages(target: Path) -> None:
     shutil.copytree(FOLDER / "assets", target / "assets")
     (target / "figures").mkdir()
     figures = {f"{name}.svg": outlined(drawing(kind, form)) for name, kind, form in forms()}
-    figures |= {f"paper_{each.name}.svg": outlined(each.figure) for each in equivalence_figures()}
+    figures |= {f"paper_{drawn.name}.svg": outlined(drawn.figure) for drawn in equivalence_figures()}
     for page in written_pages():
         text, of_page = illustrated(page.read_text(encoding="utf-8"), page.name)
         (target / page.name).write_text(filled(text, page.name), encoding="utf-8")

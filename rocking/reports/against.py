@@ -85,9 +85,9 @@ def traces_of(result: RecordResult, rows: RecordRows) -> list[Trace]:
     assessed = {row.component for row in rows.record}
     ranked = sorted((row for row in rows.pulses if row.ranked), key=lambda row: row.rank)
     return [
-        Trace(each, [row.pulse for row in ranked if row.component == each.component])
-        for each in result.accelerograms
-        if each.component in assessed
+        Trace(accelerogram, [row.pulse for row in ranked if row.component == accelerogram.component])
+        for accelerogram in result.accelerograms
+        if accelerogram.component in assessed
     ]
 
 
@@ -139,14 +139,16 @@ def comparison_of(
     motions: Sequence[Trace],
 ) -> Comparison | None:
     """Return what there is to compare; None where no structure was compared. motions: the components."""
-    compared = [each for each in conclusions if each.case and not math.isnan(each.ratios[-1])]
+    compared = [
+        conclusion for conclusion in conclusions if conclusion.case and not math.isnan(conclusion.ratios[-1])
+    ]
     if not compared or not motions:
         return None
     moving = moving_structures(conclusions, structures, result)
     shown = moving[:MOST_STRIPS]
-    used = {each.case.component for each in shown}
-    grounds = [each for each in motions if each.accelerogram.component in used] or list(motions[:1])
-    resting = [each for each in compared if each.ratios[-1] <= NEGLIGIBLE]
+    used = {moving.case.component for moving in shown}
+    grounds = [motion for motion in motions if motion.accelerogram.component in used] or list(motions[:1])
+    resting = [conclusion for conclusion in compared if conclusion.ratios[-1] <= NEGLIGIBLE]
     return Comparison(moving, grounds, _window(shown, grounds), _at_rest(resting), len(motions) > 1)
 
 
@@ -163,7 +165,7 @@ def against(
         title=TITLE,
         heads=HEADS,
         legend=LEGEND if compared else "",
-        grounds=tuple(_ground(each, span, ticks, pulses) for each in comparison.grounds),
+        grounds=tuple(_ground(ground, span, ticks, pulses) for ground in comparison.grounds),
         compared=compared,
         ticks=tuple(Tick(_across(at, span), f"{at:g}") for at in ticks),
         at_rest=comparison.at_rest,
@@ -173,9 +175,9 @@ def against(
 
 def _window(shown: Sequence[Moving], grounds: Sequence[Trace]) -> tuple[float, float]:
     """The strong motion, and on to the last of the largest rotations, s."""
-    spans = [each.span for each in grounds]
+    spans = [ground.span for ground in grounds]
     begin = min(span[0] for span in spans)
-    end = max([span[1] for span in spans] + [each.peak_time for each in shown])
+    end = max([span[1] for span in spans] + [moving.peak_time for moving in shown])
     return begin, end + _MARGIN * (end - begin)
 
 
@@ -208,7 +210,7 @@ def _ground(
     """The accelerogram of a component with its axes and its sine, and what is known of that."""
     record = motion.accelerogram
     unit = unit_of("m/s²")
-    reach = 1.08 * max(record.peak_acceleration, *(abs(each.amplitude) for each in motion.pulses[:1]), 1e-9)
+    reach = 1.08 * max(record.peak_acceleration, *(abs(pulse.amplitude) for pulse in motion.pulses[:1]), 1e-9)
 
     def up(values: np.ndarray | float) -> np.ndarray:
         return np.asarray(_GROUND / 2 * (1 + np.asarray(values) / reach))
@@ -216,7 +218,7 @@ def _ground(
     inside = (record.times >= span[0]) & (record.times <= span[1])
     times, samples = thinned(record.times[inside], record.acceleration[inside], _POINTS)
     shapes = [_line([_across(at, span)] * 2, [0, _GROUND], _GROUND, _FAINT) for at in ticks]
-    levels = [each for each in _ticks(-reach / unit.size, reach / unit.size, 4) if each]
+    levels = [level for level in _ticks(-reach / unit.size, reach / unit.size, 4) if level]
     shapes += [_line([0, WIDTH], [float(up(at * unit.size))] * 2, _GROUND, _FAINT) for at in (0.0, *levels)]
     look = 'fill="none" stroke="#595959" stroke-width="0.2"'
     shapes.append(svg_path(np.column_stack([_across(times, span), up(samples)]), _GROUND, look))
@@ -378,9 +380,9 @@ def _at_rest(resting: Sequence[Conclusion]) -> str:
     if not resting:
         return ""
     names = [
-        f"{each.verdict.structure} (closed form {in_words(each.ratios[0])})"
-        if each.ratios[0] > NEGLIGIBLE
-        else each.verdict.structure
-        for each in resting
+        f"{conclusion.verdict.structure} (closed form {in_words(conclusion.ratios[0])})"
+        if conclusion.ratios[0] > NEGLIGIBLE
+        else conclusion.verdict.structure
+        for conclusion in resting
     ]
     return f"At rest under the record: {listed(names, _MOST_NAMED)}."

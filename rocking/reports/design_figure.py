@@ -39,7 +39,7 @@ def component_spectra(
     for place, component in enumerate(components, start=1):
         spectrum = response_spectrum(component, periods, level.damping)
         name = component.component or f"component {place}"
-        spectra[name] = [float(f"{each:.4g}") for each in spectrum.pseudo_acceleration]
+        spectra[name] = [float(f"{ordinate:.4g}") for ordinate in spectrum.pseudo_acceleration]
     return spectra
 
 

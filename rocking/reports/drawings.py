@@ -171,9 +171,9 @@ def sketch(
     circled = 'fill="white" stroke="black" stroke-width="0.21"'
     around = np.array([[np.cos(turn), np.sin(turn)] for turn in np.linspace(0, 2 * np.pi, 13)])
 
-    areas = [(each, _BESIDE.by_hand) for each in beside]
-    areas += [(each, filled) for each in structure.outline(rotation)]
-    areas += [(each, dashed) for each in structure.outline()]
+    areas = [(shape, _BESIDE.by_hand) for shape in beside]
+    areas += [(part, filled) for part in structure.outline(rotation)]
+    areas += [(part, dashed) for part in structure.outline()]
     areas += [(hinge + 0.53 / scale * around, circled) for hinge in structure.hinges(rotation)]
     paths = [(points, look, True) for points, look in areas]
     for mark in structure.marks(rotation):
@@ -234,8 +234,8 @@ def draw_structure(
         axes.add_patch(Polygon(outline, closed=True, transform=where, **_AT_REST))
     if rotation:
         axes.plot(*structure.hinges(rotation).T, "o", transform=where, **_HINGE)
-    left = min(float(each[:, 0].min()) for each in (*parts, *at_rest))
-    top = max(float(each[:, 1].max()) for each in parts)
+    left = min(float(part[:, 0].min()) for part in (*parts, *at_rest))
+    top = max(float(part[:, 1].max()) for part in parts)
     for mark in structure.marks(rotation):
         _draw_mark(axes, mark, where, (left, top) if values else None)
 
@@ -290,14 +290,14 @@ def draw_dimensions(
     front = structure.described.front
     if len(front):
         axes.add_patch(Polygon(front, closed=True, **_FRONT))
-    for each in structure.dimensions():
-        axes.plot(*each.line.T, **_THIN)  # type: ignore[arg-type]
+    for dimension in structure.dimensions():
+        axes.plot(*dimension.line.T, **_THIN)  # type: ignore[arg-type]
         for end, before in ((0, 1), (-1, -2)):
-            axes.annotate("", tuple(each.line[end]), tuple(each.line[before]), arrowprops=_HEAD)
-            axes.plot(*np.stack([each.feet[end], each.line[end]], axis=1), **_THIN)  # type: ignore[arg-type]
-        place, ha, va = _beside(each.line.T, each.feet.T)
-        text = f"{each.letter} = {written(each.text)}" if values else each.letter
-        if values and each.line.shape[0] > 2:
+            axes.annotate("", tuple(dimension.line[end]), tuple(dimension.line[before]), arrowprops=_HEAD)
+            axes.plot(*np.stack([dimension.feet[end], dimension.line[end]], axis=1), **_THIN)  # type: ignore[arg-type]
+        place, ha, va = _beside(dimension.line.T, dimension.feet.T)
+        text = f"{dimension.letter} = {written(dimension.text)}" if values else dimension.letter
+        if values and dimension.line.shape[0] > 2:
             va = "top"  # within the arc, clear of the radius
         axes.text(place[0], place[1], f" {text} ", ha=ha, va=va, zorder=4, bbox=_PAPER)
 

@@ -83,9 +83,9 @@ def record_content(result: RecordResult, rows: RecordRows, structures: Mapping[s
     components = {row.component for row in worst.values()}
     concluded = conclusions(rows.verdicts, rows.comparison)
     comparison = comparison_of(concluded, structures, result, traces_of(result, rows))
-    moving = {each.case.structure: each for each in comparison.moving} if comparison else {}
+    moving = {moving.case.structure: moving for moving in comparison.moving} if comparison else {}
     several = comparison is not None and comparison.several
-    failure = " ".join(["no result.", *(each.message for each in rows.failures)])
+    failure = " ".join(["no result.", *(failure.message for failure in rows.failures)])
     nothing = {"verdict": Verdict.CANNOT_BE_TOLD, "cell": cell_text(None), "text": failure, "severity": _NONE}
     cases: dict[str, Content] = {}
     for period_result in result.worst_periods:
@@ -105,12 +105,12 @@ def record_content(result: RecordResult, rows: RecordRows, structures: Mapping[s
         "pga": _number(pga),
         "pgv": _number(pgv),
         "motions": {
-            each.component: _motion(each, rows)
-            for each in result.accelerograms
-            if each.component in components
+            accelerogram.component: _motion(accelerogram, rows)
+            for accelerogram in result.accelerograms
+            if accelerogram.component in components
         },
         "cases": {name: cases.get(name, nothing) for name in structures},
-        "span": [_number(each) for each in comparison.span] if comparison else [],
+        "span": [_number(end) for end in comparison.span] if comparison else [],
         "at_rest": comparison.at_rest if comparison else "",
         **_where(rows.record),
     }
@@ -216,23 +216,23 @@ def _conclusion(records: Sequence[Content]) -> str:
     words: dict[str, Verdict] = {}
     judged = _judged(records)
     for record in judged:
-        for name, each in record["cases"].items():
-            if each["severity"] != _NONE:
-                words[name] = worse(Verdict(each["verdict"]), words.get(name, Verdict.CANNOT_OVERTURN))
+        for name, case in record["cases"].items():
+            if case["severity"] != _NONE:
+                words[name] = worse(Verdict(case["verdict"]), words.get(name, Verdict.CANNOT_OVERTURN))
     return conclusion_in_words(words, len(judged))
 
 
 def _judged(records: Sequence[Content]) -> list[Content]:
     """The records under which a structure has a verdict: one that failed is counted nowhere."""
     return [
-        record for record in records if any(each["severity"] != _NONE for each in record["cases"].values())
+        record for record in records if any(case["severity"] != _NONE for case in record["cases"].values())
     ]
 
 
 def _ranked(contents: Sequence[Content], key: str, worst: Sequence[str]) -> list[Content]:
     """The records or structures, each with the place of its name among the `worst` first."""
     ranks = {name: rank for rank, name in enumerate(worst)}
-    return [{**each, "rank": ranks.get(each[key], len(ranks))} for each in contents]
+    return [{**content, "rank": ranks.get(content[key], len(ranks))} for content in contents]
 
 
 def _css(verdict: Verdict) -> str:
@@ -263,7 +263,7 @@ def _case(period_result: PeriodResult, row: ComparisonRow | None) -> Content:
         f"{ratio(period_result.rotation_ratio, 2)}{band}; by the closed form: {closed} "
         "(rotation over the critical one)."
         f"{crack}{reserve}",
-        "severity": [_number(float(np.clip(each, -_EXTREME, _EXTREME))) for each in period_result.severity],
+        "severity": [_number(float(np.clip(key, -_EXTREME, _EXTREME))) for key in period_result.severity],
         "component": row.component if row else "",
         "predicted": _number(min(predicted, _EXTREME)),
         "closed": closed,

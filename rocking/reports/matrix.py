@@ -32,10 +32,10 @@ def matrix(made: Sequence[Conclusion], records: Sequence[RecordRow], pulses: Seq
     Without rows where there are more records than stand beside each other. made: the conclusions on all. The legend is
     empty where the cells hold their words.
     """
-    columns = worst_first((each.verdict.record, each.severity) for each in made)
-    by_pair = {(each.verdict.record, each.verdict.structure): each for each in made}
-    worst = {each.verdict.structure: each for each in worst_of_each(made)}
-    names = worst_first((each.verdict.structure, each.severity) for each in made)
+    columns = worst_first((conclusion.verdict.record, conclusion.severity) for conclusion in made)
+    by_pair = {(conclusion.verdict.record, conclusion.verdict.structure): conclusion for conclusion in made}
+    worst = {conclusion.verdict.structure: conclusion for conclusion in worst_of_each(made)}
+    names = worst_first((conclusion.verdict.structure, conclusion.severity) for conclusion in made)
     if not 0 < len(columns) <= MOST_RECORDS:
         return Matrix()
     shown = names[:MOST_STRUCTURES]

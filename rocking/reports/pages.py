@@ -468,10 +468,10 @@ class SummaryPage(Page):
 def as_data(thing: Any) -> Any:
     """Return a page as JSON holds it: a dataclass by the names of its fields."""
     if is_dataclass(thing) and not isinstance(thing, type):
-        return {each.name: as_data(getattr(thing, each.name)) for each in fields(thing)}
+        return {field.name: as_data(getattr(thing, field.name)) for field in fields(thing)}
     if isinstance(thing, Mapping):
         return {key: as_data(value) for key, value in thing.items()}
-    return [as_data(each) for each in thing] if isinstance(thing, list | tuple) else thing
+    return [as_data(item) for item in thing] if isinstance(thing, list | tuple) else thing
 
 
 def pictures_in(thing: Any) -> Iterator[Picture]:
@@ -479,8 +479,8 @@ def pictures_in(thing: Any) -> Iterator[Picture]:
     if isinstance(thing, Picture):
         yield thing
     elif is_dataclass(thing) and not isinstance(thing, type):
-        for each in fields(thing):
-            yield from pictures_in(getattr(thing, each.name))
+        for field in fields(thing):
+            yield from pictures_in(getattr(thing, field.name))
     elif isinstance(thing, Mapping):
         for value in thing.values():
             yield from pictures_in(value)

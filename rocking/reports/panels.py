@@ -405,13 +405,13 @@ def _plot_strengthening(strengthening: Strengthening, axes: Axes) -> None:
     """The share that overturns over the value with its bounds, the target, and the value that can be shown to hold."""
     outward = strengthening.field.outward
     tried = strengthening.tried
-    values = [outward(each.value) for each in tried]
-    low, high = zip(*(each.interval for each in tried), strict=True)
+    values = [outward(trial.value) for trial in tried]
+    low, high = zip(*(trial.interval for trial in tried), strict=True)
     label = f"share of {strengthening.sample.words}"
     axes.fill_between(
         values, low, high, color="C0", alpha=0.2, linewidth=0, label="one-sided 90 % bounds, by station"
     )
-    axes.plot(values, [each.share for each in tried], ".-", color="C0", linewidth=0.9, label=label)
+    axes.plot(values, [trial.share for trial in tried], ".-", color="C0", linewidth=0.9, label=label)
     axes.axhline(
         strengthening.target, color="0.4", linestyle=":", label=f"target {percent(strengthening.target)} %"
     )

@@ -228,9 +228,9 @@ def columns_of(kind: type[Row], fields: str, width: str = "") -> list[Column]:
     fields: their names, separated by spaces, each with its width where that is not that of all: "stage message=3".
     width: of all; if empty, by their type.
     """
-    described = {each.name: each for each in kind.table.columns}
+    described = {column.name: column for column in kind.table.columns}
     columns: list[Column] = []
-    for name, _, own_width in (each.partition("=") for each in fields.split()):
+    for name, _, own_width in (field.partition("=") for field in fields.split()):
         column = described[name]
         usual, side = ("0.8", "r") if column.holds in (float, int) else ("1", "l")
         unit = unit_of(column.unit).name or ("-" if column.holds is float else "")
@@ -330,7 +330,7 @@ def compile_document(page: Page) -> bytes:
     rare = set(map(ord, text)) - COMMON
     foreign = bool(rare) and not glyphs().issuperset(rare)
     carried = document_fonts(False).families()
-    families = [each for each in document_fonts(foreign).families() if each not in carried]
+    families = [family for family in document_fonts(foreign).families() if family not in carried]
     return typst.compile(  # type: ignore[call-overload,no-any-return]  # its stub wants input and root of one type
         page.template.read_bytes(),
         root=FOLDER,

@@ -164,7 +164,7 @@ class RecordReport:
 
     def page(self) -> RecordPage:
         """Return the pages: texts, tables and figures."""
-        groups = variants_of({name: each.scene for name, each in self.result.scenes.items()})
+        groups = variants_of({name: scene.scene for name, scene in self.result.scenes.items()})
         strips: list[Strip] = []
         with displaying(self.settings):
             if groups:
@@ -179,7 +179,10 @@ class RecordReport:
                 subtitle=subtitle,
                 running=f"{self.result.record}.{self.scale_note}" if self.scale_note else self.result.record,
                 conclusion=conclusion_in_words(
-                    {each.verdict.structure: each.verdict.decision.word for each in self.conclusions}
+                    {
+                        conclusion.verdict.structure: conclusion.verdict.decision.word
+                        for conclusion in self.conclusions
+                    }
                 ),
                 at_design_level=_NO_DEMAND if self.level else "",
                 notices=tuple(_notices(self)),
@@ -207,13 +210,17 @@ class RecordReport:
                 if caution.kind is StructureKind.FRAME_CONTACTS and period_result.structure in self.as_stones:
                     continue
                 concerned.setdefault(caution, []).append(self.called(period_result.structure))
-        would_crush = [each.structure for each in self.result.worst_first if _would_crush(each)]
+        would_crush = [
+            period_result.structure
+            for period_result in self.result.worst_first
+            if _would_crush(period_result)
+        ]
         if would_crush:
-            concerned[Remark(ReportKind.CRUSHING_WOULD_TELL)] = [self.called(each) for each in would_crush]
-        of_one_leaf = [each for each in concerned if each.kind is StructureKind.ONE_LEAF]
+            concerned[Remark(ReportKind.CRUSHING_WOULD_TELL)] = [self.called(name) for name in would_crush]
+        of_one_leaf = [remark for remark in concerned if remark.kind is StructureKind.ONE_LEAF]
         if len(of_one_leaf) > 1:  # one line of all thicknesses
-            thicknesses = [text for each in of_one_leaf for text in str(each["thickness"]).split(", ")]
-            names = [name for each in of_one_leaf for name in concerned.pop(each)]
+            thicknesses = [text for remark in of_one_leaf for text in str(remark["thickness"]).split(", ")]
+            names = [name for remark in of_one_leaf for name in concerned.pop(remark)]
             every = ", ".join(dict.fromkeys(thicknesses))
             concerned[Remark.of(StructureKind.ONE_LEAF, thickness=every)] = names
         return {remark: list(dict.fromkeys(names)) for remark, names in concerned.items()}
@@ -261,7 +268,7 @@ class RecordReport:
     @property
     def motion(self) -> Trace | None:
         """The component that stands for the record, the one of the largest peak; None without one."""
-        return max(self.motions, key=lambda each: each.accelerogram.peak_acceleration, default=None)
+        return max(self.motions, key=lambda trace: trace.accelerogram.peak_acceleration, default=None)
 
     def dominant(self, component: str) -> PulseRow | None:
         """Return the dominant pulse of a component; None without one."""
@@ -342,7 +349,7 @@ def _assumed(report: RecordReport) -> Iterator[Topic]:
         (f"Bodies are rigid and do not crush. {sliding} Each structure has one degree of freedom.",),
     )
     yield Topic("Cracks", (_CRACKS,))
-    if any(each.hinges_migrate for each in structures):
+    if any(structure.hinges_migrate for structure in structures):
         farther = MEASURED["stones_farther"].figure
         momentum = MEASURED["arch_momentum"].figure
         text = (
@@ -351,7 +358,7 @@ def _assumed(report: RecordReport) -> Iterator[Topic]:
             "an arch would be on the unsafe side."
         )
         yield Topic("Arches", (text,))
-    if any(each.tapers for each in structures):
+    if any(structure.tapers for structure in structures):
         yield Topic("Spires", (_SPIRES,))
     if report.result.carried:
         missed = MEASURED["missed_on_supports"].figure
@@ -418,13 +425,19 @@ def page_one(report: RecordReport) -> PageOne:
         peaks=_peaks(report),
         sine=Sine(share=percents(pulse.explained_energy) if pulse else "", clause=clause),
         rows=tuple(
-            structure_row(each, report.structures.get(each.verdict.structure), report.friction)
-            for each in drawn
+            structure_row(conclusion, report.structures.get(conclusion.verdict.structure), report.friction)
+            for conclusion in drawn
         ),
         others=tuple(
             Others(word=str(word), names=listed(names, _MOST_NAMED))
             for word in ORDER
-            if (names := [each.verdict.structure for each in others if each.verdict.decision.word is word])
+            if (
+                names := [
+                    conclusion.verdict.structure
+                    for conclusion in others
+                    if conclusion.verdict.decision.word is word
+                ]
+            )
         ),
         uncertain=tuple(_uncertain(report)),
         legend=_legend(report, drawn),
@@ -437,12 +450,12 @@ def _legend(report: RecordReport, drawn: Sequence[Conclusion]) -> str:
         _reserve_in_words(drawn),
         "Members vary motion and restitution; a range: cracks or models disagree; grey: mechanism alone.",
     ]
-    if any(each.verdict.decision.word is Verdict.CANNOT_BE_TOLD for each in report.conclusions):
+    if any(conclusion.verdict.decision.word is Verdict.CANNOT_BE_TOLD for conclusion in report.conclusions):
         sentences.append("Hatched: what was left out may decide.")
     explained = "; ".join(
-        replace(each, about=listed(names, 1)).brief
-        for each, names in report.left_out.items()
-        if each.kind in TOLD_FIRST
+        replace(remark, about=listed(names, 1)).brief
+        for remark, names in report.left_out.items()
+        if remark.kind in TOLD_FIRST
     )
     sentences.append(f"Page 2 on {explained}." if explained else "")
     return " ".join(filter(None, sentences))
@@ -482,7 +495,7 @@ def structure_row(conclusion: Conclusion, structure: Structure | None, friction:
         drawing = (_turned(verdict, structure),) if structure is not None else ()
 
     closed_form, block, whole = conclusion.ratios
-    low, high = (_place(each) for each in (verdict.rotation_ratio_low, verdict.rotation_ratio_high))
+    low, high = (_place(ratio) for ratio in (verdict.rotation_ratio_low, verdict.rotation_ratio_high))
     period = verdict.support_period_s
     place = "" if period is None else f"T_b {period:.3g}\u00a0s" if period else "on the ground"
     sizes = sizes_of(verdict.structure, structure) if structure is not None else ""
@@ -543,7 +556,7 @@ def _uncertain(report: RecordReport) -> list[str]:
         decision = conclusion.verdict.decision
         if decision.word is Verdict.UNCERTAIN:
             reasons = [f"{decision.share_in_words} fall" if not math.isnan(decision.share) else decision.why]
-            reasons += [each.brief for each in (*decision.doubts, *decision.would_settle)[:1]]
+            reasons += [remark.brief for remark in (*decision.doubts, *decision.would_settle)[:1]]
             told.append(f"{conclusion.verdict.structure} ({'; '.join(reasons)})")
     if not told:
         return []
@@ -553,8 +566,8 @@ def _uncertain(report: RecordReport) -> list[str]:
 
 def _reserve_in_words(drawn: Sequence[Conclusion]) -> str:
     """Say what the factors of the column are, by those of the first structure that has both; "" without one."""
-    reserves = [each.verdict.reserve for each in drawn if each.verdict.reserve is not None]
-    both = next((each for each in reserves if each.median > each.low), None)
+    reserves = [conclusion.verdict.reserve for conclusion in drawn if conclusion.verdict.reserve is not None]
+    both = next((reserve for reserve in reserves if reserve.median > reserve.low), None)
     if both is None:
         return ""
     low, median = number(both.low, 2), number(both.median, 2)
@@ -587,7 +600,7 @@ def _title(report: RecordReport) -> tuple[str, str]:
         ),
         "epicentre at {} km": map(plain, distances),
     }
-    texts = [text.format(each) for text, many in parts.items() if (each := _unique(many))]
+    texts = [text.format(found) for text, many in parts.items() if (found := _unique(many))]
     shown = f"{report.result.record}, {drawn}" if drawn else report.result.record
     return title, " · ".join([*texts, shown])
 
@@ -669,7 +682,7 @@ def _known(report: RecordReport) -> Part:
             == (period_result.structure, period_result.support_period_s)
         ]
         # What the network has corrected is not processed again.
-        corrected = all(each.processed for each in report.result.accelerograms)
+        corrected = all(accelerogram.processed for accelerogram in report.result.accelerograms)
         if not corrected and any(map(math.isinf, ratios)) and any(map(math.isfinite, ratios)):
             depends.append(report.called(period_result.structure))
     depends = list(dict.fromkeys(depends))
@@ -685,7 +698,7 @@ def _known(report: RecordReport) -> Part:
         ],
         "Contacts": _contacts(report),
         "Models": [
-            *(str(replace(each, about=listed(names))) for each, names in report.left_out.items()),
+            *(str(replace(remark, about=listed(names))) for remark, names in report.left_out.items()),
             *_held_at_ceiling(report.remarks),
         ],
         "Processing": [remark] if depends else [],
@@ -744,7 +757,7 @@ def _would_crush(period_result: PeriodResult) -> bool:
         return False
     share = 0.0 if math.isnan(period_result.decision.share) else period_result.decision.share
     reached = [(0.95, reserve.high), (0.5, reserve.median), (0.05, reserve.low)]
-    then = next((each for each, at in reached if at <= factor), 0.0)
+    then = next((share for share, at in reached if at <= factor), 0.0)
     return then - share > MOVED or then >= 0.05 > share
 
 
@@ -875,8 +888,12 @@ def _details(report: RecordReport) -> Details:
     """Return the pictures of the worst cases with the sentences that say where the others stand, and the tables."""
     motions = report.motions
     labels = report.labels
-    drawable = [each for each in report.result.worst_periods if each.structure in report.structures]
-    reserves = [each for each in drawable if each.reserve is not None][:MOST_DRAWN]
+    drawable = [
+        period_result
+        for period_result in report.result.worst_periods
+        if period_result.structure in report.structures
+    ]
+    reserves = [period_result for period_result in drawable if period_result.reserve is not None][:MOST_DRAWN]
     histories = report.histories[:MOST_DRAWN]
     rotations = (
         f"Rotation histories of {counted(len(histories), 'structure')} above the acceleration of the ground."

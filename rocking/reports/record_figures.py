@@ -70,7 +70,7 @@ def _draw_ground(panel: Axes, motion: Trace, span: tuple[float, float], last: bo
     accelerogram = motion.accelerogram
     unit = unit_of("m/s²")
     draw_motion(panel, accelerogram, next(iter(motion.pulses), None), span, _POINTS, unit.size)
-    amplitudes = [abs(each.amplitude) for each in motion.pulses[:1]]
+    amplitudes = [abs(pulse.amplitude) for pulse in motion.pulses[:1]]
     reach = 1.1 * max(accelerogram.peak_acceleration, *amplitudes, 1e-9) / unit.size
     peak = f"{_component(accelerogram.component)}: PGA {accelerogram.peak_acceleration / GRAVITY:.2g} g"
     panel.text(0.995, 0.97, peak, transform=panel.transAxes, ha="right", va="top")
@@ -132,8 +132,8 @@ def reserve_figure(stations: Sequence[PeriodResult], labels: Mapping[str, str]) 
     figure = new_figure(height, margins=(0, 0, 0, 0))
     panel = panel_at(figure, 46, 0.5, TEXT_WIDTH - 82, height - 9)
     limit = max(reserve.limit for _, reserve in reserves)
-    found = [each for _, reserve in reserves for each in (reserve.low, reserve.median) if each > 0]
-    least = min([0.5, *(0.8 * each for each in found)])
+    found = [factor for _, reserve in reserves for factor in (reserve.low, reserve.median) if factor > 0]
+    least = min([0.5, *(0.8 * factor for factor in found)])
     panel.axvline(1.0, color="black", linewidth=0.8)
     for place, (station, reserve) in enumerate(reserves):
         colour = LOOKS[station.decision.word][1]
@@ -215,7 +215,7 @@ def _draw_history(panel: Axes, history: History, level: int, label: str, several
     case = history.case
     ratios = history.ratios
     predicted = case.predicted_rotation_ratio
-    largest = (each for each in (float(np.abs(ratios).max()), predicted) if 0 < each < math.inf)
+    largest = (ratio for ratio in (float(np.abs(ratios).max()), predicted) if 0 < ratio < math.inf)
     reach = min(1.25 * max(largest, default=1.0), _HIGHEST)
     members = station.ensemble
     band = min(members.rotation_ratio_low, reach), min(members.rotation_ratio_high, reach)

@@ -142,7 +142,9 @@ def _page(
     shown = worst_period_each(verdicts)
     comparison = list(counted_cases(rows_of(ComparisonRow, rows), verdicts))
     made = conclusions(verdicts, comparison)
-    words_of_all = {each.verdict.structure: each.verdict.decision.word for each in worst_of_each(made)}
+    words_of_all = {
+        conclusion.verdict.structure: conclusion.verdict.decision.word for conclusion in worst_of_each(made)
+    }
     judged = {row.record for row in shown}
     many = len(judged) > MOST_RECORDS_BESIDE
     failures = rows_of(FailureRow, rows)
@@ -405,8 +407,11 @@ def severity_map(
         rows=tuple(
             MapRow(
                 name,
-                tuple(number(max(each), 2) for each in zip(*(peaks[name] or _UNKNOWN), strict=True)),
-                tuple(_cell(by_pair.get((name, each))) for each in columns),
+                tuple(
+                    number(max(of_components), 2)
+                    for of_components in zip(*(peaks[name] or _UNKNOWN), strict=True)
+                ),
+                tuple(_cell(by_pair.get((name, column))) for column in columns),
             )
             for name in rows
         ),
@@ -504,8 +509,8 @@ def _worth(method: Method, comparison: Sequence[ComparisonRow]) -> _Worth:
         same=outcomes[Agreement.SAME],
         too_low=outcomes[Agreement.TOO_LOW],
         too_high=outcomes[Agreement.TOO_HIGH],
-        both_rock=sum(each is not None for each in closeness),
-        near=sum(bool(each) for each in closeness),
+        both_rock=sum(is_near is not None for is_near in closeness),
+        near=sum(bool(is_near) for is_near in closeness),
     )
 
 

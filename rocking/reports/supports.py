@@ -55,8 +55,8 @@ class SupportPanel:
 def support_panels(result: RecordResult) -> list[SupportPanel]:
     """Return a panel for each support of a record that carries something, in the order of the structures."""
     by_place: dict[Place, list[SceneResult]] = {}
-    for each in result.carried:
-        by_place.setdefault(each.scene.place, []).append(each)
+    for scene in result.carried:
+        by_place.setdefault(scene.scene.place, []).append(scene)
     if not result.components:
         return []
     worst = max(
@@ -90,19 +90,19 @@ def supports_figure(panels: Sequence[SupportPanel]) -> Figure:
 
 def _draw_shares(axes: Axes, structures: Sequence[SceneResult]) -> None:
     """Draw share against period, one line for each structure; a marker has the colour of its verdict."""
-    for line, each in zip(_LINES * len(structures), structures, strict=False):
-        periods = each.first_periods
-        shares = [period_result.decision.share for period_result in each.periods]
+    for line, scene in zip(_LINES * len(structures), structures, strict=False):
+        periods = scene.first_periods
+        shares = [period_result.decision.share for period_result in scene.periods]
         axes.plot(
             periods,
             shares,
             line,
             color="0.35",
             linewidth=0.9,
-            label=elided(each.scene.name, 24),
+            label=elided(scene.scene.name, 24),
             zorder=1,
         )
-        for period, share, period_result in zip(periods, shares, each.periods, strict=True):
+        for period, share, period_result in zip(periods, shares, scene.periods, strict=True):
             colour = LOOKS[period_result.decision.word][1]
             axes.plot(
                 [period],
@@ -126,9 +126,9 @@ def _draw_reserves(axes: Axes, structures: Sequence[SceneResult]) -> None:
     """
     beside = axes.twinx()
     limits = []
-    for each in structures:
-        periods = each.first_periods
-        reserves = [period_result.reserve for period_result in each.periods]
+    for scene in structures:
+        periods = scene.first_periods
+        reserves = [period_result.reserve for period_result in scene.periods]
         factors = [reserve.median if reserve else np.nan for reserve in reserves]
         limits += [reserve.limit for reserve in reserves if reserve]
         beside.plot(periods, factors, linestyle="", marker="x", color=PREDICTED, markersize=3.5)
@@ -144,7 +144,7 @@ def _draw_spectra(axes: Axes, panel: SupportPanel) -> None:
     of_ground = response_spectrum(record, _PERIODS, FLOOR_DAMPING).pseudo_acceleration
     axes.plot(_PERIODS, of_ground / GRAVITY, color="0.6", linewidth=1.6, label="ground")
     for line, floor in zip(_LINES, panel.floors, strict=False):
-        support = next(each for each in place.supports if each == floor.support)
+        support = next(support for support in place.supports if support == floor.support)
         own = response_spectrum(floor.accelerogram, _PERIODS, FLOOR_DAMPING).pseudo_acceleration
         label = f"T_b {support.first_period:.3g} s"
         axes.plot(_PERIODS, own / GRAVITY, line, color="black", linewidth=0.9, label=label)
@@ -171,7 +171,7 @@ def shares_by_period_figure(rows: Sequence[SupportRow]) -> Figure:
     for number, ((structure, support), of_records) in enumerate(list(shares.items())[:_MOST_LINES]):
         ordered = sorted({period for own in of_records.values() for period in own})
         # A record that is too coarse for the shortest periods has no row there.
-        lines = [[own.get(each, math.nan) for each in ordered] for own in of_records.values()]
+        lines = [[own.get(period, math.nan) for period in ordered] for own in of_records.values()]
         means = np.nanmean(lines, axis=0)
         style = f"{_MARKS[number % len(_MARKS)]}{_LINES[number % len(_LINES)]}"
         label = wrapped(f"{structure} on {support}", 27, 3)

@@ -41,7 +41,9 @@ def strips(
     """
     said = words or Sentences()
     return [
-        Strip(name, _cells([each for each in row if each.name in structures], structures, said, notes))
+        Strip(
+            name, _cells([variant for variant in row if variant.name in structures], structures, said, notes)
+        )
         for name, row in made.items()
     ]
 
@@ -54,18 +56,25 @@ def _cells(
 ) -> tuple[VariantCell, ...]:
     turned = {}
     scales = []
-    for each in row:
+    for variant in row:
         # One that cannot be drawn costs no other; its checks and its reports say why.
-        with suppress(FaultError), one_structure(each.name):
-            structure = structures[each.name]
+        with suppress(FaultError), one_structure(variant.name):
+            structure = structures[variant.name]
             side = structure.mechanism().positive
             rotation = _DRAWN * side.critical_rotation if side.can_overturn else 0.0
             scales.append(room(structure, rotation, _WIDTH, _HEIGHT)[0])
-            turned[each.name] = rotation
+            turned[variant.name] = rotation
     return tuple(
-        _cell(each, structures[each.name], turned[each.name], min(scales), words, notes.get(each.name, ()))
-        for each in row
-        if each.name in turned
+        _cell(
+            variant,
+            structures[variant.name],
+            turned[variant.name],
+            min(scales),
+            words,
+            notes.get(variant.name, ()),
+        )
+        for variant in row
+        if variant.name in turned
     )
 
 

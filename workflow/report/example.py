@@ -23,7 +23,7 @@ PIXELS_PER_INCH = 110.0
 
 def page_two(study: Study, record: str) -> Image.Image:
     """Return page two of the report of a shipped record."""
-    row = next(each for each in load_catalogue(ROOT / "records" / "catalogue.csv") if each.id == record)
+    row = next(row for row in load_catalogue(ROOT / "records" / "catalogue.csv") if row.id == record)
     result = assess_catalogued(row, study)
     tables = rows_of(result, row, study)
     shown = with_histories(result, study.settings.tolerance)

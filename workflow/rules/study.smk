@@ -125,7 +125,7 @@ def work(rule, wildcards, input, params, log, threads=1, job=""):
     job: the name of its function where it is not that of the rule.
     """
     product = "/".join([rule, *wildcards])
-    products = [each for each in PLAN.products_of_summary if input.get(each)]
+    products = [product for product in PLAN.products_of_summary if input.get(product)]
     folder = folder_of(*input.catalogue, SETTINGS.catalogue) if BY_NAME else ""
     task = Task(product, dict(config), list(params), folder, log[0], products, BY_NAME, threads)
     run_apart(f"rocking.study.jobs:{job or rule}", product, task)

@@ -31,7 +31,7 @@ class CodeConclusion:
     @property
     def decisive(self) -> CodeCheckRow:
         """The check that decides."""
-        return next(each for each in reversed(self.checks) if each.part == Part.DECIDES)
+        return next(check for check in reversed(self.checks) if check.part == Part.DECIDES)
 
     @property
     def verified(self) -> bool:
@@ -41,7 +41,7 @@ class CodeConclusion:
     @property
     def severity(self) -> tuple[float, ...]:
         """Key by which the worst comes last: what is not verified, then the least ratio of the most detailed check."""
-        ratios = (-each.ratio for each in reversed(self.checks))
+        ratios = (-check.ratio for check in reversed(self.checks))
         return (not self.verified, *ratios)
 
     @property
@@ -62,8 +62,8 @@ class CodeConclusion:
     @property
     def other_share(self) -> tuple[float, float] | None:
         """The 90 % interval of their share; None without a dynamic check."""
-        shares = ((each.sets_share_low, each.sets_share_high) for each in self.checks)
-        return next((each for each in shares if not math.isnan(each[0])), None)
+        shares = ((check.sets_share_low, check.sets_share_high) for check in self.checks)
+        return next((share for share in shares if not math.isnan(share[0])), None)
 
     @property
     def other_share_in_words(self) -> str:
@@ -75,7 +75,7 @@ class CodeConclusion:
     @property
     def ratios(self) -> Mapping[str, str]:
         """Capacity over demand by the kind of check, "falls" where a motion lets it fall."""
-        return {each.check: ratio_in_words(each.ratio) for each in self.checks}
+        return {check.check: ratio_in_words(check.ratio) for check in self.checks}
 
     def __str__(self) -> str:
         """The conclusion, and beside "verified" what other stations would say of it."""
@@ -101,17 +101,19 @@ def code_conclusion_in_words(concluded: Sequence[CodeConclusion]) -> str:
     """
     if not concluded:
         return ""
-    verified = [each.structure for each in concluded if each.verified]
+    verified = [conclusion.structure for conclusion in concluded if conclusion.verified]
     if not verified:
         return f"By the code none of {counted(len(concluded), 'structure')} is verified at the design level."
-    others = [each.structure for each in concluded if not each.verified]
+    others = [conclusion.structure for conclusion in concluded if not conclusion.verified]
     names = f": {', '.join(verified)}"
     if len(verified) > _NAMED:
         names = f", all but {', '.join(others)}" if len(others) <= _NAMED else ""
     names = names if others else ""
     verb = "is" if len(verified) == 1 else "are"
     whole = f"{len(verified)} of {counted(len(concluded), 'structure')}"
-    shares = [each.other_share for each in concluded if each.verified and each.other_share]
+    shares = [
+        conclusion.other_share for conclusion in concluded if conclusion.verified and conclusion.other_share
+    ]
     end = ""
     if shares:
         widest = min(low for low, _ in shares), max(high for _, high in shares)
@@ -135,9 +137,11 @@ def code_conclusions(rows: Iterable[CodeCheckRow]) -> list[CodeConclusion]:
     made = []
     for structure, by_period in places.items():
         everywhere = [CodeConclusion(structure, checks) for checks in by_period.values()]
-        counting = [each for each in everywhere if each.period != 0] or everywhere
-        worst = max(counting, key=lambda each: each.severity)
+        counting = [at_period for at_period in everywhere if at_period.period != 0] or everywhere
+        worst = max(counting, key=lambda at_period: at_period.severity)
         made.append(
-            CodeConclusion(structure, worst.checks, [each for each in everywhere if each is not worst])
+            CodeConclusion(
+                structure, worst.checks, [at_period for at_period in everywhere if at_period is not worst]
+            )
         )
     return made

@@ -68,27 +68,27 @@ def bars_figure(
     axes = panel_at(figure, 92, 6, 76, _HEIGHT - 18)
     axes.axvspan(_LEAST, 1, color=_SIDE, zorder=0)
     axes.axvline(1, color="black", linewidth=1.2, zorder=4)
-    without = {each.clause: each for each in untied.checks} if untied else {}
-    for place, each in enumerate(checked.checks):
-        colour = _MET if each.passed else _NOT_MET
-        other = without.get(each.clause)
-        _draw_bar(axes, place - (0.15 if other else 0), each, words, {"color": colour})
+    without = {check.clause: check for check in untied.checks} if untied else {}
+    for place, check in enumerate(checked.checks):
+        colour = _MET if check.passed else _NOT_MET
+        other = without.get(check.clause)
+        _draw_bar(axes, place - (0.15 if other else 0), check, words, {"color": colour})
         if other:
             _draw_bar(axes, place + 0.15, other, words, {"facecolor": "white", "edgecolor": "black"})
-        decides = each is checked.decisive
-        _write_beside(axes, place - 0.2, words(KINDS[each.clause]), size=9.5, weight="bold")
-        _write_beside(axes, place, each.clause, size=7.5, color="0.4")
+        decides = check is checked.decisive
+        _write_beside(axes, place - 0.2, words(KINDS[check.clause]), size=9.5, weight="bold")
+        _write_beside(axes, place, check.clause, size=7.5, color="0.4")
         _write_beside(
             axes,
             place + 0.19,
-            words(f"part {checked.part_of(each)}"),
+            words(f"part {checked.part_of(check)}"),
             size=8.5,
             weight="bold" if decides else "normal",
             color=colour if decides else "0.3",
         )
     axes.set(xscale="log", xlim=(_LEAST, _MOST), ylim=(len(checked.checks) - 0.5, -0.5))
     ticks = (0.25, 0.5, 1, 2, 4, 8)
-    axes.set_xticks(ticks, [words.decimal(f"{each:g}") for each in ticks])
+    axes.set_xticks(ticks, [words.decimal(f"{tick:g}") for tick in ticks])
     axes.minorticks_off()
     axes.set_yticks([])
     for side in ("left", "top", "right"):

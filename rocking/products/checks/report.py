@@ -126,7 +126,7 @@ def structures_data(
             drawn = picture(selection_figure(selection), words("records alt"))
             spectra = (SetFigure(drawn, _selection_words(selection, words)),)
             motions = _motion_table(selection, words)
-        said = {each.name: words(each.name.replace("_", " ")) for each in fields(SignWords)}
+        said = {field.name: words(field.name.replace("_", " ")) for field in fields(SignWords)}
         return StructuresPage(
             title=words("title"),
             language=settings.language,
@@ -154,15 +154,17 @@ def _sheets(
 ) -> tuple[Sheet, ...]:
     """The page of each structure: at the worst period of its support, with the others as lines."""
     by_name: dict[str, list[CheckedStructure]] = {}
-    for each in structures:
-        by_name.setdefault(each.name, []).append(each)
+    for checked_structure in structures:
+        by_name.setdefault(checked_structure.name, []).append(checked_structure)
     rows = (
         row
-        for each in structures
-        if each.checked
-        for row in code_check_rows(each.name, each.checked, each.period)
+        for checked_structure in structures
+        if checked_structure.checked
+        for row in code_check_rows(
+            checked_structure.name, checked_structure.checked, checked_structure.period
+        )
     )
-    concluded = {each.structure: each for each in code_conclusions(rows)}
+    concluded = {conclusion.structure: conclusion for conclusion in code_conclusions(rows)}
     groups: dict[str, list[str]] = {}
     for name, (page, *_) in by_name.items():
         if page.variant_of in by_name:
@@ -170,13 +172,17 @@ def _sheets(
     worst = [page.worst for page, *_ in by_name.values() if page.worst]
     compared = variants(groups, worst)
     drawn = {name: page.structure for name, (page, *_) in by_name.items()}
-    notes = {name: _ratios_and_conclusion(each, words) for name, each in concluded.items()}
-    strip_of = {each.name: each for each in strips(compared, drawn, words, notes)}
+    notes = {name: _ratios_and_conclusion(conclusion, words) for name, conclusion in concluded.items()}
+    strip_of = {strip.name: strip for strip in strips(compared, drawn, words, notes)}
     pages = []
     for name, everywhere in by_name.items():
         conclusion = concluded.get(name)
         page = next(
-            (each for each in everywhere if conclusion and each.checked and each.period == conclusion.period),
+            (
+                there
+                for there in everywhere
+                if conclusion and there.checked and there.period == conclusion.period
+            ),
             everywhere[-1],
         )
         checked = page.checked
@@ -260,8 +266,8 @@ def _conclusion(
 ) -> tuple[str, tuple[str, ...]]:
     """The conclusion as a headline, and what there is to say beside it."""
     decisive = conclusion.decisive
-    also = [each.clause for each in conclusion.checks if each.part == Part.COUNTS_TOO]
-    overruled = [words(f"check {each.check}") for each in conclusion.checks if each.part == Part.OVERRULED]
+    also = [check.clause for check in conclusion.checks if check.part == Part.COUNTS_TOO]
+    overruled = [words(f"check {check.check}") for check in conclusion.checks if check.part == Part.OVERRULED]
     needs_its_tie = page.has_ties and not (page.untied and page.untied.verified)
     if conclusion.verified:
         headline = words(
@@ -303,7 +309,7 @@ def _conclusion(
 
 def _to_check(page: CheckedStructure, words: SignSentences) -> list[str]:
     """What has to be checked of what was typed, before anything else is read."""
-    return [words.of(each) for each in page.remarks if each.kind in TO_CHECK]
+    return [words.of(remark) for remark in page.remarks if remark.kind in TO_CHECK]
 
 
 def _were_it_unknown(checked: StructureCheck, words: SignSentences) -> list[str]:
@@ -312,9 +318,9 @@ def _were_it_unknown(checked: StructureCheck, words: SignSentences) -> list[str]
         return []
     other = checked.were_it_unknown.checks[-1]
     opens = next(
-        opening_words(each, words)
-        for each in checked.were_it_unknown.mechanisms
-        if each.description == other.mechanism
+        opening_words(mechanism, words)
+        for mechanism in checked.were_it_unknown.mechanisms
+        if mechanism.description == other.mechanism
     )
     key = "any crack met" if other.passed else "any crack not met"
     return [words(key, clause=other.clause, ratio=ratio_words(other, words), mechanism=opens)]
@@ -347,7 +353,7 @@ def _finding(
     page: CheckedStructure, conclusion: CodeConclusion, spectrum: DesignSpectrum, words: SignSentences
 ) -> str:
     """What the records of the study say otherwise, and why that is no contradiction; "" where they agree."""
-    low, high = (words.number(each / GRAVITY, 2) for each in page.peaks)
+    low, high = (words.number(peak / GRAVITY, 2) for peak in page.peaks)
     of_records = {
         "level": words.number(float(spectrum.acceleration(0.0)) / GRAVITY, 2),
         "low": low,
@@ -371,7 +377,7 @@ def _sure(page: CheckedStructure, dynamic: DynamicCheck | None, words: SignSente
         if not says_nothing(dynamic.interval):
             lines.append((words.percents(*dynamic.interval), words("sure others")))
     if page.stations:
-        low, high = (words.decimal(percent(each)) for each in page.share_interval)
+        low, high = (words.decimal(percent(bound)) for bound in page.share_interval)
         of_it = {
             "records": words.counted(page.records, "record"),
             "stations": words.counted(page.stations, "station"),
@@ -409,15 +415,15 @@ def _reserve(page: CheckedStructure, words: SignSentences) -> tuple[str, str]:
 def _assumptions(page: CheckedStructure, mechanism: CodeCapacity, words: SignSentences) -> list[str]:
     """What the checks take for given, to be confirmed on site."""
     structure = page.structure
-    given = [each for each in structure.described.values if each.value is not False]
-    sizes = ", ".join(words.described(each) for each in given)
+    given = [value for value in structure.described.values if value.value is not False]
+    sizes = ", ".join(words.described(value) for value in given)
     lines = [words("assumed sizes", sizes=sizes[:1].upper() + sizes[1:])]
-    restitution = min(each.restitution for each in structure.mechanism().sides)
+    restitution = min(side.restitution for side in structure.mechanism().sides)
     lines.append(words("assumed restitution", restitution=words.number(restitution, 2)))
     if isinstance(structure, Crackable) and structure.known_crack:
         known = words.of(structure.known_crack)
         lines.append(f"{known[:1].upper()}{known[1:]}.")
-    lines += [words.of(each) for each in page.remarks if each.kind not in TO_CHECK]
+    lines += [words.of(remark) for remark in page.remarks if remark.kind not in TO_CHECK]
     lines.append(words("assumed rigid"))
     if getattr(structure, "compressive_strength", None) is None:
         lines.append(words("assumed crushing"))
@@ -428,12 +434,14 @@ def _assumptions(page: CheckedStructure, mechanism: CodeCapacity, words: SignSen
         lines.append(words("assumed loss", displacement=words.quantity(mechanism.support_loss, "m")))
     checked = page.checked
     ties = (
-        [tie.tie.strength for each in checked.mechanisms for tie in each.static.side.ties] if checked else []
+        [tie.tie.strength for mechanism in checked.mechanisms for tie in mechanism.static.side.ties]
+        if checked
+        else []
     )
-    held = [each.ties for each in checked.restraints] if checked else []
+    held = [restraint.ties for restraint in checked.restraints] if checked else []
     if any(map(math.isinf, (*ties, *held))):
         lines.append(words("assumed ties"))
-    lines += [words.of(each) for each in structure.assumptions]
+    lines += [words.of(assumption) for assumption in structure.assumptions]
     if page.support is not None:
         modes = [
             words("mode", period=words.number(mode.period), participation=words.number(mode.participation))
@@ -452,7 +460,7 @@ def _basis(
     words: SignSentences,
 ) -> Basis:
     """The page behind it: the capacity curve, the checks with their values, the other places, and the study's share."""
-    others = [each for each in everywhere if each is not page]
+    others = [checked_structure for checked_structure in everywhere if checked_structure is not page]
     figure = picture(basis_figure(page.structure, checked, words), words("figure alt", name=page.name))
     return Basis(
         title=words("basis", name=page.name),
@@ -477,19 +485,19 @@ def _check_table(checked: StructureCheck, words: SignSentences) -> Table:
         (words("head part"), "0.9", "l"),
         (words("head mechanism"), "1.5", "l"),
     ]
-    governing = {each.description: each for each in checked.mechanisms}
+    governing = {mechanism.description: mechanism for mechanism in checked.mechanisms}
     lines: list[list[Cell]] = [
         [
-            words(KINDS[each.clause]),
-            each.clause,
-            _valued(each, each.capacity, words),
-            _valued(each, each.demand, words),
-            ratio_words(each, words),
-            strong(words(each.outcome)),
-            words(f"part {checked.part_of(each)}"),
-            opening_words(governing[each.mechanism], words),
+            words(KINDS[check.clause]),
+            check.clause,
+            _valued(check, check.capacity, words),
+            _valued(check, check.demand, words),
+            ratio_words(check, words),
+            strong(words(check.outcome)),
+            words(f"part {checked.part_of(check)}"),
+            opening_words(governing[check.mechanism], words),
         ]
-        for each in checked.checks
+        for check in checked.checks
     ]
     return table(heads, lines)
 
@@ -645,12 +653,12 @@ def _sentences(page: CheckedStructure, checked: StructureCheck, words: SignSente
         )
     if checked.remark and checked.remark.kind is CheckKind.NO_DISPLACEMENT:
         lines.append(words.of(checked.remark))
-    lines += [words.of(each.remark) for each in checked.restraints]
-    lines += [words.of(each.slides_out) for each in checked.restraints if each.slides_out]
+    lines += [words.of(restraint.remark) for restraint in checked.restraints]
+    lines += [words.of(restraint.slides_out) for restraint in checked.restraints if restraint.slides_out]
     lines += _lowered(checked, page.untied, words)
     dynamic = checked.dynamic
     if dynamic is not None:
-        low, high = (words.decimal(percent(each)) for each in dynamic.interval)
+        low, high = (words.decimal(percent(bound)) for bound in dynamic.interval)
         unknown = says_nothing(dynamic.interval)
         others = words("dynamic unknown") if unknown else words("dynamic others", low=low, high=high)
         outcome = words.of(dynamic.refusal) if dynamic.refusal else words(dynamic.outcome)
@@ -689,21 +697,21 @@ def _period_table(
     others: Sequence[CheckedStructure], conclusion: CodeConclusion, words: SignSentences
 ) -> Table:
     """The lines of the other places of a structure on a support: the ratios, the conclusion, the study's share."""
-    kinds = [each.check for each in conclusion.checks]
+    kinds = [check.check for check in conclusion.checks]
     heads = [(words("head place"), "1.4", "l"), *((words(kind), "0.8", "r") for kind in kinds)]
     heads += [(words("head conclusion"), "2", "l"), (words("head overturns"), "0.8", "r")]
-    concluded = {each.period: each for each in conclusion.elsewhere}
+    concluded = {at_period.period: at_period for at_period in conclusion.elsewhere}
     lines: list[list[Cell]] = []
-    for each in others:
-        place = f"T_b {words.number(each.period)} s" if each.period else words("on the ground")
-        share = f"{words.decimal(percent(each.overturning_share))}\u00a0%" if each.stations else "–"
-        there = concluded.get(each.period)
-        if each.checked is None or there is None:
+    for page in others:
+        place = f"T_b {words.number(page.period)} s" if page.period else words("on the ground")
+        share = f"{words.decimal(percent(page.overturning_share))}\u00a0%" if page.stations else "–"
+        there = concluded.get(page.period)
+        if page.checked is None or there is None:
             lines.append(
-                [place, *["–"] * len(kinds), words("could not", why=words.reason(each.refusal)), share]
+                [place, *["–"] * len(kinds), words("could not", why=words.reason(page.refusal)), share]
             )
             continue
-        ratios = {KINDS[check.clause]: ratio_words(check, words) for check in each.checked.checks}
+        ratios = {KINDS[check.clause]: ratio_words(check, words) for check in page.checked.checks}
         key = "line verified" if there.verified else "line not verified"
         text = words(key, clause=there.decisive.clause)
         lines.append([place, *(ratios.get(kind, "–") for kind in kinds), text, share])
@@ -788,14 +796,14 @@ def _motion_table(selection: Selection, words: SignSentences) -> Table:
     lines: list[list[Cell]] = []
     for place in selection.chosen:
         motions = selection.scaled(int(place))
-        facts = [each for each in (motions[0].event, motions[0].station) if each]
+        facts = [name for name in (motions[0].event, motions[0].station) if name]
         lines.append(
             [
                 selection.names[place],
                 or_a_dash(facts),
                 words.plain(len(motions)),
                 words.number(float(selection.factors[place])),
-                words.number(max(each.peak_acceleration for each in motions) / peak.size),
+                words.number(max(motion.peak_acceleration for motion in motions) / peak.size),
             ]
         )
     return table(heads, lines)

@@ -171,8 +171,8 @@ def code_check_rows(
     structure: str, checked: StructureCheck, support_period: float | None = None
 ) -> Iterator[CodeCheckRow]:
     """Yield the row of each check of a structure."""
-    for each in checked.checks:
-        yield CodeCheckRow.of(MadeCheck(structure, each, checked, support_period=support_period))
+    for check in checked.checks:
+        yield CodeCheckRow.of(MadeCheck(structure, check, checked, support_period=support_period))
 
 
 def _where_it_is(displacement: float) -> float:

@@ -51,10 +51,10 @@ class Checks(Work):
         checked = write_checks(
             job.study,
             job.folder,
-            [row for each in rows for row in rows_of(VerdictRow, each)],
-            [row for each in rows for row in rows_of(RecordRow, each)],
+            [row for table_rows in rows for row in rows_of(VerdictRow, table_rows)],
+            [row for table_rows in rows for row in rows_of(RecordRow, table_rows)],
             job.show_line,
-            [row for each in rows for row in rows_of(MechanismRow, each)],
+            [row for table_rows in rows for row in rows_of(MechanismRow, table_rows)],
         )
         return Made({CodeCheckRow: checked}, code_conclusion_in_words(code_conclusions(checked)))
 
@@ -66,18 +66,33 @@ class Checks(Work):
     def notes(self, rows: Rows) -> Mapping[str, str]:
         """Return the conclusion on each structure."""
         concluded = code_conclusions(rows_of(CodeCheckRow, rows))
-        return {each.structure: f"By the code, at the design level: {each}." for each in concluded}
+        return {
+            conclusion.structure: f"By the code, at the design level: {conclusion}."
+            for conclusion in concluded
+        }
 
 
 def checks_panel(concluded: Sequence[CodeConclusion]) -> Panel:
     """Return the table of the ratios of each structure, and what follows from them."""
-    kinds = [kind for kind in dict.fromkeys(KINDS.values()) if any(kind in each.ratios for each in concluded)]
+    kinds = [
+        kind
+        for kind in dict.fromkeys(KINDS.values())
+        if any(kind in conclusion.ratios for conclusion in concluded)
+    ]
     table = table_of(
         concluded,
-        ("Structure", "1.4", "l", lambda each: strong(each.name)),
-        *((sentence(kind), "0.7", "r", lambda each, kind=kind: each.ratios.get(kind, "–")) for kind in kinds),
-        ("Conclusion", "1.5", "l", lambda each: str(each.remark)),
-        ("Met by sets of other stations", "1.2", "l", lambda each: words(each.other_share_in_words)),
+        ("Structure", "1.4", "l", lambda conclusion: strong(conclusion.name)),
+        *(
+            (sentence(kind), "0.7", "r", lambda conclusion, kind=kind: conclusion.ratios.get(kind, "–"))
+            for kind in kinds
+        ),
+        ("Conclusion", "1.5", "l", lambda conclusion: str(conclusion.remark)),
+        (
+            "Met by sets of other stations",
+            "1.2",
+            "l",
+            lambda conclusion: words(conclusion.other_share_in_words),
+        ),
     )
     caption = (
         "The checks of the Italian code (Circolare 7/2019) at the design level: capacity over demand, 1 or more where "
@@ -110,14 +125,18 @@ def write_checks(
         raise ConfigurationError(
             "setting design_spectrum.ag_g is null, and so is points, but checks need a design level; give one."
         )
-    worst = {each.verdict.structure: each for each in worst_of_each(conclusions(verdicts, []))}
+    worst = {
+        conclusion.verdict.structure: conclusion for conclusion in worst_of_each(conclusions(verdicts, []))
+    }
     selection, without_sets, unread = _sets(study)
     of_records = list(records)
     names = named_records(of_records, study.settings.unnamed_events == "each")
     station_of = {record: station for record, (station, _) in names.items()}
     strongest: dict[str, float] = {}
-    for each in of_records:
-        strongest[each.record] = max(strongest.get(each.record, 0.0), each.peak_acceleration_m_s2)
+    for record_row in of_records:
+        strongest[record_row.record] = max(
+            strongest.get(record_row.record, 0.0), record_row.peak_acceleration_m_s2
+        )
     peaks = min(strongest.values(), default=math.nan), max(strongest.values(), default=math.nan)
     check_at = partial(
         check,
@@ -129,12 +148,12 @@ def write_checks(
         records=selection,
     )
     pages = []
-    level = [each for each in (design.remark,) if each]
+    level = [remark for remark in (design.remark,) if remark]
     for name, scene in study.scenes.items():
-        own = [each for each in verdicts if each.structure == name]
+        own = [row for row in verdicts if row.structure == name]
         for support in scene.place.axis:
             period = scene.place.period_of(support)
-            there = [each for each in own if each.support_period_s == period]
+            there = [row for row in own if row.support_period_s == period]
             page = replace(
                 _checked(scene, support, check_at, there, names),
                 worst=worst.get(name),
@@ -142,7 +161,9 @@ def write_checks(
                 remarks=(*level, *scene.remarks),
             )
             of_scene = [
-                each for each in mechanisms if (each.structure, each.support_period_s) == (name, period)
+                mechanism
+                for mechanism in mechanisms
+                if (mechanism.structure, mechanism.support_period_s) == (name, period)
             ]
             try:
                 with one_structure(name):
@@ -203,10 +224,10 @@ def _checked(
     except RockingError as error:
         checked = None
         refusal = error.remark or str(error)
-    known = [each for each in verdicts if not math.isnan(each.overturning_share)]
-    sample = Sample.named(names[each.record] for each in known)
-    shares = sample.by_station(np.array([each.overturning_share for each in known]))
-    lifts = sample.by_station(np.array([float(each.rotation_ratio > 0) for each in known]))
+    known = [row for row in verdicts if not math.isnan(row.overturning_share)]
+    sample = Sample.named(names[row.record] for row in known)
+    shares = sample.by_station(np.array([row.overturning_share for row in known]))
+    lifts = sample.by_station(np.array([float(row.rotation_ratio > 0) for row in known]))
     low, high = sample.share_bounds(shares) if known else (math.nan, math.nan)
     return CheckedStructure(
         name=scene.name,
@@ -224,9 +245,9 @@ def _checked(
         earthquakes=sample.earthquakes if known else 0,
         still=int((lifts == 0).sum()),
         verdicts=verdicts_by_station(verdicts, {record: station for record, (station, _) in names.items()}),
-        doubts=sorted({kind for each in verdicts for kind in each.doubts}),
-        reserves=[each.reserve for each in verdicts if each.reserve is not None],
-        reserve_doubts=sorted({kind for each in verdicts for kind in each.reserve_doubts}),
+        doubts=sorted({kind for row in verdicts for kind in row.doubts}),
+        reserves=[row.reserve for row in verdicts if row.reserve is not None],
+        reserve_doubts=sorted({kind for row in verdicts for kind in row.reserve_doubts}),
     )
 
 
@@ -259,16 +280,16 @@ def _with_mechanisms(
 def verdicts_by_station(verdicts: Iterable[VerdictRow], station_of: Mapping[str, str]) -> Counter[Verdict]:
     """Return under how many stations each verdict is the worst one of its records."""
     worst: dict[str, Verdict] = {}
-    for each in verdicts:
-        station = station_of[each.record]
-        worst[station] = worse(each.verdict, worst.get(station, each.verdict))
+    for row in verdicts:
+        station = station_of[row.record]
+        worst[station] = worse(row.verdict, worst.get(station, row.verdict))
     return Counter(worst.values())
 
 
 def _told(checked: StructureCheck | None) -> str:
     """The checks in a line."""
     checks = checked.checks if checked else ()
-    words = ", ".join(f"{KINDS[each.clause]} {each.outcome} ({each.ratio_in_words})" for each in checks)
+    words = ", ".join(f"{KINDS[check.clause]} {check.outcome} ({check.ratio_in_words})" for check in checks)
     return f"{words}. {checked.remark}" if checked and checked.remark else words
 
 

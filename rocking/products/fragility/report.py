@@ -302,7 +302,7 @@ def fragility_figure(curves: "DataFrame", summary: Sequence[FragilitySummaryRow]
         measure = of_structure["intensity_measure"].iloc[0]
         panel.set(title=elided(name, 60), xlabel=f"{measure} [{_unit(measure)}]")
     legends = (panel.get_legend_handles_labels() for panel in panels.flat)
-    handles = {label: handle for each in legends for handle, label in zip(*each, strict=True)}
+    handles = {label: handle for legend in legends for handle, label in zip(*legend, strict=True)}
     figure.legend(handles.values(), handles.keys(), loc="upper center", ncols=4)
     return figure
 

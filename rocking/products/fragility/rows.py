@@ -140,7 +140,7 @@ class DrawnCurve(Placed):
     def stations_reaching(self, place: int) -> int:
         """Return how many stations have a record that reaches the level at `place` within the largest factor."""
         tried = np.isfinite(self.curve.exceedance[:, place])
-        return len({name for name, each in zip(self.curve.stations, tried, strict=True) if each})
+        return len({name for name, reached in zip(self.curve.stations, tried, strict=True) if reached})
 
 
 D = TypeVar("D", bound=DrawnCurve)
@@ -469,9 +469,9 @@ def intensity_measure_rows(
 def _figures(records: Sequence[Accelerogram]) -> dict[str, np.ndarray]:
     """Figures of each record that the level of overturning may depend on beside its intensity; nan where unknown."""
     return {
-        "PGV/PGA": np.log([peak_velocity(each) / each.peak_acceleration for each in records]),
-        "magnitude": np.array([each.magnitude for each in records], dtype=float),
-        "ln distance": np.log([each.epicentral_distance or math.nan for each in records]),
+        "PGV/PGA": np.log([peak_velocity(record) / record.peak_acceleration for record in records]),
+        "magnitude": np.array([record.magnitude for record in records], dtype=float),
+        "ln distance": np.log([record.epicentral_distance or math.nan for record in records]),
     }
 
 
@@ -483,6 +483,7 @@ def _or_nan(measure: IntensityMeasure, record: Accelerogram, mechanism: Mechanis
 
 
 FRAGILITY_TABLES: Mapping[str, type[Row]] = {
-    each.table.name: each for each in (IdaRow, FragilityRow, FragilitySummaryRow, IntensityMeasureRow)
+    row_class.table.name: row_class
+    for row_class in (IdaRow, FragilityRow, FragilitySummaryRow, IntensityMeasureRow)
 }
 """The tables of the fragility of a study, by name."""

@@ -93,7 +93,7 @@ def write_fragility(
             "no record of the catalogue can be used, but a fragility needs two stations; the log says why."
         )
     curves: dict[tuple[str, float | None], Fragility] = {}
-    tables: dict[type[Row], list[Row]] = {each: [] for each in FRAGILITY_TABLES.values()}
+    tables: dict[type[Row], list[Row]] = {row_class: [] for row_class in FRAGILITY_TABLES.values()}
     for count, (name, never) in enumerate(held.items(), start=1):
         if never:
             reasons.append(f"{name}: it cannot overturn, and has no fragility: it {never}.")
@@ -102,8 +102,8 @@ def write_fragility(
             of_scene, its_rows, its_reasons = _curves_of(name, study, opened, hazard, net)
             curves |= of_scene
             reasons += its_reasons
-            for each in its_rows:
-                tables[type(each)].append(each)
+            for row in its_rows:
+                tables[type(row)].append(row)
         tell(f"{count} of {len(study.scenes)}: {name}", count, len(study.scenes))
     if not (curves or faults):
         raise ConfigurationError(reasons[-1])
@@ -211,8 +211,8 @@ def _measured(
     for record, components in opened.items():
         try:
             with net(f"its {measure}", record=record):
-                for each in components:
-                    of_mechanism.of(each, mechanism)
+                for component in components:
+                    of_mechanism.of(component, mechanism)
                 names += [record] * len(components)
                 accelerograms += components
         except RockingError as error:

@@ -25,11 +25,11 @@ def geojson(stations: Sequence[StationRow], verdicts: Sequence[VerdictRow]) -> b
         of_record[f"{verdict.structure}: share"] = _number(verdict.overturning_share)
     features = [
         _point(
-            longitude=each.station_longitude_deg,
-            latitude=each.station_latitude_deg,
-            properties={"kind": "station", **_cells(each), **told.get(each.record, {})},
+            longitude=station.station_longitude_deg,
+            latitude=station.station_latitude_deg,
+            properties={"kind": "station", **_cells(station), **told.get(station.record, {})},
         )
-        for each in stations
+        for station in stations
     ]
     features += [
         _point(longitude=longitude, latitude=latitude, properties={"kind": "epicentre", "event": event})
@@ -42,9 +42,9 @@ def geojson(stations: Sequence[StationRow], verdicts: Sequence[VerdictRow]) -> b
 def epicentres(stations: Sequence[StationRow]) -> list[tuple[str, float, float]]:
     """Return event, longitude and latitude [degrees] of each epicentre that a row gives, once."""
     places = (
-        (each.event, each.epicentre_longitude_deg, each.epicentre_latitude_deg)
-        for each in stations
-        if not math.isnan(each.epicentre_longitude_deg)
+        (station.event, station.epicentre_longitude_deg, station.epicentre_latitude_deg)
+        for station in stations
+        if not math.isnan(station.epicentre_longitude_deg)
     )
     return list(dict.fromkeys(places))
 
@@ -56,7 +56,7 @@ def _cells(row: StationRow) -> Properties:
         "epicentre_latitude_deg",
         "epicentre_longitude_deg",
     )
-    names = (each.name for each in fields(row) if each.name not in places)
+    names = (field.name for field in fields(row) if field.name not in places)
     return {name: _number(getattr(row, name)) for name in names}
 
 

@@ -32,8 +32,8 @@ def drawn_together(stations: Sequence[StationRow]) -> list[StationRow]:
     Stations of several earthquakes may lie half the earth apart, and say nothing of where one of them did most.
     """
     of_each: dict[str, list[StationRow]] = {}
-    for each in stations:
-        of_each.setdefault(each.event, []).append(each)
+    for station in stations:
+        of_each.setdefault(station.event, []).append(station)
     most = max(of_each.values(), key=len, default=[])
     return most if len(most) > 1 or len(of_each) == 1 else []
 
@@ -43,8 +43,8 @@ def map_panel(stations: Sequence[StationRow], verdicts: Sequence[VerdictRow]) ->
 
     verdicts: of each record and structure one.
     """
-    here = {each.record for each in stations}
-    worst = worst_first((each.structure, each.severity) for each in verdicts if each.record in here)
+    here = {station.record for station in stations}
+    worst = worst_first((row.structure, row.severity) for row in verdicts if row.record in here)
     figure = map_figure(stations, verdicts, worst[:MOST_DRAWN])
     epicentre = "; the star is the epicentre" if epicentres(stations) else ""
     event = f" of {stations[0].event}" if stations[0].event else ""
@@ -73,8 +73,10 @@ def plane(
 def origin_of(stations: Sequence[StationRow]) -> tuple[float, float]:
     """Return longitude and latitude of the middle of the stations, degrees, also where they lie about ±180°."""
     first = stations[0].station_longitude_deg
-    turns = [((_known(each.station_longitude_deg) - _known(first) + 180) % 360 - 180) for each in stations]
-    latitudes = [_known(each.station_latitude_deg) for each in stations]
+    turns = [
+        ((_known(station.station_longitude_deg) - _known(first) + 180) % 360 - 180) for station in stations
+    ]
+    latitudes = [_known(station.station_latitude_deg) for station in stations]
     longitude = _known(first) + (min(turns) + max(turns)) / 2
     return (longitude + 180) % 360 - 180, (min(latitudes) + max(latitudes)) / 2
 
@@ -88,14 +90,14 @@ def map_figure(
     stations: Sequence[StationRow], verdicts: Sequence[VerdictRow], structures: Sequence[str]
 ) -> Figure:
     """Return a map for each structure. verdicts: of each record and structure one."""
-    by_case = {(each.record, each.structure): each for each in verdicts}
+    by_case = {(row.record, row.structure): row for row in verdicts}
     columns = min(len(structures), 2)
     rows = math.ceil(len(structures) / 2)
     figure = new_figure(72.0 * rows, margins=(13.0, 3.0, 9.0, 5.0))
     figure.subplots_adjust(hspace=0.3, wspace=0.25)
     panels = np.atleast_1d(figure.subplots(rows, columns, squeeze=False).ravel())
     for axes, structure in zip(panels, structures, strict=False):
-        _draw(axes, stations, [by_case.get((each.record, structure)) for each in stations])
+        _draw(axes, stations, [by_case.get((station.record, structure)) for station in stations])
         axes.set_title(elided(structure, 42), fontsize=8, fontweight="bold", loc="left")
     for axes in panels[len(structures) :]:
         axes.set_axis_off()
@@ -109,8 +111,8 @@ def _draw(axes: Axes, stations: Sequence[StationRow], verdicts: Sequence[Verdict
     """
     origin = origin_of(stations)
     east, north = plane(
-        np.array([_known(each.station_longitude_deg) for each in stations]),
-        np.array([_known(each.station_latitude_deg) for each in stations]),
+        np.array([_known(station.station_longitude_deg) for station in stations]),
+        np.array([_known(station.station_latitude_deg) for station in stations]),
         origin,
     )
     extent = max(np.ptp(east), np.ptp(north), _LEAST)

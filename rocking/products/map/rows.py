@@ -22,12 +22,12 @@ class Recorded:
     @property
     def peak_acceleration(self) -> float:
         """The largest of its horizontal components, m/s²."""
-        return max(each.peak_acceleration_m_s2 for each in self.components)
+        return max(component.peak_acceleration_m_s2 for component in self.components)
 
     @property
     def peak_velocity(self) -> float:
         """The largest of its horizontal components, m/s."""
-        return max(each.peak_velocity_m_s for each in self.components)
+        return max(component.peak_velocity_m_s for component in self.components)
 
 
 of_station = Columns(Recorded)

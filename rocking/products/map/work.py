@@ -29,14 +29,14 @@ class Map(Work):
             of_record = rows_of(VerdictRow, outcome.rows)
             records.append(rows_of(RecordRow, outcome.rows))
             verdicts += worst_period_each(of_record)
-            falls |= {each.record: falls_under(of_record, instead) for each in of_record[:1]}
+            falls |= {record_row.record: falls_under(of_record, instead) for record_row in of_record[:1]}
         stations = station_rows(records, falls)
         write_tables({StationRow: stations}, job.folder, "rocking-map", "stations.json")
         write_whole(job.folder / "stations.geojson", geojson(stations, verdicts))
         if missing := sum(map(bool, records)) - len(stations):
             job.show_line(f"{counted(missing, 'station')} without coordinates, which the map leaves out")
-        placed = {each.record for each in stations}
-        return Made({StationRow: stations, VerdictRow: [each for each in verdicts if each.record in placed]})
+        placed = {station.record for station in stations}
+        return Made({StationRow: stations, VerdictRow: [row for row in verdicts if row.record in placed]})
 
     def panel(self, rows: Rows) -> Panel | None:
         """Return a map of each of the worst structures at the stations of one earthquake; None without one to draw."""

@@ -140,7 +140,7 @@ def _runs(
     block = mechanism.equivalent_block("exact_at_rest")
 
     def worst(some: Sequence[PulseEvidence]) -> float:
-        return max(predict_maximum(block, each.pulse).rotation_ratio for each in some)
+        return max(predict_maximum(block, evidence.pulse).rotation_ratio for evidence in some)
 
     def rotation(structure: EquivalentBlock | Mechanism, tolerance: float) -> float:
         return integrate(structure, record, tolerance).rotation_ratio

@@ -64,9 +64,9 @@ class TriedMethod:
     def of_moving(self) -> Sample:
         """The sample of the cases in which one of the two does not rest."""
         places = [
-            each.record
-            for each in self.answers
-            if not rests(each.rotation_ratio) or not rests(each.reference)
+            answer.record
+            for answer in self.answers
+            if not rests(answer.rotation_ratio) or not rests(answer.reference)
         ]
         return self.sample.of_records(np.array(places, dtype=int))
 
@@ -76,7 +76,7 @@ class TriedMethod:
         if not self.agreements:
             return math.nan, math.nan
         wrong = self.of_moving.by_station(
-            np.array([float(each is not Agreement.SAME) for each in self.agreements])
+            np.array([float(agreement is not Agreement.SAME) for agreement in self.agreements])
         )
         low, high = self.of_moving.share_bounds(wrong)
         return float(low), float(high)
@@ -104,7 +104,7 @@ class TriedMethod:
     @cached_property
     def moving(self) -> list[tuple[float, float]]:
         """Answer and reference of the cases in which one of the two does not rest."""
-        pairs = [(each.rotation_ratio, each.reference) for each in self.answers]
+        pairs = [(answer.rotation_ratio, answer.reference) for answer in self.answers]
         return [pair for pair in pairs if not all(map(rests, pair))]
 
     @property
@@ -116,7 +116,7 @@ class TriedMethod:
     def errors(self) -> list[float]:
         """Relative errors of the rotation where both rock."""
         ratios = [ratio(predicted=answer, integrated=reference) for answer, reference in self.moving]
-        return [abs(each - 1) for each in ratios if not math.isnan(each)]
+        return [abs(ratio - 1) for ratio in ratios if not math.isnan(ratio)]
 
     @cached_property
     def agreements(self) -> list[Agreement]:
@@ -151,7 +151,7 @@ class TriedMethod:
     @property
     def wrong_verdicts(self) -> int:
         """The number of cases with another outcome than the reference."""
-        return sum(each is not Agreement.SAME for each in self.agreements)
+        return sum(agreement is not Agreement.SAME for agreement in self.agreements)
 
     @property
     def unsafe_verdicts(self) -> int:
@@ -202,10 +202,10 @@ class TradeRow(RowOf[TriedMethod]):
     )
     cpu_s: float = of_tried(
         "Processor time of one response, median, with all preparations at hand",
-        lambda of: median(each.cpu for each in of.answers),
+        lambda of: median(answer.cpu for answer in of.answers),
     )
     preparation_record_s: float = of_tried(
         "Processor time once for each record, median: search for its sines",
-        lambda of: median(each.preparation for each in of.answers),
+        lambda of: median(answer.preparation for answer in of.answers),
     )
     machine: str = of_tried("Processor that was timed", lambda of: of.machine)
