@@ -176,19 +176,21 @@ def _hinged(height_ratio: float, thickness_ratio: float) -> Wall:
 def envelope_cracks() -> tuple[Candidate, ...]:
     """Return the cracks that may form in the spire of the envelope, from its base up."""
     spire = Spire(width=3.0, height=15.0, wall_thickness=0.25)
-    return tuple(sorted(spire.candidates(ENVELOPE_CRACKS), key=lambda each: each.position))
+    return tuple(sorted(spire.candidates(ENVELOPE_CRACKS), key=lambda candidate: candidate.position))
 
 
 def overturning_spectra() -> np.ndarray:
     """Return the least amplitude [m/s²] of one sine of each of PERIODS that overturns each crack, (cracks, periods)."""
-    blocks = [each.structure.mechanism().equivalent_block("exact_at_rest") for each in envelope_cracks()]
+    blocks = [
+        candidate.structure.mechanism().equivalent_block("exact_at_rest") for candidate in envelope_cracks()
+    ]
     return overturning_amplitudes(blocks, 2 * np.pi / PERIODS)
 
 
 def envelope_curves() -> list[Curve]:
     """Return the overturning spectra of single cracks and their envelope (a), and the crack that governs (b)."""
     cracks, spectra = envelope_cracks(), overturning_spectra() / GRAVITY
-    heights = np.array([each.position for each in cracks])
+    heights = np.array([crack.position for crack in cracks])
     lines = []
     for name, place in (("tip", -1), ("lower quarter", int(np.abs(heights - 3.75).argmin())), ("base", 0)):
         label = f"crack at {heights[place]:.3g} m ({name})"

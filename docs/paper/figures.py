@@ -43,7 +43,7 @@ def panels(curves: Sequence[Curve], columns: int = 2) -> Figure:
     for panel in axes[len(names) :]:
         panel.set_axis_off()
     if shared:
-        first = next(place for place, each in enumerate(by_panel.values()) if _labels(each) == shared)
+        first = next(place for place, curves in enumerate(by_panel.values()) if _labels(curves) == shared)
         lines, labels = axes[first].get_legend_handles_labels()
         if free:
             axes[len(names)].legend(lines, labels, loc="center left")
@@ -58,7 +58,7 @@ def _labels(curves: Sequence[Curve]) -> tuple[str, ...]:
 
 def _shared_labels(by_panel: Sequence[Sequence[Curve]]) -> tuple[str, ...]:
     """Return the names of the curves that most panels draw alike; () where no two panels of many curves do."""
-    counts = Counter(_labels(each) for each in by_panel if len(each) > _FEW_CURVES)
+    counts = Counter(_labels(curves) for curves in by_panel if len(curves) > _FEW_CURVES)
     labels, count = max(counts.items(), key=lambda item: item[1], default=((), 0))
     return labels if count > 1 else ()
 

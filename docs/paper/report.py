@@ -109,9 +109,9 @@ def equation_table(rows: Sequence[EquationRow]) -> Table:
         ("Printed gives", "0.7", "r"), ("Corrected gives", "0.75", "r"), ("Decided", "0.7", "r"),
     ]  # fmt: skip
     cells = []
-    for each in rows:
-        numbers = (each.printed_number, each.corrected_number, each.deciding_number)
-        texts = (each.equation, each.printed, each.corrected, each.quantity)
+    for slip in rows:
+        numbers = (slip.printed_number, slip.corrected_number, slip.deciding_number)
+        texts = (slip.equation, slip.printed, slip.corrected, slip.quantity)
         cells.append([*texts, *(printing.number(number, 6) for number in numbers)])
     return printing.table(columns, cells)
 

@@ -100,15 +100,15 @@ def sliding(wall: Facade) -> Stack:
     stack = wall.stack()
     slides = SLIDES * thickness_of(wall)
     held = []
-    for each in stack.held:
-        if each.tie is not None:
+    for hold in stack.held:
+        if hold.tie is not None:
             tie = replace(
-                each.tie,
-                strength=min(each.tie.strength, wall.held_wall.grip(each.point[1])),
+                hold.tie,
+                strength=min(hold.tie.strength, wall.held_wall.grip(hold.point[1])),
                 plastic_elongation=slides,
             )
-            each = replace(each, tie=tie)
-        held.append(each)
+            hold = replace(hold, tie=tie)
+        held.append(hold)
     return replace(stack, held=tuple(held), friction=min(stack.friction, FRICTION))
 
 
@@ -117,8 +117,8 @@ def anchors(target: Target) -> None:
     trials: list[AnchorTrial] = []
     for component in one_of_each(independent(target.records)):
         trials += anchor_trials(component)
-        followed = [each for each in trials if each.falls is not None]
-        fall = sum(bool(each.falls) for each in followed)
+        followed = [trial for trial in trials if trial.falls is not None]
+        fall = sum(bool(trial.falls) for trial in followed)
         target.tell(
             f"{component.identifier}: {len(trials)} trials, {len(followed)} followed, {fall} of these fall"
         )
@@ -149,8 +149,8 @@ def anchor_trial(component: SiteRecord, place: int) -> AnchorTrial:
         motion = strong_part(record.scaled(factor), multiplier)
         station = assess(motion, wall, settings=AssessmentSettings(friction_coefficient=FRICTION))
     (case,) = station.cases.values()
-    ties = [each for each in wall.restraints() if each.kind == "tie"]
-    is_light = any(each.slides_out for each in ties)
+    ties = [restraint for restraint in wall.restraints() if restraint.kind == "tie"]
+    is_light = any(tie.slides_out for tie in ties)
     runs: list[tuple[bool, float]] = []
     kept: list[tuple[bool, float]] = []
     if is_light and station.verdict is Verdict.STANDS:
@@ -169,8 +169,8 @@ def anchor_trial(component: SiteRecord, place: int) -> AnchorTrial:
         catalogue="fema_p695" if component.identifier.startswith("P695") else "near_fault",
         storeys=len(wall.storey_heights),
         yields=wall.tie_strength is not None,
-        grip=min((each.grip / each.most for each in ties), default=np.inf),
-        needed=max((each.needed / each.grip for each in ties), default=0.0),
+        grip=min((tie.grip / tie.most for tie in ties), default=np.inf),
+        needed=max((tie.needed / tie.grip for tie in ties), default=0.0),
         verdict=station.verdict,
         farthest=case.largest_rotation_ratio,
         falls=sum(falls for falls, _ in runs) if runs else None,

@@ -125,8 +125,8 @@ def between_ties(target: Target) -> None:
     trials: list[BetweenTrial] = []
     for component in one_of_each(independent(target.records)):
         trials += between_trials(component)
-        stand = [each for each in trials if each.falls is not None]
-        fall = sum(bool(each.falls) for each in stand)
+        stand = [trial for trial in trials if trial.falls is not None]
+        fall = sum(bool(trial.falls) for trial in stand)
         target.tell(f"{component.identifier}: {len(trials)} trials, {len(stand)} stand, {fall} of these fall")
     subtitle = "Walls with ties at a spacing, beside walls of units in running bond in three dimensions."
     target.publish(
@@ -176,10 +176,10 @@ def between_trial(component: SiteRecord, place: int) -> BetweenTrial:
         verdict=station.verdict,
         governs=station.crack,
         farthest=case.largest_rotation_ratio,
-        falls=sum(each.falls for each in bays) if bays else None,
-        moved=max(each.farthest for each in bays) / thickness if bays else None,
-        ending_falls=sum(each.falls for each in ending) if ending else None,
-        ending_moved=max(each.farthest for each in ending) / thickness if ending else None,
+        falls=sum(bay.falls for bay in bays) if bays else None,
+        moved=max(bay.farthest for bay in bays) / thickness if bays else None,
+        ending_falls=sum(response.falls for response in ending) if ending else None,
+        ending_moved=max(response.farthest for response in ending) / thickness if ending else None,
         units_s=process_time() - started,
     )
 

@@ -147,10 +147,10 @@ class BondedUnits:
             for bears, borne, _, at, _ in points
         ]
         return Touching(
-            np.array([each[:2] for each in points]),
-            np.array([each[2] for each in points]),
+            np.array([point[:2] for point in points]),
+            np.array([point[2] for point in points]),
             np.array(arms),
-            self.stiffness * np.array([each[4] for each in points]),
+            self.stiffness * np.array([point[4] for point in points]),
         )
 
     def props(self, units: Units) -> Props:

@@ -93,15 +93,15 @@ def code_check(target: Target) -> None:
         target.tell(f"{component.identifier}: {int(falls[-1].sum())} of {len(bodies)} overturn")
     fallen = np.array(falls)  # (records, walls)
     checks = {
-        factor: [kinematic_check(each, SPECTRUM, CodeTerms(confidence_factor=factor)) for each in bodies]
+        factor: [kinematic_check(body, SPECTRUM, CodeTerms(confidence_factor=factor)) for body in bodies]
         for factor in CONFIDENCE
     }
     ratios_of = {
-        (formula, factor): np.array([getattr(each, formula).ratio for each in of_factor])
+        (formula, factor): np.array([getattr(row, formula).ratio for row in of_factor])
         for factor, of_factor in checks.items()
         for formula in ("linear", "nonlinear")
     }
-    onset = np.array([each.damage_level for each in checks[1.0]])
+    onset = np.array([check.damage_level for check in checks[1.0]])
     rows = [
         WallRow(
             kind=kind,
@@ -115,7 +115,7 @@ def code_check(target: Target) -> None:
         )
         for place, (kind, height, thickness) in enumerate(walls)
     ]
-    kinds = np.array([each.kind for each in rows])
+    kinds = np.array([row.kind for row in rows])
     scores = list(_scores(fallen, kinds, ratios_of, Sample.named(sites)))
     subtitle = (
         f"{len(bodies)} walls under {len(fallen)} components of {len(set(sites))} sites, {SPECTRUM.words}."
@@ -182,7 +182,7 @@ def code_sets(target: Target) -> None:
             target.tell(f"split {split}: {error}")
             continue
         trials += _trials(selections, split)
-        target.tell(f"split {split}: {sum(each.covered for each in trials)} of {len(trials)} covered")
+        target.tell(f"split {split}: {sum(trial.covered for trial in trials)} of {len(trials)} covered")
     if not trials:
         raise ConfigurationError.naming(
             "sites",
@@ -193,7 +193,7 @@ def code_sets(target: Target) -> None:
     scores = list(_set_scores(trials))
     subtitle = (
         f"{len(SET_WALLS)} cantilevers, sets of {SET_STATIONS} of half of {len(sites)} sites, "
-        f"{len({each.split for each in trials})} splits by earthquake, {SPECTRUM.words}; intervals by wall."
+        f"{len({trial.split for trial in trials})} splits by earthquake, {SPECTRUM.words}; intervals by wall."
     )
     target.publish("What another set would have said", subtitle, {SetTrial: trials, Score: scores})
 
@@ -202,27 +202,27 @@ def _set_scores(trials: Sequence[SetTrial]) -> Iterator[Score]:
     """How often the interval holds what the other half says, and how often both call a wall met; by wall."""
     parts = {
         "all": list(trials),
-        "sets disagree": [each for each in trials if each.sets_disagree],
-        "met by all that a pool's own sets say": [each for each in trials if each.share >= LEAST_SHARE],
+        "sets disagree": [trial for trial in trials if trial.sets_disagree],
+        "met by all that a pool's own sets say": [trial for trial in trials if trial.share >= LEAST_SHARE],
     }
     for part, own in parts.items():
         measures = {
-            "covered": [float(each.covered) for each in own],
+            "covered": [float(row.covered) for row in own],
             "fewer meet it than the lower end": [
-                float(each.other_share < each.share_low - _ONE_SET) for each in own
+                float(row.other_share < row.share_low - _ONE_SET) for row in own
             ],
-            "width of the interval": [each.share_high - each.share_low for each in own],
-            "the other half calls it met": [float(each.other_share >= LEAST_SHARE) for each in own],
-            "the lower end reaches what is asked": [float(each.share_low >= LEAST_OTHERS) for each in own],
+            "width of the interval": [row.share_high - row.share_low for row in own],
+            "the other half calls it met": [float(row.other_share >= LEAST_SHARE) for row in own],
+            "the lower end reaches what is asked": [float(row.share_low >= LEAST_OTHERS) for row in own],
         }
         if own:
-            yield from scored("share of sets that pass", part, measures, [each.wall for each in own])
+            yield from scored("share of sets that pass", part, measures, [row.wall for row in own])
 
 
 def _trials(selections: Sequence[Selection], split: int) -> Iterator[SetTrial]:
     """What the sets of two halves say of each wall, one beside the other."""
     for name, wall in SET_WALLS.items():
-        checks = [check(wall, SPECTRUM, records=each).dynamic for each in selections]
+        checks = [check(wall, SPECTRUM, records=selection).dynamic for selection in selections]
         for place, which in enumerate(("first", "second")):
             own, other = checks[place], checks[1 - place]
             assert own is not None

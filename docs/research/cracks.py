@@ -159,7 +159,7 @@ class Member:
             return LoadedWall.hinged_at(
                 self.height, base, right - left, UNIT_WEIGHT, top_load=load, top_slab="flat"
             )
-        masses, centres, gyrations = (each[1 + joint :] for each in self.bodies.properties)
+        masses, centres, gyrations = (values[1 + joint :] for values in self.bodies.properties)
         centre = complex(masses @ centres / masses.sum())
         inertia = masses @ (gyrations + np.abs(centres - centre) ** 2) / masses.sum()
         return RigidBody(centre.real - left, right - centre.real, centre.imag - base, float(inertia))
@@ -193,7 +193,7 @@ def members(courses: int) -> dict[str, Member]:
         Member("pinnacle", pinnacle, 2.5, half[:-1] + half[1:], tapers=True),
         Member("spire", straight(3.0, 0.01, courses), 15.0, 3.0 * (1 - middles), tapers=True),
     )
-    return {each.kind: each for each in made}
+    return {row.kind: row for row in made}
 
 
 KINDS = tuple(members(COURSES[0]))
@@ -280,10 +280,10 @@ def ruled(
     statics_first = sorted(of_each, key=lambda joint: joint != static)
     followed = (FollowedCrack(f"joint {joint}", joint, of_each[joint]) for joint in statics_first)
     facts = CrackEnsembles(tuple(followed)).facts
-    lifts = any(np.any(each.rotation_ratios > 0) for each in of_each.values())
+    lifts = any(np.any(ensemble.rotation_ratios > 0) for ensemble in of_each.values())
     if tapers and lifts:
         facts = replace(facts, doubts=(Remark(AssessmentKind.COURSES_THROWN),))
-    return facts, {joint: each.overturning_share for joint, each in of_each.items()}
+    return facts, {joint: ensemble.overturning_share for joint, ensemble in of_each.items()}
 
 
 def stack(member: Member, motion: Accelerogram, step: float = STEP) -> np.ndarray:
@@ -311,8 +311,8 @@ def _case(member: Member, motion: Accelerogram) -> MemberQuestion:
         "acceleration": motion.acceleration.tolist(),
         "time_step": motion.time_step,
         "critical_rotation": TURN / FALLEN,
-        "frequency_parameter": min(each.positive.frequency_parameter for each in mechanisms),
-        "settled": min(each.critical_rotation for each in mechanisms) / 3,
+        "frequency_parameter": min(mechanism.positive.frequency_parameter for mechanism in mechanisms),
+        "settled": min(mechanism.critical_rotation for mechanism in mechanisms) / 3,
     }
 
 

@@ -112,7 +112,7 @@ def try_ensembles(
         }
         alone.append((about, [record]))
         pairs.setdefault(site, (about | {"half": PAIRS}, []))[1].append(record)
-    for group in (alone, [each for each in pairs.values() if len(each[1]) > 1]):
+    for group in (alone, [pair for pair in pairs.values() if len(pair[1]) > 1]):
         for place, (about, components) in enumerate(group):
             draw = sites.draw_of(about["record"])
             for k in range(STRUCTURES_PER_RECORD):
@@ -126,7 +126,7 @@ def _trial(
     """Return the trial of a structure under one component, or two. about: what names it."""
     mechanism, settings = structure.mechanism(), EnsembleSettings()
     factor = sites.lifting_factor(components[0], mechanism.uplift_multiplier, sites.UPLIFTS, draw)
-    scaled = [each.scaled(factor) for each in components]
+    scaled = [component.scaled(factor) for component in components]
     motions = everywhere = GroundMotions.of(scaled[0])
     if len(scaled) > 1:
         first, second = scaled
@@ -202,7 +202,9 @@ def screening_trials(
         settings = AssessmentSettings()
         in_study = ensemble_over_cracks(structure, motions, settings)
         # What slides before it lifts is left out where another crack is left.
-        forms = tuple(each for each in every if not slides_first(each, motions, settings)) or every
+        forms = (
+            tuple(candidate for candidate in every if not slides_first(candidate, motions, settings)) or every
+        )
         in_full = CrackEnsembles(
             tuple(
                 FollowedCrack(form.description, form.position, ensemble(form.mechanism, motions))
@@ -212,11 +214,11 @@ def screening_trials(
         fresh = np.nan
         exhaustive = decide(in_full.facts).word
         if exhaustive is Verdict.STANDS:
-            severities = [each.facts.severity(EnsembleSettings().risk) for each in in_full.followed]
+            severities = [crack.facts.severity(EnsembleSettings().risk) for crack in in_full.followed]
             worst = sorted(range(len(forms)), key=severities.__getitem__)[-WORST:]
             points = draw.random((CRACK_DRAWS, len(CAUSES)))
             again = [drawn(forms[k].mechanism, motions, points, EnsembleSettings()) for k in worst]
-            fresh = max(each.overturning_share for each in again)
+            fresh = max(decision.overturning_share for decision in again)
         yield ScreeningTrial(
             record=component.identifier,
             site=component.site,

@@ -69,7 +69,7 @@ def estimated_cases(
 
     share: of the members of its ensemble that overturn. The others name the case and are the terms of the estimate.
     """
-    mechanisms = {name: each.mechanism() for name, each in structures.items()}
+    mechanisms = {name: structure.mechanism() for name, structure in structures.items()}
     blocks = [mechanism.equivalent_block("exact_at_rest") for mechanism in mechanisms.values()]
     for component in records:
         record = component.accelerogram

@@ -89,11 +89,11 @@ def floor_trials(component: sites.SiteRecord) -> Iterator[FloorTrial]:
 def closed_form_scores(trials: list[FloorTrial]) -> Iterator[scores.Score]:
     """Yield how the closed form stands to the integration, on the ground and on supports."""
     for part, own in (
-        ("on the ground", [each for each in trials if each.support_period_s == 0]),
-        ("on supports", [each for each in trials if each.support_period_s > 0]),
+        ("on the ground", [trial for trial in trials if trial.support_period_s == 0]),
+        ("on supports", [trial for trial in trials if trial.support_period_s > 0]),
     ):
-        truth = np.array([each.integrated_rotation_ratio for each in own])
-        said = np.array([each.predicted_rotation_ratio for each in own])
+        truth = np.array([row.integrated_rotation_ratio for row in own])
+        said = np.array([row.predicted_rotation_ratio for row in own])
         falls = np.isinf(truth)
         rocks = (truth > 1e-3) & ~falls & (said > 0) & ~np.isinf(said)
         quotient = np.divide(said, truth, out=np.full(truth.shape, np.nan), where=rocks)
@@ -116,24 +116,26 @@ def _median(values: np.ndarray) -> scores.Measure:
 
 
 def _sample_of(trials: list[FloorTrial]) -> Sample:
-    return Sample.named((each.site, each.earthquake) for each in trials)
+    return Sample.named((trial.site, trial.earthquake) for trial in trials)
 
 
 def course_scores(trials: list[FloorTrial]) -> Iterator[scores.Score]:
     """Yield for each structure the share that overturns by period, and how often outcomes turn back over periods."""
-    for structure in dict.fromkeys(each.structure for each in trials):
-        own = [each for each in trials if each.structure == structure]
-        for period in sorted({each.support_period_s for each in own}):
-            there = [each for each in own if each.support_period_s == period]
+    for structure in dict.fromkeys(trial.structure for trial in trials):
+        own = [trial for trial in trials if trial.structure == structure]
+        for period in sorted({trial.support_period_s for trial in own}):
+            there = [trial for trial in own if trial.support_period_s == period]
             measures = {
-                "share that overturns": [float(math.isinf(each.integrated_rotation_ratio)) for each in there]
+                "share that overturns": [
+                    float(math.isinf(trial.integrated_rotation_ratio)) for trial in there
+                ]
             }
             part = f"T_b {period:.3g} s" if period else "on the ground"
             yield from scores.scored(structure, part, measures, _sample_of(there))
         courses: dict[tuple[str, str], list[tuple[float, bool]]] = {}
-        for each in own:
-            fell = math.isinf(each.integrated_rotation_ratio)
-            courses.setdefault((each.site, each.earthquake), []).append((each.support_period_s, fell))
+        for trial in own:
+            fell = math.isinf(trial.integrated_rotation_ratio)
+            courses.setdefault((trial.site, trial.earthquake), []).append((trial.support_period_s, fell))
         back = [
             float((np.diff(np.array([fell for _, fell in sorted(course)], dtype=int)) < 0).any())
             for course in courses.values()

@@ -54,7 +54,7 @@ def trade_fragility(target: Target) -> None:
     """Score every method on the records and structures of the target."""
     motions = [record for _, record in target.records]
     sines, searched_s = sites.timed(
-        lambda: [[sine.pulse for sine in best_sines(each, AssessmentSettings())] for each in motions]
+        lambda: [[sine.pulse for sine in best_sines(motion, AssessmentSettings())] for motion in motions]
     )
     rows: list[scores.Score] = []
     for name, structure in target.structures.items():
@@ -81,7 +81,7 @@ def method_scores(
         return np.array([integrate_batch([block], *pair, workers=1)[0] for pair in pairs])[..., None]
 
     runs: dict[TradeMethod, Callable[[], np.ndarray]] = {
-        TradeMethod.ONE_SINE: lambda: _by_sines(block, [each[:1] for each in sines], factors),
+        TradeMethod.ONE_SINE: lambda: _by_sines(block, [sine[:1] for sine in sines], factors),
         TradeMethod.SINES: lambda: _by_sines(block, sines, factors),
         TradeMethod.BLOCK: on_block,
         TradeMethod.MECHANISM: lambda: responses_behind(follow(levels=levels)).rotation_ratios,
@@ -167,7 +167,7 @@ def real_sites(target: Target) -> Iterator[tuple[str, RealSites]]:
     components = list(sites.independent(target.records))
     labels = [component.site for component in components]
     motions = [component.accelerogram for component in components]
-    tried = {name: each for name, each in sites.structures_tried().items() if name in TRIED}
+    tried = {name: structure for name, structure in sites.structures_tried().items() if name in TRIED}
     for name, structure in {"stone pier, 2 by 9 m": Block.of_size(2.0, 9.0), **tried}.items():
         analysis = responses_behind(fragility(motions, structure, stations=labels, **ALL_LEVELS))
         shares = np.isinf(analysis.rotation_ratios).mean(axis=2)

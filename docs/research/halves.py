@@ -53,13 +53,13 @@ TRIED: Mapping[str, tuple[Structure, str, tuple[float, float]]] = {
 def halves(target: Target) -> None:
     """Score what each rule chooses on one half of the stations by the shares of the other."""
     pool: dict[str, list[Accelerogram]] = {}
-    for each in independent(target.records):
-        pool.setdefault(each.site, []).append(each.accelerogram)
+    for record in independent(target.records):
+        pool.setdefault(record.site, []).append(record.accelerogram)
     scaled = scaled_pool(
         pool, DesignSpectrum.ntc(ag=LEVEL * GRAVITY, f0=2.5, tc_star=0.45), (0.15, 2.0), (0.1, 10.0)
     )
     places = range(len(scaled.names))
-    records = [each for place in places for each in scaled.scaled(place)]
+    records = [accelerogram for place in places for accelerogram in scaled.scaled(place)]
     stations = [scaled.names[place] for place in places for _ in scaled.pairs[place]]
     rows: list[Score] = []
     for name, (structure, key, between) in TRIED.items():
@@ -108,20 +108,20 @@ def shown(found: Strengthening, stations: np.ndarray, limit: float) -> Tried | N
     sample = found.sample.part(stations)
     tried = tuple(
         replace(
-            each,
-            shares=each.shares[stations],
+            trial,
+            shares=trial.shares[stations],
             sample=sample,
-            slid=None if each.slid is None else each.slid[stations],
+            slid=None if trial.slid is None else trial.slid[stations],
         )
-        for each in found.tried
+        for trial in found.tried
     )
     value = replace(found, target=limit, sample=sample, tried=tried).value
-    return next((each for each in found.tried if each.value == value), None)
+    return next((trial for trial in found.tried if trial.value == value), None)
 
 
 def seems(found: Strengthening, stations: np.ndarray, limit: float) -> Tried | None:
     """Return the least value at which the share of some of the stations is below the target."""
-    return next((each for each in found.tried if each.shares[stations].mean() < limit), None)
+    return next((trial for trial in found.tried if trial.shares[stations].mean() < limit), None)
 
 
 def _told(name: str, part: str, measure: str, value: float, sample: Sample) -> Score:

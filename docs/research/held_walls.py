@@ -194,7 +194,7 @@ def held_trial(component: SiteRecord, catalogue: str, kind: str, place: int) -> 
     facts = case.facts(wall)
     stack = wall.stack()
     runs = list(true_runs(replace(stack, friction=min(stack.friction, friction or FRICTION)), motion))
-    free = [0.0, *sorted(each.height for each in wall.held_wall.holds), wall.height]
+    free = [0.0, *sorted(hold.height for hold in wall.held_wall.holds), wall.height]
     return HeldTrial(
         record=component.identifier,
         site=component.site,
@@ -207,7 +207,7 @@ def held_trial(component: SiteRecord, catalogue: str, kind: str, place: int) -> 
         friction=friction or np.nan,
         restitution=wall.mechanism().restitution,
         mechanism=decide(replace(facts, doubts=(), stacks=None)).word,
-        doubts=";".join(str(each.kind) for each in station.decision.doubts),
+        doubts=";".join(str(doubt.kind) for doubt in station.decision.doubts),
         verdict=station.verdict,
         farthest=case.largest_rotation_ratio,
         stack_falls=case.contact.falls if case.contact else None,
@@ -221,7 +221,7 @@ def held_trial(component: SiteRecord, catalogue: str, kind: str, place: int) -> 
 
 def thickness_of(wall: Tied) -> float:
     """Return the least thickness of a wall, m."""
-    return min(each.right - each.left for each in wall.held_wall.storeys)
+    return min(storey.right - storey.left for storey in wall.held_wall.storeys)
 
 
 def true_runs(stack: Stack, motion: Accelerogram) -> Iterator[tuple[bool, float]]:

@@ -102,11 +102,11 @@ def two_sided_block(
     positive, negative = (
         EquivalentBlock(
             frequency_parameter=frequency_parameter,
-            critical_rotation=float(np.arctan(each)),
-            acceleration_scale=float(np.arctan(each)) / each,
+            critical_rotation=float(np.arctan(multiplier)),
+            acceleration_scale=float(np.arctan(multiplier)) / multiplier,
             restitution=restitution,
         )
-        for each in (positive_multiplier, negative_multiplier)
+        for multiplier in (positive_multiplier, negative_multiplier)
     )
     return replace(positive, other_side=negative)
 

@@ -103,8 +103,8 @@ def leaves(target: Target) -> None:
     trials: list[LeavesTrial] = []
     for component in independent(target.records):
         trials += leaves_trials(component)
-        stand = sum(each.true_runs is not None for each in trials)
-        fall = sum(bool(each.true_falls) for each in trials)
+        stand = sum(trial.true_runs is not None for trial in trials)
+        fall = sum(bool(trial.true_falls) for trial in trials)
         target.tell(f"{component.identifier}: {len(trials)} trials, {stand} stand, {fall} of these fall")
     subtitle = "Walls of two leaves, with bonders and without, beside stacks of each leaf."
     target.publish(

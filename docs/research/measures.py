@@ -80,12 +80,12 @@ class Scatter:
 
 def measure_scatter(target: Target) -> None:
     """Score every measure by structure: where a rule may be chosen, and on the sites that are left."""
-    catalogues = [list(each) for each in target.catalogues]
+    catalogues = [list(catalogue) for catalogue in target.catalogues]
     names = {identifier for identifier, _ in catalogues[0]}
-    every = list(sites.independent(each for records in catalogues for each in records))
+    every = list(sites.independent(record for records in catalogues for record in records))
     parts = {
-        "sites for choices": [each for each in every if each.identifier in names],
-        "sites left out": [each for each in every if each.identifier not in names],
+        "sites for choices": [record for record in every if record.identifier in names],
+        "sites left out": [record for record in every if record.identifier not in names],
     }
     rows: list[scores.Score] = []
     for name, structure in structures_tried().items():
@@ -100,8 +100,8 @@ def scatter_scores(
     part: str, structure: Structure, records: Sequence[sites.SiteRecord]
 ) -> list[scores.Score]:
     """Return the scatter of each measure of one structure, and its ratio to that of FIRST."""
-    motions = [each.accelerogram for each in records]
-    sample = sites.sample_of([each.site for each in records], [each.earthquake for each in records])
+    motions = [record.accelerogram for record in records]
+    sample = sites.sample_of([record.site for record in records], [record.earthquake for record in records])
     tried = scatter_of(structure, motions, sample.stations)
     rows: list[scores.Score] = []
     for name in tried.logs:
@@ -121,9 +121,10 @@ def scatter_of(structure: Structure, motions: Sequence[Accelerogram], stations: 
     factors = np.log(analysis.levels) - np.log(analysis.intensities)[:, None]
     measures = [*compared(mechanism), *map(intensity_measure, FIXED)]
     logs = {
-        _kind(each): np.log(np.array([_figure(each, motion) for motion in motions])[:, None]) / each.power
+        _kind(measure): np.log(np.array([_figure(measure, motion) for motion in motions])[:, None])
+        / measure.power
         + factors
-        for each in measures
+        for measure in measures
     }
     return Scatter(logs, np.isinf(analysis.rotation_ratios).mean(axis=2))
 

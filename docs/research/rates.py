@@ -66,8 +66,8 @@ def interval_scores(
         rng = np.random.default_rng(count)
         drawn = [draw(rng, count) for _ in range(TRIALS)]
         sample = Sample.scattered(list(map(str, range(count))))
-        low, high = np.array([rate_interval(each, sample) for each in drawn]).T
-        rate = np.array([each.mean() for each in drawn])
+        low, high = np.array([rate_interval(row, sample) for row in drawn]).T
+        rate = np.array([row.mean() for row in drawn])
         with np.errstate(divide="ignore", invalid="ignore"):
             reach = np.where(rate > 0, np.maximum(high, rate) / rate, np.nan)
         measures: dict[str, scores.Measured] = {
@@ -90,9 +90,11 @@ def study_scores(subject: str, slope: float, pool: RealSites) -> Iterator[scores
             rate_within(pool, rng.integers(0, pool.sample.count, count), sample, hazard)
             for _ in range(REAL_TRIALS)
         ]
-        is_told = np.array([each.is_told for each in of_draws])
-        holds = np.array([each.low <= truth <= each.high for each in of_draws], dtype=float)
-        reach = np.array([each.high / each.value for each in of_draws])
+        is_told = np.array([fragility_rate.is_told for fragility_rate in of_draws])
+        holds = np.array(
+            [fragility_rate.low <= truth <= fragility_rate.high for fragility_rate in of_draws], dtype=float
+        )
+        reach = np.array([fragility_rate.high / fragility_rate.value for fragility_rate in of_draws])
         measures: dict[str, scores.Measured] = {
             "rates that are told": is_told,
             "intervals that hold the rate": np.where(is_told, holds, np.nan),

@@ -138,7 +138,7 @@ class _Run:
         down, turns, ends = solved.y_events
         peaks = [state[0], solved.y[0, -1], *(y[0] for y in turns)]
         self.peak = (
-            math.inf if len(ends) else max(self.peak, *(each / side.critical_rotation for each in peaks))
+            math.inf if len(ends) else max(self.peak, *(peak / side.critical_rotation for peak in peaks))
         )
         rate = float(solved.y[1, -1])
         if len(down):

@@ -45,7 +45,7 @@ class Target:
         is_class = scores.measure.isin((STATED, HAPPENED))
         parts = [Part(text=text)] if text else []
         for part, own in scores[~is_class].groupby("part", sort=False):
-            rows = [Score(**each) for each in own.sort_values("measure", kind="stable").to_dict("records")]
+            rows = [Score(**row) for row in own.sort_values("measure", kind="stable").to_dict("records")]
             columns = printing.columns_of(
                 Score, "measure=2 subject=1.6 value value_low value_high sites earthquakes cases", "0.6"
             )

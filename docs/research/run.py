@@ -89,9 +89,11 @@ def run(name: str, catalogues: Sequence[str], config: Mapping[str, Any], folder:
         campaign = Campaign.open(Path(catalogues[0]), Path(mirror) if mirror else None)
         validation.validate(Target(Path(folder), tell), campaign)
         return
-    motions: Sequence[Records] = [motions_of(load_catalogue(Path(each)), mirror, tell) for each in catalogues]
+    motions: Sequence[Records] = [
+        motions_of(load_catalogue(Path(catalogue)), mirror, tell) for catalogue in catalogues
+    ]
     listed = load_scenes(Path(settings.structures))
-    on_the_ground = {name: each.structure for name, each in listed.items() if not each.place.supports}
+    on_the_ground = {name: scene.structure for name, scene in listed.items() if not scene.place.supports}
     if most := os.environ.get("RESEARCH_SITES"):
         motions = spread(motions, int(most))
     targets()[name](Target(Path(folder), tell, motions, on_the_ground))

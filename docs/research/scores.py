@@ -54,10 +54,10 @@ def scored(
     """
     drawn = sample if isinstance(sample, Sample) else Sample.scattered(list(map(str, sample)))
     every = np.arange(drawn.of_record.size)
-    for name, each in measures.items():
-        measure = each if callable(each) else mean(each)
-        low, high = interval_of(each, measure, drawn, replicates)
-        counting = every if callable(each) else np.flatnonzero(~np.isnan(np.asarray(each, dtype=float)))
+    for name, rows in measures.items():
+        measure = rows if callable(rows) else mean(rows)
+        low, high = interval_of(rows, measure, drawn, replicates)
+        counting = every if callable(rows) else np.flatnonzero(~np.isnan(np.asarray(rows, dtype=float)))
         behind = drawn.of_records(counting)
         yield Score(
             subject=subject,

@@ -109,7 +109,7 @@ def read_tests(path: Path) -> pd.DataFrame:
     pga_g and pgv_over_pga the nominal peak velocity is made, m/s. Raises RecordError naming the line of a defect.
     """
     tests = pd.read_csv(path, dtype=str, keep_default_na=False)
-    own = [f"overturned_specimen_{each}" for each in SPECIMENS]
+    own = [f"overturned_specimen_{specimen}" for specimen in SPECIMENS]
     verdicts = dict.fromkeys([*own, *(name for name in tests if name.startswith("specimen_"))], bool)
     kinds = {"test": int, "dt": float, "pga_g": float, "pgv_over_pga": float, "motion": str, **verdicts}
     for name, kind in kinds.items():

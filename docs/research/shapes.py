@@ -37,11 +37,11 @@ class Fitted:
 def pulse_shapes(target: Target) -> None:
     """Score each shape on all records and on those that it explains best, and the best one of each record."""
     cases: list[Case] = []
-    for each in independent(target.records):
-        fits = {name: fit for name in SHAPES if (fit := fitted(each.accelerogram, *SHAPES[name]))}
+    for record in independent(target.records):
+        fits = {name: fit for name in SHAPES if (fit := fitted(record.accelerogram, *SHAPES[name]))}
         if fits:
-            cases += compared(each, fits, target.structures)
-        target.tell(each.identifier)
+            cases += compared(record, fits, target.structures)
+        target.tell(record.identifier)
     rows = list(scores_of(cases))
     subtitle = f"{len({case.site for case in cases})} sites, {len(target.structures)} structures."
     target.publish("Which pulse to take", subtitle, {Score: rows})
@@ -133,8 +133,8 @@ def _scored(subject: str, part: str, cases: Sequence[Case], shapes: Sequence[str
     outcomes = [agreement(predicted=predicted, integrated=integrated) for predicted, integrated in pairs]
     errors = [abs(ratio(predicted=predicted, integrated=integrated) - 1) for predicted, integrated in pairs]
     measures: dict[str, Measured] = {
-        "wrong verdicts": [float(each is not Agreement.SAME) for each in outcomes],
-        "unsafe verdicts": [float(each is Agreement.TOO_LOW) for each in outcomes],
+        "wrong verdicts": [float(outcome is not Agreement.SAME) for outcome in outcomes],
+        "unsafe verdicts": [float(outcome is Agreement.TOO_LOW) for outcome in outcomes],
         "median error of the rotation": median(errors),
         "explained energy": [case.explained[name] for case, name in zip(cases, shapes, strict=True)],
     }

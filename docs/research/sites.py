@@ -78,7 +78,7 @@ def independent(records: Records) -> Iterator[SiteRecord]:
     earthquakes = earthquakes_of(record for _, record in every)
     for (identifier, record), earthquake in zip(every, earthquakes, strict=True):
         words = re.findall(r"[a-z0-9]+", record.station.lower())
-        site = next((each for each in sites if each.is_of(earthquake, words)), None)
+        site = next((site for site in sites if site.is_of(earthquake, words)), None)
         if site is None:
             site = _Site(earthquake, words, site_of(record))
             sites.append(site)

@@ -154,7 +154,7 @@ def stability_trials(
                 verdict=told.verdict,
                 of_members=decide(told.ensembles.facts).word if told.ensembles else told.verdict,
                 true_verdict=true_verdict,
-                members=sum(each.ensemble.members for each in followed),
+                members=sum(crack.ensemble.members for crack in followed),
                 share=told.decision.share,
                 true_share=true_share,
             )
@@ -172,16 +172,18 @@ def very_many(structure: Structure, motions: GroundMotions) -> CrackEnsembles:
     """Return the ensembles of MEMBERS members of every crack that counts."""
     settings = AssessmentSettings()
     several = counting_cracks(structure)
-    several = tuple(each for each in several if not slides_first(each, motions, settings)) or several
+    several = (
+        tuple(candidate for candidate in several if not slides_first(candidate, motions, settings)) or several
+    )
     followed = (
         FollowedCrack(
-            each.description,
-            each.position,
-            drawn(each.mechanism, motions, lattice(MEMBERS), settings.ensemble),
-            bulges=each.bulges,
-            part=each.part,
+            candidate.description,
+            candidate.position,
+            drawn(candidate.mechanism, motions, lattice(MEMBERS), settings.ensemble),
+            bulges=candidate.bulges,
+            part=candidate.part,
         )
-        for each in several
+        for candidate in several
     )
     return CrackEnsembles(tuple(followed))
 
@@ -192,7 +194,7 @@ def stability_scores(trials: Sequence[StabilityTrial]) -> Iterator[scores.Score]
     Cases without a class are counted by themselves and enter no other share.
     """
     every = pd.DataFrame(trials)
-    every["off"] = [each.classes_off for each in trials]
+    every["off"] = [trial.classes_off for trial in trials]
     disagree = every.true_share.gt(0) & every.true_share.lt(1)
     for part, own in [("all", every), *every.groupby("kind", sort=False)]:
         off = own.off.to_numpy()

@@ -59,16 +59,16 @@ def tie_forces(target: Target) -> None:
             rows += tie_rows(component, place)
         target.tell(f"{component.identifier}: {len(rows)} ties")
     rows_of_walls: dict[tuple[str, float], list[TieRow]] = {}
-    for each in rows:
-        rows_of_walls.setdefault((each.record, each.scale_factor), []).append(each)
-    worst = [max(own, key=lambda each: each.ratio) for own in rows_of_walls.values()]
-    ratios = [each.ratio for each in worst]
+    for tie in rows:
+        rows_of_walls.setdefault((tie.record, tie.scale_factor), []).append(tie)
+    worst = [max(own, key=lambda tie: tie.ratio) for own in rows_of_walls.values()]
+    ratios = [tie.ratio for tie in worst]
     measures = {
         "median": median(ratios),
         "10 % quantile": median(ratios, 0.1),
         "90 % quantile": median(ratios, 0.9),
     }
-    sample = sample_of([each.site for each in worst], [each.earthquake for each in worst])
+    sample = sample_of([tie.site for tie in worst], [tie.earthquake for tie in worst])
     of = scored("largest force of a tie over that of statics", "walls that stand", measures, sample)
     target.publish("What ties carry", f"{len(worst)} walls.", {Score: list(of), TieRow: rows})
 
@@ -83,7 +83,9 @@ def tie_rows(component: SiteRecord, place: int) -> Iterator[TieRow]:
         return  # nothing lifts
     motion = strong_part(component.accelerogram.scaled(factor), multiplier)
     needed = {
-        each.height: each.needed for each in wall.restraints() if each.kind == "tie" and each.needed > 0
+        restraint.height: restraint.needed
+        for restraint in wall.restraints()
+        if restraint.kind == "tie" and restraint.needed > 0
     }
     stack = wall.stack()
     # An impact lasts for less than a step of the record: the history has every step of contact dynamics.

@@ -93,7 +93,7 @@ def validate(target: Target, campaign: Campaign) -> None:
             rows += scores.scored(method, part, _measures(values, ours, outcomes), motions)
             columns = tests[["test", "motion"]].assign(probability=values, overturned=outcomes)
             facts = columns.assign(specimen=specimen, method=method).to_dict("records")
-            predictions += [PredictionRow(**each) for each in facts]
+            predictions += [PredictionRow(**row) for row in facts]
         rows += scores.reliability(part, "motions left out", ours, outcomes, motions, EDGES)
         population = fit_mixture(measured.parameters, measured.overturns, outcomes, motions)
         for name, (low, middle, high) in population.ranges().items():
@@ -120,7 +120,7 @@ def validate(target: Target, campaign: Campaign) -> None:
 def measure(campaign: Campaign, prior: BlockPrior, tell: Callable[[str], None]) -> Measured:
     """Follow every candidate through every measured motion, one motion in memory at a time."""
     parameters = prior.parameters()
-    blocks = [two_sided_block(*each) for each in parameters.tolist()]
+    blocks = [two_sided_block(*row) for row in parameters.tolist()]
     peaks, verdicts, pulses = [], [], []
     for count, number in enumerate(campaign.tests.test, start=1):
         tell(f"{count} of {len(campaign.tests)}: test {number}")
@@ -197,8 +197,8 @@ def logistic(values: np.ndarray, outcomes: np.ndarray, unseen: np.ndarray) -> np
 
 def _measures(values: np.ndarray, ours: np.ndarray, outcomes: np.ndarray) -> Mapping[str, scores.Measured]:
     """The measures of probabilities (n,), and what `ours` gains in them, paired."""
-    right, ours_right = ((each > 0.5) == outcomes for each in (values, ours))
-    missed_by, ours_missed_by = ((each - outcomes) ** 2 for each in (values, ours))
+    right, ours_right = ((estimate > 0.5) == outcomes for estimate in (values, ours))
+    missed_by, ours_missed_by = ((estimate - outcomes) ** 2 for estimate in (values, ours))
     return {
         "accuracy": right,
         "Brier score": missed_by,

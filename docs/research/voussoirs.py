@@ -168,7 +168,7 @@ def voussoirs(target: Target) -> None:
             if not path.is_file():
                 write_rows(StonesTrial, stones_trials(component, kind), path)
             trials += read_rows(StonesTrial, path)
-        own = [each.verdict for each in trials if each.structure == kind]
+        own = [trial.verdict for trial in trials if trial.structure == kind]
         target.tell(f"{kind}: {len(own)} trials, {own.count(Verdict.STANDS)} stand")
     checks: list[CheckedTrial] = []
     for place, component in enumerate(components[:CHECKED]):
@@ -413,7 +413,7 @@ def checked_trials(component: SiteRecord, place: int) -> Iterator[CheckedTrial]:
 
 def checked_scores(trials: Sequence[CheckedTrial]) -> Iterator[scores.Score]:
     """Yield how often both codes agree, and how far those turn that stand in both, with intervals by earthquake."""
-    answered = [each for each in trials if each.falls_in_lmgc90 is not None]
+    answered = [trial for trial in trials if trial.falls_in_lmgc90 is not None]
     if not answered:
         return
     table = pd.DataFrame(answered)

@@ -67,21 +67,21 @@ def cases_of(component: SiteRecord, structures: Mapping[str, Structure]) -> Iter
 
 def worth_scores(cases: Sequence[Case]) -> Iterator[Score]:
     """Yield for each class of energy how often both end alike, and which falls the closed form sees."""
-    edges = [math.inf, *(each.energy for each in WORTHS)]
+    edges = [math.inf, *(worth.energy for worth in WORTHS)]
     for most, least in pairwise(edges):
-        own = [each for each in cases if least <= each.explained < most]
+        own = [case for case in cases if least <= case.explained < most]
         if not own:
             continue
-        falls = np.isinf([each.integrated for each in own])
-        said = np.isinf([each.predicted for each in own])
+        falls = np.isinf([row.integrated for row in own])
+        said = np.isinf([row.predicted for row in own])
         alike = [
-            agreement(predicted=each.predicted, integrated=each.integrated) is Agreement.SAME for each in own
+            agreement(predicted=row.predicted, integrated=row.integrated) is Agreement.SAME for row in own
         ]
         measures: dict[str, Measured] = {
             "same outcome": np.array(alike, dtype=float),
             "falls found": np.where(falls, said, np.nan),
         }
-        sample = sample_of([each.site for each in own], [each.earthquake for each in own])
+        sample = sample_of([row.site for row in own], [row.earthquake for row in own])
         yield from scored(
             "closed form under the best sine", f"{least:g} or more of the energy", measures, sample
         )

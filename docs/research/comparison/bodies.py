@@ -37,7 +37,7 @@ class RigidBodies:
     def properties(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Volume [m³], centroid (complex, m) and squared gyration [m²] of each, (n,)."""
         areas, centres, gyrations = (
-            np.array(each) for each in zip(*map(properties, self.polygons), strict=True)
+            np.array(values) for values in zip(*map(properties, self.polygons), strict=True)
         )
         return areas * (self.depths or 1.0), centres, gyrations
 

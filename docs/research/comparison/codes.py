@@ -158,7 +158,7 @@ def inner_codes() -> Mapping[str, Code]:
 def outer_codes() -> Mapping[str, Code]:
     """Return the other codes, each in a process of its own."""
     modules = {LMGC90: "lmgc90", ROCKING_BC: "opensees"}
-    return {name: partial(_outer, f"docs.research.comparison.{each}") for name, each in modules.items()}
+    return {name: partial(_outer, f"docs.research.comparison.{module}") for name, module in modules.items()}
 
 
 def landings_of(response: Response) -> np.ndarray:
@@ -221,8 +221,8 @@ def serve(run: Callable[[StructureQuestion, float], Answer], settings: Sequence[
     case: StructureQuestion = json.load(sys.stdin)
     start = time.process_time()
     runs = [run(case, setting) for setting in settings]
-    ratio, bar = limit_of([each.rotation_ratio for each in runs])
-    eta, eta_bar = limit_of([each.restitution for each in runs])
+    ratio, bar = limit_of([run.rotation_ratio for run in runs])
+    eta, eta_bar = limit_of([run.restitution for run in runs])
     answer = replace(runs[-1], rotation_ratio_error=bar, restitution=eta, restitution_error=eta_bar)
     if math.isnan(ratio):
         answer = replace(answer, rotation_ratio=ratio, reason=reason, landings=None)
@@ -260,8 +260,8 @@ def limit_of(answers: Sequence[float]) -> tuple[float, float]:
     The order is the observed one, kept between 1/2 and 2 (Roache 1994, Richardson's extrapolation); the bar is the last
     change, or the extrapolated one if that is larger. Answers that overturn have no limit: inf if all do, else nan.
     """
-    if any(not math.isfinite(each) for each in answers):
-        return (math.inf if all(math.isinf(each) for each in answers) else math.nan), math.nan
+    if any(not math.isfinite(answer) for answer in answers):
+        return (math.inf if all(math.isinf(answer) for answer in answers) else math.nan), math.nan
     coarse, middle, fine = answers
     before, last = middle - coarse, fine - middle
     if last == 0:

@@ -136,7 +136,7 @@ def _row(
 ) -> CodeRow:
     ratio, side = answer.rotation_ratio, case.mechanism.positive
     # 0 at rest, 1 rocking, 2 overturned; a rotation beyond 1.5 critical ones at the end of a run has overturned.
-    kind, true_kind = ((each > 0) + (each > 1.5) for each in (ratio, truth))
+    kind, true_kind = ((value > 0) + (value > 1.5) for value in (ratio, truth))
     agrees = None if math.isnan(ratio) else kind == true_kind
     error = abs(ratio / truth - 1) if agrees and 0 < truth < math.inf else 0.0 if agrees else math.nan
     another_model = (case.structure, code) in codes.ANOTHER_MODEL
@@ -147,8 +147,8 @@ def _row(
     envelope = math.nan
     missed_impacts = None
     if another_model:
-        mechanisms = [each.mechanism for each in cracks(codes.structures()[case.structure])]
-        envelope = max(integrate(each, case.motion).rotation_ratio for each in mechanisms)
+        mechanisms = [crack.mechanism for crack in cracks(codes.structures()[case.structure])]
+        envelope = max(integrate(mechanism, case.motion).rotation_ratio for mechanism in mechanisms)
         error = math.nan
     elif answer.landings is not None:
         missed_impacts = missed(answer.landings, expected, 0.02 / side.frequency_parameter)
