@@ -67,10 +67,10 @@ def check_own(results: Path) -> None:
     """
     for folder in (REMEMBERED, results):
         if folder.is_symlink() and not stands_inside(folder):
-            raise ConfigurationError(f"{folder}: {_LINK}")
+            raise ConfigurationError.naming("path", str(folder), f"{folder}: {_LINK}")
         for entry in _entries(folder):
             if entry.is_symlink():
-                raise ConfigurationError(f"{entry.path}: {_LINK}")
+                raise ConfigurationError.naming("path", entry.path, f"{entry.path}: {_LINK}")
             if not (entry.is_dir() or entry.is_file()):
                 raise ConfigurationError(
                     f"{entry.path}: it is neither a file nor a folder, and a run would wait for it; remove it."
@@ -113,7 +113,7 @@ def locked(path: Path, how: int) -> int:
     """
     path.parent.mkdir(exist_ok=True)
     if path.is_symlink():
-        raise ConfigurationError(f"{path}: {_LINK}")
+        raise ConfigurationError.naming("path", str(path), f"{path}: {_LINK}")
     handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o644)
     if not stat.S_ISREG(os.fstat(handle).st_mode):
         os.close(handle)

@@ -58,7 +58,9 @@ def undamaged(path: Path) -> Iterator[None]:
     try:
         yield
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError, BadZipFile) as error:
-        raise RockingError(f"{path}: it is damaged ({error}); remove it and run the study again.") from None
+        raise RockingError.naming(
+            "path", path, f"{path}: it is damaged ({error}); remove it and run the study again."
+        ) from None
 
 
 def encoded_rows(rows: Rows) -> dict[str, list[list[Any]]]:

@@ -414,8 +414,10 @@ class _Restricted(Settings):
 
     def __getattribute__(self, name: str) -> Any:
         if name in _FIELDS and name not in object.__getattribute__(self, "__dict__"):
-            raise ConfigurationError(
-                f"setting {name}: nothing says that it is needed here; add it to rocking.study.made_from.TABLE."
+            raise ConfigurationError.naming(
+                name,
+                None,
+                f"setting {name}: nothing says that it is needed here; add it to rocking.study.made_from.TABLE.",
             )
         return object.__getattribute__(self, name)
 

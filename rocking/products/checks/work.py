@@ -122,8 +122,10 @@ def write_checks(
     asked = study.settings.checks
     spectrum = design.spectrum()
     if spectrum is None:
-        raise ConfigurationError(
-            "setting design_spectrum.ag_g is null, and so is points, but checks need a design level; give one."
+        raise ConfigurationError.naming(
+            "design_spectrum",
+            None,
+            "setting design_spectrum.ag_g is null, and so is points, but checks need a design level; give one.",
         )
     worst = {
         conclusion.verdict.structure: conclusion for conclusion in worst_of_each(conclusions(verdicts, []))

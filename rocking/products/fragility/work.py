@@ -83,9 +83,11 @@ def write_fragility(
         with net("its fragility", name):
             held[name] = never_overturns_because(scene.structure)
     if all(held.values()) and not faults:
-        raise ConfigurationError(
+        raise ConfigurationError.naming(
+            "structures",
+            list(held),
             "no structure of the list can overturn, so that none has a fragility; give ties a tie_strength at which "
-            "they let go, or leave the fragility out."
+            "they let go, or leave the fragility out.",
         )
     opened, reasons = _opened(records, study, net)
     if not (opened or faults):

@@ -39,6 +39,7 @@ from rocking.study.terminal import conclusion_lines
 from rocking.tables import read_table
 from rocking.tables.workbook import workbook
 from tests.made_pools import DESIGN, SETS, made_pool
+from tests.refusals import refused
 from tests.unit.assessment import made_rows
 from tests.unit.assessment.made_rows import filled
 from tests.unit.reports.conftest import SETTINGS, summarised
@@ -153,7 +154,7 @@ def test_without_sets_the_formulas_stand_and_the_page_says_so(study):
 
 def test_checks_without_a_design_level_are_refused(study):
     settings, folder = study
-    with pytest.raises(ConfigurationError, match="checks need a design level"):
+    with refused(ConfigurationError, "design_spectrum"):
         write_checks(Study(on_the_ground(STRUCTURES), read_settings(settings)), folder, [], [])
 
 

@@ -24,6 +24,7 @@ from rocking.study.made_from import (
 from rocking.study.products import BY_NAME
 from rocking.study.products import PRODUCTS as OVER_ALL
 from rocking.study.workspace import write_catalogue as write_catalogue_of_folder
+from tests.refusals import refused
 from tests.workflow.edits import (
     BATCH,
     EDITS,
@@ -197,7 +198,7 @@ def test_a_copied_folder_makes_nothing_again(study, monkeypatch) -> None:
 def test_files_on_another_machine_are_taken_by_the_name_and_the_hash_of_the_catalogue(study) -> None:
     here = plan()
     Path("records/a.AT2").rename("a.AT2")
-    with pytest.raises(ConfigurationError, match=r"record a .* its sha256 must stand in the catalogue"):
+    with refused(ConfigurationError, "sha256"):
         made_from("record/a", plan(by_name=True))
     Path("a.AT2").rename("records/a.AT2")
     here.fill_hashes()
@@ -211,11 +212,9 @@ def test_files_on_another_machine_are_taken_by_the_name_and_the_hash_of_the_cata
 def test_a_job_cannot_read_a_setting_that_its_line_does_not_name(study) -> None:
     settings = settings_for("fragility", plan().settings)
     assert settings.fragility.hazard == "hazard.csv" and settings.tolerance == 1e-6
-    with pytest.raises(
-        ConfigurationError, match=r"setting client: .* add it to rocking\.study\.made_from\.TABLE"
-    ):
+    with refused(ConfigurationError, "client"):
         _ = settings.client
-    with pytest.raises(ConfigurationError, match="setting checks"):
+    with refused(ConfigurationError, "checks"):
         _ = settings_for("record", plan().settings).checks
 
 
