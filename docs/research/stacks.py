@@ -39,8 +39,8 @@ from rocking.errors import StructureWarning
 from rocking.quantities import GRAVITY
 from rocking.structures import Structure
 from rocking.structures.building_parts import building_part
+from rocking.structures.crackable import Crackable
 from rocking.structures.stack import Stack
-from rocking.structures.structure import Crackable
 from rocking.tables import column, read_rows, row, write_rows
 
 COURSES = (6, 8, 10, 13)

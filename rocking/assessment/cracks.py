@@ -23,8 +23,9 @@ from rocking.motion.response import lifting_friction
 from rocking.motion.table import forcing_of, table_of
 from rocking.remarks import Remark
 from rocking.structures import Structure
+from rocking.structures.crackable import WEAK_MASONRY
 from rocking.structures.leaves import of_leaf
-from rocking.structures.structure import CRACKS, WEAK_MASONRY, Candidate
+from rocking.structures.structure import CRACKS, Candidate
 from rocking.structures.tied import Tied
 
 IN_DOUBT = 0.3

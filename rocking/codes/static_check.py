@@ -22,9 +22,10 @@ from rocking.quantities import GRAVITY, kind_of, positive
 from rocking.records.design_spectrum import DesignSpectrum
 from rocking.remarks import Remark
 from rocking.structures import Structure
+from rocking.structures.crackable import Crackable
 from rocking.structures.leaves import of_leaf, parts_of
 from rocking.structures.linkage import FRICTION
-from rocking.structures.structure import AS_DESCRIBED, Candidate, Crackable
+from rocking.structures.structure import AS_DESCRIBED, Candidate
 from rocking.structures.tied import Tied
 
 _SAME = 1e-9

@@ -39,7 +39,7 @@ from rocking.reports.pages import (
 )
 from rocking.reports.style import COMMON, FONT_FOLDER, glyphs
 from rocking.structures import Structure
-from rocking.structures.structure import Crackable
+from rocking.structures.crackable import Crackable
 from rocking.tables import Row, rows_of, write_whole
 
 if TYPE_CHECKING:

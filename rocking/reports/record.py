@@ -91,9 +91,9 @@ from rocking.reports.record_figures import History
 from rocking.reports.style import pictures
 from rocking.reports.supports import SupportPanel, floor_sentences, support_panels, supports_figure
 from rocking.structures import Structure
+from rocking.structures.crackable import Crackable
 from rocking.structures.kinds import StructureKind
 from rocking.structures.linkage import FRICTION
-from rocking.structures.structure import Crackable
 
 if TYPE_CHECKING:
     from rocking.records.design_spectrum import DesignSpectrum

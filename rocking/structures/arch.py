@@ -27,11 +27,12 @@ from rocking.structures.arch_mechanism import (
     static_onset,
 )
 from rocking.structures.arch_ring import EXTRADOS, INTRADOS, PATTERN, Bars, Fill, Piers, Ring
+from rocking.structures.crackable import Crackable, unplaced
 from rocking.structures.drawing import Path, plane, span, swept
 from rocking.structures.fields import OptionalUnitWeight, Value, count, length, restitution_value
 from rocking.structures.linkage import PRESSED, STILL, Restitution, momentum_balance
 from rocking.structures.stones import Stones, chain, counted_voussoirs
-from rocking.structures.structure import Candidate, Crackable, unplaced
+from rocking.structures.structure import Candidate
 
 _CRUSHINGS = 60
 _CRUSHED_ALIKE = 1e-14

@@ -7,6 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal
 import numpy as np
 
 from rocking.errors import SizeError, StructureError
+from rocking.structures.crackable import CrackedAtHeight, Crushable, unplaced
 from rocking.structures.drawing import Path, rectangle, span, swept
 from rocking.structures.fields import (
     OneSided,
@@ -19,7 +20,6 @@ from rocking.structures.fields import (
 )
 from rocking.structures.linkage import PRESSED, STILL, Parts, Restitution, Turning, check_pressed, inset
 from rocking.structures.stack import MOST_COURSES, Course, Stack, counted_courses, courses_between
-from rocking.structures.structure import CrackedAtHeight, Crushable, unplaced
 
 Balanced = Annotated[Restitution, restitution_value("momentum", "housner")]
 

@@ -11,12 +11,13 @@ import numpy as np
 
 from rocking.errors import SizeError
 from rocking.structures.block import Block, RigidBody, Spire
+from rocking.structures.crackable import USUAL_WEIGHT
 from rocking.structures.drawing import Path
 from rocking.structures.facade import Facade, behind_leaf
 from rocking.structures.fields import Field, Form, constructor, field_of, length
 from rocking.structures.leaves import Leaf, Leaved
 from rocking.structures.linkage import Restitution
-from rocking.structures.structure import USUAL_WEIGHT, Structure
+from rocking.structures.structure import Structure
 from rocking.structures.wall import WallOptions
 
 Sizes = Mapping[str, Any]

@@ -15,6 +15,7 @@ import numpy as np
 from rocking.errors import SizeError, StructureError
 from rocking.quantities import GRAVITY, counted, whole
 from rocking.remarks import Remark
+from rocking.structures.crackable import unplaced
 from rocking.structures.drawing import Path, rectangle, span
 from rocking.structures.fields import Value, restitution_value
 from rocking.structures.held_wall import HeldWall, Hold, Load, Opening, Storey
@@ -36,7 +37,6 @@ from rocking.structures.stack import (
     loaded,
     slab,
 )
-from rocking.structures.structure import unplaced
 from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight, check_eccentricity, check_inside
 
 _MOST_STOREYS = 50

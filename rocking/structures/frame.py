@@ -8,6 +8,7 @@ import numpy as np
 from rocking.errors import StructureError
 from rocking.remarks import Remark
 from rocking.structures.block import Block
+from rocking.structures.crackable import Crushable
 from rocking.structures.drawing import Path, plane, rectangle, span
 from rocking.structures.fields import OptionalUnitWeight, Value, count, length, restitution_value
 from rocking.structures.kinds import StructureKind
@@ -25,7 +26,6 @@ from rocking.structures.linkage import (
     keeps_last,
 )
 from rocking.structures.stones import Stones, chain
-from rocking.structures.structure import Crushable
 
 Columns = Annotated[int, count("How many columns", 4, 2, 1000)]
 BeamMassRatio = Annotated[

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from rocking.errors import DoesNotStandError, SizeError, StructureError, StructureWarning
 from rocking.quantities import GRAVITY
 from rocking.remarks import Remark
+from rocking.structures.crackable import CrackedAtHeight
 from rocking.structures.drawing import Bay, Mark, plane, rectangle
 from rocking.structures.fields import Value
 from rocking.structures.held_wall import Chain, HeldWall, Hold, Opening
@@ -30,7 +31,7 @@ from rocking.structures.linkage import (
 )
 from rocking.structures.mechanism import Tie
 from rocking.structures.stack import Course, Held, Stop, course_at
-from rocking.structures.structure import Candidate, CrackedAtHeight
+from rocking.structures.structure import Candidate
 
 UnitWeight = Annotated[float, Value("Weight of the masonry", 20.0, "kN/m³", (8, 30), bounds={"ge": 1e-6})]
 Eccentricity = Annotated[

@@ -13,6 +13,7 @@ import numpy as np
 
 from rocking.errors import SizeError, StructureError
 from rocking.quantities import GRAVITY, finite
+from rocking.structures.crackable import USUAL_WEIGHT, CrackedAtHeight, unplaced
 from rocking.structures.drawing import Mark, Path, rectangle, span
 from rocking.structures.fields import (
     OneSided,
@@ -50,7 +51,6 @@ from rocking.structures.stack import (
     joints_between,
     slab,
 )
-from rocking.structures.structure import USUAL_WEIGHT, CrackedAtHeight, unplaced
 from rocking.structures.tied import (
     LEAST_STIFFNESS,
     Eccentricity,

@@ -14,9 +14,9 @@ from rocking.records.place import Place
 from rocking.remarks import Kind
 from rocking.structures import Side, Structure
 from rocking.structures.capacity import StaticCurve
+from rocking.structures.crackable import WEAK_MASONRY
 from rocking.structures.equivalent_block import EquivalentBlock, Scale
 from rocking.structures.mechanism import PRINTED_SCALE
-from rocking.structures.structure import WEAK_MASONRY
 from rocking.tables import Columns, RowOf, row
 
 if TYPE_CHECKING:  # else who reads a table would load numba

@@ -39,7 +39,8 @@ from rocking.reports.printing import words as or_a_dash
 from rocking.reports.style import picture
 from rocking.reports.variants import strips
 from rocking.structures import Structure
-from rocking.structures.structure import AS_DESCRIBED, Candidate, Crackable
+from rocking.structures.crackable import Crackable
+from rocking.structures.structure import AS_DESCRIBED, Candidate
 from rocking.structures.tied import Tied
 
 _QUANTILE = 1.645
