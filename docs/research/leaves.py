@@ -153,7 +153,7 @@ def leaves_trial(component: SiteRecord, kind: str, place: int) -> LeavesTrial:
         structure=kind,
         scale_factor=float(motion.peak_acceleration / record.peak_acceleration),
         catalogue="fema_p695" if component.identifier.startswith("P695") else "near_fault",
-        earthquake=record.event,
+        earthquake=component.earthquake,
         bonders=len(wall.bonder_heights),
         thrown_back=wall.thrown_back is not None,
         verdict=station.verdict,
