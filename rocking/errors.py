@@ -107,7 +107,7 @@ class UndeclaredError(RecordError):
 
 
 class PulseError(RockingError):
-    """A pulse that cannot exist, or a record in which none can be sought."""
+    """A pulse that cannot exist, or a record that cannot be searched for one."""
 
 
 class StructureError(RockingError):

@@ -296,13 +296,13 @@ class Strengthening(Drawn):
         sentences = [finding, f"As given {as_given} overturn"]
         if self.still:
             sentences.append(
-                f"Nothing lifts it with any value at {counted(self.still, 'further station')}, which tell nothing and "
+                f"Nothing lifts it with any value at {counted(self.still, 'further station')}, which show nothing and "
                 "do not count"
             )
         if len(self.decided) < len(self.tried):
             least = self.tried[len(self.decided)]
             sentences.append(
-                f"From {self.as_typed(least.value)} on it slides before it lifts, and nothing can be told: these "
+                f"From {self.as_typed(least.value)} on it slides before it lifts, and nothing can be shown: these "
                 "values are left out, and what holds is shown below them alone"
             )
         if not self.monotone:

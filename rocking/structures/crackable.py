@@ -92,7 +92,7 @@ class Crackable(Crushable):
 
     @property
     def known_crack(self) -> Remark | None:
-        """That its crack is known, and at what height where one tells it; None of one that may crack anywhere."""
+        """That its crack is known, and at what height where one locates it; None of one that may crack anywhere."""
         if not self.crack_is_known:
             return None
         if not math.isfinite(self.crack_position):

@@ -22,7 +22,7 @@ _ONE_AT_A_TIME = threading.Lock()
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 """Of linear algebra: a job is one core's work, and a process with further threads must not be forked."""
 PREPARED = "ROCKING_PREPARED"
-"""The variable of the environment by which the process that is forked is told the settings of the study, as YAML."""
+"""The variable of the environment by which the process that is forked gets the settings of the study, as YAML."""
 
 
 def warm_up(settings: Settings) -> None:
@@ -67,7 +67,7 @@ def run_apart(work: str, name: str, *arguments: object) -> None:
 
 
 def _work(work: str, *arguments: object) -> None:
-    """Call a function by its name; what ends it is told by sys.excepthook, as at the top of a script."""
+    """Call a function by its name; what ends it is reported by sys.excepthook, as at the top of a script."""
     module, _, function = work.partition(":")
     try:
         getattr(importlib.import_module(module), function)(*arguments)

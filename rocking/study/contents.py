@@ -15,7 +15,7 @@ from rocking.tables import read_whole, write_whole
 _LARGEST_STORE = 500_000_000
 """Bytes of it that are read; a hundred thousand files take about 25 million."""
 _SETTLED = 2.0
-"""s; a file that changed more recently may change again without its times telling, so its hash is not kept."""
+"""s; a file that changed more recently may change again within the same time stamp, so its hash is not kept."""
 
 Mark = list[int]
 """Inode, size, and times of the last change of a file in ns: of its content, and of anything (ctime), which no program

@@ -56,7 +56,7 @@ from rocking.study.terminal import record_line
 from rocking.tables import Row, write_rows, write_tables, written_together
 
 WORTH_A_LINE = 5.0
-"""Processor time of contact dynamics of a record, s, from which on it is told before."""
+"""Processor time of contact dynamics of a record, s, from which on it is announced."""
 Opened = tuple[list[Accelerogram], Accelerogram | None]
 """The horizontal components of a record, and its vertical one where that acts too."""
 

@@ -1,7 +1,7 @@
 """What each product of a study is made from: the one table that says what depends on what.
 
 A product is a record ("record/a"), a batch of records without reports ("batch/00"), the summary, or one of those over
-all records that it shows (`rocking.study.products`). Its job is handed the settings that its line names, and no others.
+all records that it shows (`rocking.study.products`). Its job gets the settings that its line names, and no others.
 From the line follow the files that its rule declares as input, and the params of the rule: a line of text for each
 thing that it is made from, a setting with its value, the content of a file with its hash. Snakemake makes a product
 again where a param is another one than when it was made, and says which.
@@ -54,7 +54,7 @@ class Inputs(Protocol):
 
 
 PLACES = ("catalogue", "structures", "results", "mirror")
-"""The settings that say where something lies: what lies there counts, and every job is handed them."""
+"""The settings that say where something lies: what lies there counts, and every job gets them."""
 _PLAIN = " ./,+=()[]'_-"
 """Beside letters and digits, what a param holds as it is: --report prints params, and no text of a study is markup."""
 
@@ -210,7 +210,7 @@ def _catalogues(line: Line, settings: Settings) -> list[str]:
 
 
 def _others(plan: Inputs, line: Line) -> dict[str, str]:
-    """These catalogues, and the files of their records; one that cannot be read is told when it is used."""
+    """These catalogues, and the files of their records; one that cannot be read is reported when it is used."""
     hashes: dict[str, str] = {}
     for catalogue in _catalogues(line, plan.settings):
         hashes |= {catalogue: plan.contents.of(Path(catalogue))} | _hashes(plan, _rows_of(catalogue))

@@ -118,7 +118,7 @@ def run(folder: Path, options: Sequence[str]) -> int:
 
 
 def run_product(folder: Path, product: Product) -> int:
-    """Make a product over all records of the study in `folder`, tell it, and return the exit status of `run`."""
+    """Make a product over all records of the study in `folder`, print its lines, and return the status of `run`."""
     status = run(folder, [product.name])
     if not status:
         from rocking.study.work import work_of  # what draws takes a second to import
@@ -201,7 +201,7 @@ def _in_a_sentence(reason: str, folder: Path, log: Path) -> str:
             f"what snakemake remembers of the study is damaged ({raised}); remove {folder / REMEMBERED}, and the "
             "results that are whole stay"
         )
-    return f"snakemake ended with {raised}; {log} tells more"
+    return f"snakemake ended with {raised}; {log} says more"
 
 
 def _plan(folder: Path) -> Plan:

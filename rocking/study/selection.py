@@ -105,7 +105,7 @@ def joined_by_station(pool: Mapping[str, Sequence[Accelerogram]]) -> dict[str, l
 
 
 def write_selection(folder: Path, output: Path | None = None) -> list[str]:
-    """Select records for the study in `folder` and write them as a catalogue with factors; return what to tell.
+    """Select records for the study in `folder`, write them as a catalogue with factors, and return lines to print.
 
     output: where it goes, in the folder of the pool, whose paths it keeps. A figure of the set against its target
     stands beside it. Raises as `select_for`.

@@ -112,7 +112,7 @@ class StrengtheningRow(RowOf[_TriedValue]):
         lambda of: of.still_stations,
     )
     slides: bool = of_tried(
-        "Whether the value is left out because it slides before it lifts and nothing can be told",
+        "Whether the value is left out because it slides before it lifts and nothing can be shown",
         lambda of: of.slides,
     )
     undecided: int = of_tried(

@@ -1,6 +1,6 @@
 """What a job needs, imported, loaded and prepared once, in the process that jobs are forked from.
 
-It is imported for what its import does: multiprocessing's fork server can be told the names of modules, and no more.
+It is imported for what its import does: multiprocessing's fork server takes the names of modules, and no more.
 """
 
 import contextlib
@@ -24,6 +24,6 @@ for product in PRODUCTS:
     with contextlib.suppress(ImportError):  # the other jobs run without its folder
         work_of(product)
 load_all()
-with contextlib.suppress(Exception):  # what is wrong with a study its jobs tell
+with contextlib.suppress(Exception):  # what is wrong with a study its jobs report
     prepare(read_settings(yaml.safe_load(os.environ.pop(PREPARED))))
 gc.freeze()  # what stands here stays: to look for garbage in it takes a twelfth of a job
