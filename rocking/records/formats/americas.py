@@ -151,15 +151,15 @@ def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
             f"the header holds {integers.size} integers and {reals.size} reals, not 48 and 50.",
         )
     counts = (f"{integers[at]:.0f}" for at in (_COMMENTS, _SAMPLES))
-    remarks, samples = (text.count("a count in the header", size) for size in counts)
-    first = _SMC_REALS + remarks
+    comments, samples = (text.count("a count in the header", size) for size in counts)
+    first = _SMC_REALS + comments
     body = [row for row in rows[first:] if row.strip()]
     is_film = kind[:1] == "1"
     seam = next((at for at, row in enumerate(body) if row.startswith("|")), None) if is_film else None
     own = body if seam is None else body[:seam]
     if any(not row.startswith("|") for row in rows[_SMC_REALS:first]) or any(row[0] == "|" for row in own):
         raise RecordError.naming(
-            "comments", remarks, f"the header declares {remarks} lines of comment, but others begin with |."
+            "comments", comments, f"the header declares {comments} lines of comment, but others begin with |."
         )
     width = text.column_width(own[0]) if own else 10
     numbers = text.fields(own, width)

@@ -17,6 +17,13 @@ from rocking.quantities import acceleration_factor
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.direction import Direction, directed, names_acceleration
 from rocking.records.formats import dialect, text
+from rocking.records.formats.comments import (
+    Declarations,
+    contradicts,
+    factor_warnings,
+    meaning,
+    speaks_of_factor,
+)
 from rocking.records.formats.format import Format, Options, plain
 from rocking.records.formats.labels import ColumnLabel
 from rocking.records.formats.layouts import (
@@ -28,13 +35,6 @@ from rocking.records.formats.layouts import (
     Question,
     Signature,
     TableLayout,
-)
-from rocking.records.formats.remarks import (
-    Declarations,
-    contradicts,
-    factor_warnings,
-    meaning,
-    speaks_of_factor,
 )
 from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import refuse_by_name, refuse_other_quantity
@@ -56,7 +56,7 @@ _TAIL = 4000
 _OTHER_FORMAT = re.compile(rb"\s*#(Earthquake Information|StationCode\s*:)")
 """CWB's headers, which look like comments above columns."""
 _MARKS = "#", "%", "$", "!", "//"
-"""With which a line of remarks begins."""
+"""With which a line of comment begins."""
 _TOUCHING = re.compile(rb"(\.\d+)(?=[+-]\d)")
 """The end of a number that a sign parts from the next, as in columns of Fortran."""
 _EXCEL = re.compile(r"sep=.?", re.I)
@@ -75,7 +75,7 @@ class NumberTable:
     """Numbers in columns, and what stands above them.
 
     labels: of the columns, none where no line names them. width: number of columns. start: lines above the numbers.
-    remarks: what lines with a mark say, without it; words: what the other lines above the names say. counts: the line
+    comments: what lines with a mark say, without it; words: what the other lines above the names say. counts: the line
     that holds nothing but number of samples and step, and which of the two comes first; none where there is no such.
     tail: lines of text below the numbers.
     """
@@ -83,7 +83,7 @@ class NumberTable:
     labels: tuple[ColumnLabel, ...]
     width: int
     start: int
-    remarks: tuple[str, ...] = ()
+    comments: tuple[str, ...] = ()
     words: tuple[str, ...] = ()
     counts: tuple[int, tuple[Above, ...]] | None = None
     tail: tuple[str, ...] = ()
@@ -127,7 +127,7 @@ class NumberTable:
         shapes = (
             label.text if label.is_known else re.sub(r"\d{3,}", "#", label.text) for label in self.labels
         )
-        above = dict.fromkeys(filter(None, map(meaning, (*self.remarks, *self.words))))
+        above = dict.fromkeys(filter(None, map(meaning, (*self.comments, *self.words))))
         words = " / ".join([*(["n, dt"] if self.counts else []), *above])
         names = plain(" | ".join(shapes)).lstrip("=+-@ ")
         return Signature(names, str(self.width), plain(words), "" if names or words else folder)
@@ -135,7 +135,7 @@ class NumberTable:
     @cached_property
     def said(self) -> Declarations:
         """What the text above the numbers declares."""
-        return Declarations.of((*self.remarks, *self.words, *self.tail))
+        return Declarations.of((*self.comments, *self.words, *self.tail))
 
     @property
     def is_understood(self) -> bool:
@@ -263,7 +263,7 @@ def _refuse_others(table: NumberTable, file: str) -> None:
             "spectrum",
             f"this is a spectrum ({heads}); use the record of acceleration against time.",
         )
-    above = "\n".join((*table.remarks, *table.words))
+    above = "\n".join((*table.comments, *table.words))
     refuse_other_quantity(file, above)
     if (word := _OTHER_TITLE.search(above)) and not _SPEAKS_OF_MOTION.search(above):
         raise RecordError.naming(
@@ -399,7 +399,7 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     )
     notes = (
         *seen.notes,
-        *factor_warnings((*table.remarks, *table.words, *table.tail)),
+        *factor_warnings((*table.comments, *table.words, *table.tail)),
         *_tail_remarks(table),
     )
     if answer and layout:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rocking.errors import RecordError
-from rocking.records.formats.remarks import Declarations
+from rocking.records.formats.comments import Declarations
 from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
 from tests.refusals import refused
@@ -17,7 +17,7 @@ TIMED = table("time (s),acc (m/s2)\n", TIMES, FIRST)
 
 
 @pytest.mark.parametrize(
-    ("remark", "component", "azimuth", "vertical"),
+    ("comment", "component", "azimuth", "vertical"),
     [
         ("Componente: HNZ", "HNZ", None, True),
         ("COMP: UD", "UD", None, True),
@@ -35,30 +35,30 @@ TIMED = table("time (s),acc (m/s2)\n", TIMES, FIRST)
 @pytest.mark.parametrize(
     "above", ["# {}\n" + TIMED, "{}\n" + TIMED, "# {}\n" + BARE, "{}\n600 0.01\n" + BARE]
 )
-def test_the_direction_of_a_lone_series_is_what_its_remarks_say(
-    tmp_path: Path, remark, component, azimuth, vertical, above
+def test_the_direction_of_a_lone_series_is_what_its_comments_say(
+    tmp_path: Path, comment, component, azimuth, vertical, above
 ):
     options = {} if "m/s2" in above else {"unit": "m/s2"}
     if above == "# {}\n" + BARE:
         options["time_step"] = 0.01
-    (record,) = opened(tmp_path, above.format(remark), **options)
+    (record,) = opened(tmp_path, above.format(comment), **options)
     assert (record.component, record.azimuth, record.vertical) == (component, azimuth, vertical)
     assert record.acceleration == pytest.approx(FIRST, abs=1e-6)
 
 
 @pytest.mark.parametrize(
-    "remark",
+    "comment",
     [
         "Channel 1", "Channel: 101", "3 component accelerometer", "Components: NS, EW, UD", "Horizontal component",
         "a vertical fault", "RECORD OF STATION ONE", "NS and UD components", "Component: H1", "direction unknown",
         "Site class E ground motion", "class E record", "station N record", "Kobe, 600", "Kobe, 200", "A, B, 600",
     ],
 )  # fmt: skip
-def test_what_names_no_direction_declares_none(remark):
-    assert Declarations.of([remark]).component == ""
+def test_what_names_no_direction_declares_none(comment):
+    assert Declarations.of([comment]).component == ""
 
 
-def test_two_remarks_that_differ_declare_nothing():
+def test_two_comments_that_differ_declare_nothing():
     assert Declarations.of(["Component: NS", "Component: EW"]) == Declarations()
 
 
@@ -68,17 +68,17 @@ def test_a_direction_at_the_head_of_a_column_is_not_overruled(tmp_path: Path):
 
 
 @pytest.mark.parametrize(
-    "remark",
+    "comment",
     ["dt = 0.005 s", "Time step of 0.005 s", "INTERVALO DE MUESTREO (SEGUNDOS): 0.005", "Muestreo : 0.005 seg",
      "Sampling rate (Hz),200", "Sampling frequency: 200 Hz", "Frecuencia de muestreo: 200", "Time step 0.005, units g",
      "equal spacing of 0.005 sec", "at intervals of 0.005 sec.", "sampled at 200 Hz", "Record (dt = 0.005 s)"],
 )  # fmt: skip
-def test_remarks_declare_the_step(remark):
-    assert Declarations.of([remark]).time_step == pytest.approx(0.005, rel=1e-12)
+def test_comments_declare_the_step(comment):
+    assert Declarations.of([comment]).time_step == pytest.approx(0.005, rel=1e-12)
 
 
 @pytest.mark.parametrize(
-    "remark",
+    "comment",
     [
         "Unit,gal",
         "Units;cm/s2",
@@ -88,8 +88,8 @@ def test_remarks_declare_the_step(remark):
         "(cm/s2) of acceleration",
     ],
 )
-def test_remarks_declare_the_unit(remark):
-    assert Declarations.of([remark]).unit in ("gal", "cm/s2")
+def test_comments_declare_the_unit(comment):
+    assert Declarations.of([comment]).unit in ("gal", "cm/s2")
 
 
 COLOMBIA = """SERVICIO GEOLOGICO COLOMBIANO- RED NACIONAL DE ACELEROGRAFOS DE COLOMBIA
@@ -182,11 +182,11 @@ def test_what_ends_the_numbers_is_no_number(tmp_path: Path, end):
 
 
 @pytest.mark.parametrize(
-    "remark",
+    "comment",
     ["600 points at 0.01 s", "NPTS = 600", "NUMERO DE DATOS: 600", "Number of points: 600, 8 points across"],
 )
-def test_the_number_of_samples_that_remarks_declare_is_held_against_them(tmp_path: Path, remark):
-    head = f"# {remark}\n# units: m/s2\n# dt = 0.01 s\n"
+def test_the_number_of_samples_that_comments_declare_is_held_against_them(tmp_path: Path, comment):
+    head = f"# {comment}\n# units: m/s2\n# dt = 0.01 s\n"
     assert opened(tmp_path, head + wrapped(FIRST, 8))[0].acceleration.size == 600
     with refused(RecordError, "samples", 600):
         opened(tmp_path, head + wrapped(FIRST[:592], 8))
@@ -212,19 +212,19 @@ FACTORS = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("remark", FACTORS)
-def test_a_unit_beside_a_factor_is_not_taken(tmp_path: Path, remark):
-    content = f"# {remark}\n" + table("t,acc\n", TIMES, FIRST)
+@pytest.mark.parametrize("comment", FACTORS)
+def test_a_unit_beside_a_factor_is_not_taken(tmp_path: Path, comment):
+    content = f"# {comment}\n" + table("t,acc\n", TIMES, FIRST)
     with refused(RecordError, "unit"):
         opened(tmp_path, content)
     (record,) = opened(tmp_path, content, unit="g")
     assert record.acceleration == pytest.approx(FIRST * 9.80665, abs=1e-5)
 
 
-@pytest.mark.parametrize("remark", ["scale factor: 9.81", "Faktor 2", *FACTORS[:2], "gain 1.5"])
-def test_a_factor_in_a_remark_is_told_and_not_applied(tmp_path: Path, remark):
-    (record,) = opened(tmp_path, f"# {remark}\n" + TIMED)
+@pytest.mark.parametrize("comment", ["scale factor: 9.81", "Faktor 2", *FACTORS[:2], "gain 1.5"])
+def test_a_factor_in_a_comment_is_told_and_not_applied(tmp_path: Path, comment):
+    (record,) = opened(tmp_path, f"# {comment}\n" + TIMED)
     assert record.acceleration == pytest.approx(FIRST, abs=1e-6)
-    assert Remark.of(RecordKind.FACTOR_NOT_APPLIED, text=remark) in record.warnings
+    assert Remark.of(RecordKind.FACTOR_NOT_APPLIED, text=comment) in record.warnings
     (record,) = opened(tmp_path, "# number of points: 600\n" + TIMED)
     assert RecordKind.FACTOR_NOT_APPLIED not in {each.kind for each in record.warnings}

@@ -1,4 +1,4 @@
-"""Remarks: what the lines of text above the numbers of a table declare of them."""
+"""Comments: what the lines of text above the numbers of a table declare of them."""
 
 import re
 from collections.abc import Collection, Sequence
@@ -14,7 +14,7 @@ from rocking.remarks import Remark
 
 @dataclass(frozen=True)
 class Declarations:
-    """Facts that remarks state of the numbers below them, None (the component: "") where none does, or several differ.
+    """Facts that comments state of the numbers below them, None (the component: "") where none does, or several differ.
 
     unit: of acceleration. time_step: s. component: where the only channel points. samples: their number, as written.
     stated_steps: the steps [s] of every rate that is spoken of, but for those of filters.
@@ -27,15 +27,15 @@ class Declarations:
     stated_steps: tuple[float, ...] = ()
 
     @classmethod
-    def of(cls, remarks: Sequence[str]) -> "Declarations":
-        """Return what `remarks`, without their marks, declare."""
-        lines = (*remarks, *(_CELLS.sub(r"\1: \2", remark) for remark in remarks))
+    def of(cls, comments: Sequence[str]) -> "Declarations":
+        """Return what `comments`, without their marks, declare."""
+        lines = (*comments, *(_CELLS.sub(r"\1: \2", comment) for comment in comments))
         of_numbers = [line for line in lines if not _OF_PEAK.search(line)]
         as_they_stand = [line for line in of_numbers if not (_TIMES.search(line) or _SCALED.search(line))]
         units = {unit for line in as_they_stand for unit in _units(line)}
         steps = {step for line in of_numbers for step in _steps(line)}
         components = {component.upper(): component for line in of_numbers for component in _components(line)}
-        counts = {match[1] or match[2] for line in remarks for match in _SAMPLES.finditer(line)}
+        counts = {match[1] or match[2] for line in comments for match in _SAMPLES.finditer(line)}
         stated_steps = {1 / rate for line in of_numbers for rate in _rates(line)}
         # A rate next to another one may be the one that the numbers were recorded at, and not theirs.
         is_sampled_twice = any(_SAMPLED.search(line) for line in of_numbers) and not _are_one(
@@ -83,9 +83,9 @@ _SCALED = re.compile(
 )
 """Words that speak of a factor by which numbers may still have to be multiplied."""
 _CELLS = re.compile(r"^\s*([^:=,;\t]+?)\s*[,;\t]\s*([^:=,;\t]+?)[\s,;]*$")
-"""A remark of two cells, as "Unit,gal"."""
+"""A comment of two cells, as "Unit,gal"."""
 _OF_PEAK = re.compile(r"(?i)\b(pga|peak|max\w*|scale\w*|factor|picco|pico)\b")
-"""The subjects of a remark whose unit need not be that of the numbers."""
+"""The subjects of a comment whose unit need not be that of the numbers."""
 _UNIT = re.compile(
     r"(?:\b(?:units?|unidad(?:es)?|unit[aà]|unités?|einheit(?:en)?|birim(?:i|ler)?)\b|単位|单位)[^:=：]*[:=：]\s*[(\[]?\s*([^\s,;()\[\]]+)|"
     r"\b(?:acc|accel|acceleration|acel|aceleraci[oó]n)\s*[:=]\s*([a-z][\w/^*²]*)|"
@@ -163,60 +163,60 @@ _MEANING = re.compile(
 """Words that say what numbers are; the others are names, of which a unit alone counts."""
 
 
-def meaning(remark: str) -> str:
-    """Return the words of a remark that say what numbers are, without its names and values; all of one on a factor."""
-    if speaks_of_factor(remark):
-        return remark.strip()[:80]
-    words = (match[1] or acceleration_unit(match[2]) or "" for match in _MEANING.finditer(remark))
+def meaning(comment: str) -> str:
+    """Return the words of a comment that say what numbers are, without its names and values; all of one on a factor."""
+    if speaks_of_factor(comment):
+        return comment.strip()[:80]
+    words = (match[1] or acceleration_unit(match[2]) or "" for match in _MEANING.finditer(comment))
     return " ".join(word.lower() for word in words if word)
 
 
-def speaks_of_factor(remark: str) -> bool:
-    """Whether a remark speaks of a factor by which the numbers may still have to be multiplied."""
-    return bool(_SCALED.search(remark) or (_TIMES.search(remark) and OF_ACCELERATION.search(remark)))
+def speaks_of_factor(comment: str) -> bool:
+    """Whether a comment speaks of a factor by which the numbers may still have to be multiplied."""
+    return bool(_SCALED.search(comment) or (_TIMES.search(comment) and OF_ACCELERATION.search(comment)))
 
 
-def factor_warnings(remarks: Sequence[str]) -> tuple[Remark, ...]:
-    """Return a warning where remarks speak of a factor: none is applied."""
-    spoken = [remark.strip() for remark in remarks if speaks_of_factor(remark)]
+def factor_warnings(comments: Sequence[str]) -> tuple[Remark, ...]:
+    """Return a warning where comments speak of a factor: none is applied."""
+    spoken = [comment.strip() for comment in comments if speaks_of_factor(comment)]
     if not spoken:
         return ()
     return (Remark.of(RecordKind.FACTOR_NOT_APPLIED, text=spoken[0][:60]),)
 
 
-def _units(remark: str) -> set[str]:
-    """The units of acceleration that a remark declares for the numbers."""
-    is_of_numbers = bool(OF_ACCELERATION.search(remark))
+def _units(comment: str) -> set[str]:
+    """The units of acceleration that a comment declares for the numbers."""
+    is_of_numbers = bool(OF_ACCELERATION.search(comment))
     words = [
         match[1] or match[2] or match[3] or (match[4] if is_of_numbers else "")
-        for match in _UNIT.finditer(remark)
+        for match in _UNIT.finditer(comment)
     ]
     return {unit for word in words if word and (unit := acceleration_unit(word))}
 
 
-def _steps(remark: str) -> set[float]:
-    """The time steps [s] that a remark declares, or follow from the rates that it does."""
-    steps = {float(match[1] or match[2]) for match in _STEP.finditer(remark)}
-    rates = {float(match[1] or match[2]) for match in _RATE.finditer(remark)}
+def _steps(comment: str) -> set[float]:
+    """The time steps [s] that a comment declares, or follow from the rates that it does."""
+    steps = {float(match[1] or match[2]) for match in _STEP.finditer(comment)}
+    rates = {float(match[1] or match[2]) for match in _RATE.finditer(comment)}
     return {step for step in steps if step > 0} | {1 / rate for rate in rates if rate > 0}
 
 
-def _rates(remark: str) -> set[float]:
-    """The rates [Hz] that a remark speaks of, but for those of filters."""
-    if _OF_FILTER.search(remark):
+def _rates(comment: str) -> set[float]:
+    """The rates [Hz] that a comment speaks of, but for those of filters."""
+    if _OF_FILTER.search(comment):
         return set()
     return {
-        rate for match in _RATE_STATED.finditer(remark) if (rate := float(match[1])) >= _FEWEST_PER_SECOND
+        rate for match in _RATE_STATED.finditer(comment) if (rate := float(match[1])) >= _FEWEST_PER_SECOND
     }
 
 
-def _components(remark: str) -> list[str]:
-    """The directions that a remark says the channel points in."""
-    if re.search(r"(?i)\bhorizontal\b", remark):
+def _components(comment: str) -> list[str]:
+    """The directions that a comment says the channel points in."""
+    if re.search(r"(?i)\bhorizontal\b", comment):
         return []
-    remark = _BOTH_ENDS.sub(r"\1-\2", remark)
-    words = [match[1].strip() for pattern in _DIRECTIONS for match in pattern.finditer(remark)]
-    words += [match[1].strip() for match in _CHANNEL.finditer(remark) if not match[1].strip().isdigit()]
+    comment = _BOTH_ENDS.sub(r"\1-\2", comment)
+    words = [match[1].strip() for pattern in _DIRECTIONS for match in pattern.finditer(comment)]
+    words += [match[1].strip() for match in _CHANNEL.finditer(comment) if not match[1].strip().isdigit()]
     return [word for word in words if _is_direction(word)]
 
 
