@@ -1,4 +1,4 @@
-"""What there is to say of a case and of its decision, in every language."""
+"""The kinds of remarks on a case and on its decision, with the sentence of each in every language."""
 
 from enum import auto
 
@@ -6,7 +6,7 @@ from rocking.remarks import Kind, Sentence
 
 
 class AssessmentKind(Kind):
-    """What there is to say of a case and of its decision, in every language."""
+    """A kind of remark on a case and on its decision."""
 
     # fmt: off
     # What one degree of freedom does not follow.

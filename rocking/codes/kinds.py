@@ -1,4 +1,4 @@
-"""What there is to say of a check at the design level, in every language."""
+"""The kinds of remarks on a check at the design level, with the sentence of each in every language."""
 
 from enum import auto
 
@@ -6,7 +6,7 @@ from rocking.remarks import Kind, Sentence
 
 
 class CheckKind(Kind):
-    """What there is to say of a check at the design level, in every language."""
+    """A kind of remark on a check at the design level."""
 
     # fmt: off
     # Why the displacement of a limit state is what it is.

@@ -1,4 +1,4 @@
-"""What there is to say of a support and of its motion, in every language."""
+"""The kinds of remarks on a support and on its motion, with the sentence of each in every language."""
 
 from enum import auto
 
@@ -6,7 +6,7 @@ from rocking.remarks import Kind, Sentence
 
 
 class FloorKind(Kind):
-    """What there is to say of a support and of its motion, in every language."""
+    """A kind of remark on a support and on its motion."""
 
     # fmt: off
     # The samples of a record.

@@ -1,4 +1,4 @@
-"""What there is to say of an integration, in every language."""
+"""The kinds of remarks on an integration, with the sentence of each in every language."""
 
 from enum import auto
 
@@ -6,7 +6,7 @@ from rocking.remarks import Kind, Sentence
 
 
 class MotionKind(Kind):
-    """What there is to say of an integration, in every language."""
+    """A kind of remark on an integration."""
 
     # fmt: off
     # An integration.

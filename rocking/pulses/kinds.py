@@ -1,4 +1,4 @@
-"""What there is to say of the pulses of a record, in every language."""
+"""The kinds of remarks on the pulses of a record, with the sentence of each in every language."""
 
 from enum import auto
 
@@ -6,7 +6,7 @@ from rocking.remarks import Kind, Sentence
 
 
 class PulseKind(Kind):
-    """What there is to say of the pulses of a record, in every language."""
+    """A kind of remark on the pulses of a record."""
 
     # fmt: off
     # The dominant pulse of a record.

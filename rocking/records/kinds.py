@@ -1,4 +1,4 @@
-"""What there is to say of a file, of the samples of a record and of the catalogue, in every language."""
+"""The kinds of remarks on files, samples of records and the catalogue, with the sentence of each in every language."""
 
 from enum import auto
 
@@ -6,7 +6,7 @@ from rocking.remarks import Kind, Sentence
 
 
 class RecordKind(Kind):
-    """What there is to say of a file, of the samples of a record and of the catalogue, in every language."""
+    """A kind of remark on a file, the samples of a record or the catalogue."""
 
     # fmt: off
     # The samples of a record.

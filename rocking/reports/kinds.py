@@ -1,4 +1,4 @@
-"""What only a page says, in every language."""
+"""The kinds of remarks that only a page makes, with the sentence of each in every language."""
 
 from enum import auto
 
@@ -6,7 +6,7 @@ from rocking.remarks import Kind, Sentence
 
 
 class ReportKind(Kind):
-    """What only a page says, in every language."""
+    """A kind of remark that only a page makes."""
 
     # fmt: off
     # What explains a decision of which nothing more would tell.

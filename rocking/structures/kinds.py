@@ -1,4 +1,4 @@
-"""What there is to say of a structure, in every language."""
+"""The kinds of remarks on a structure, with the sentence of each in every language."""
 
 from enum import auto
 
@@ -6,7 +6,7 @@ from rocking.remarks import Kind, Sentence
 
 
 class StructureKind(Kind):
-    """What there is to say of a structure, in every language."""
+    """A kind of remark on a structure."""
 
     # fmt: off
     # What a model leaves out.

@@ -1,4 +1,4 @@
-"""What there is to say of a study and of its files, in every language."""
+"""The kinds of remarks on a study and on its files, with the sentence of each in every language."""
 
 from enum import auto
 
@@ -6,7 +6,7 @@ from rocking.remarks import Kind, Sentence
 
 
 class StudyKind(Kind):
-    """What there is to say of a study and of its files, in every language."""
+    """A kind of remark on a study and on its files."""
 
     # fmt: off
     # A structure, and where it stands.
