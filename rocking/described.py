@@ -187,7 +187,7 @@ def parts_of(kind: Any) -> tuple[str, ...]:
 
 
 def check_described(error: type[RockingError], made: Any) -> None:
-    """Hold every described value of the frozen dataclass `made` against its type and bounds.
+    """Check every described value of the frozen dataclass `made` by its type and bounds.
 
     A part of its own must be of the class of its default. Raises `error` naming the first field that is wrong.
     """

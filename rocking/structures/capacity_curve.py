@@ -206,7 +206,7 @@ class CapacityCurve(Structure):
 
     @cached_property
     def described(self) -> Description:
-        """What it says of itself: the points, so that they count, and not the name of the file that held them."""
+        """What it says of itself: the points, so that they count, and not the name of their file."""
         return Description.of(self)
 
     @property

@@ -205,7 +205,7 @@ class Form:
     make: str = ""
 
     def check(self, **values: object) -> None:
-        """Hold `values` by name, in SI, against what their types say; raises StructureError."""
+        """Check `values` by name, in SI, by what their types say; raises StructureError."""
         for key in self.fields:
             if key.name in values:
                 key.in_si(values[key.name])

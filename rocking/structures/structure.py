@@ -93,7 +93,7 @@ class Structure(ABC):
     ] = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
-        """Hold each value that is not the default against what its type says of it."""
+        """Check each value that is not the default by what its type says of it."""
         for key in constructor(type(self)).fields:
             value = getattr(self, key.name)
             if value is not key.default:

@@ -18,7 +18,7 @@ from rocking.study.settings import Settings, commented_yaml
 
 _FORKS = "forkserver" in multiprocessing.get_all_start_methods()
 _ONE_AT_A_TIME = threading.Lock()
-"""Held to start a process and to take leave of it: what multiprocessing notes of them is not made for threads."""
+"""The lock to start a process and to end it: what multiprocessing notes of them is not made for threads."""
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 """Of linear algebra: a job is one core's work, and a process with further threads must not be forked."""
 PREPARED = "ROCKING_PREPARED"

@@ -36,7 +36,7 @@ from rocking.tables.yaml_file import read_yaml
 T = TypeVar("T")
 
 JOBS = REMEMBERED / "rocking_jobs.lock"
-"""Held by every job of a study while it works, in the folder of the study."""
+"""Locked by every job of a study while it works, in the folder of the study."""
 _NAMED = 8
 """Remarks on settings and structures that the terminal shows; remarks.csv holds all."""
 _ON_PAGES = (AssessmentKind.HELD_AT_CEILING,)

@@ -33,7 +33,7 @@ from rocking.study.terminal import check_any_read, closing_lines, conclusion_lin
 from rocking.tables import read_rows, read_table
 
 _LOCK = REMEMBERED / "rocking_run.lock"
-"""Held by the process that schedules the jobs of a study, in the folder of the study."""
+"""Locked by the process that schedules the jobs of a study, in the folder of the study."""
 _ANSWERS = re.compile(
     r"(-[nhvlSDt]|--(dry-?run|help|version|list|list-rules|list-changes|lint|dag|rulegraph|filegraph|d3dag|summary|"
     r"detailed-summary|report|unlock|touch|archive|delete-all-output|print-compilation))(=.*)?"
