@@ -2,6 +2,7 @@
 
 import csv
 import json
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
@@ -10,6 +11,7 @@ from typing import Any
 import rocking
 from docs.paper.report import equation_rows, equivalence_figures
 from docs.site.drawings import forms
+from docs.site.kept import scores_of
 from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, HistoryRow, SpectrumRow
 from rocking.described import described_values, parts_of
 from rocking.products.trade.measure import what_follows as sentences_of_trade
@@ -165,40 +167,43 @@ def trade() -> str:
 
 def earthquakes() -> str:
     """What the intervals over earthquakes hold, the least and the largest of populations or of structures."""
-    with (MEASURED / "earthquakes.csv").open(encoding="utf-8", newline="") as stream:
-        rows = list(csv.DictReader(stream))
-    columns = (
-        ("median, made", "made", "median"),
-        ("median, real sites", "real", "median"),
-        ("annual rate, made", "made", "annual rate"),
-        ("annual rate that is told, real sites", "real", "annual rate"),
-        ("upper bound of a share of 0.3", "made", "bound of a share of 0.3"),
-        ("expected falls", "made", "expected falls"),
+    rows = scores_of("cover_earthquakes")
+    kinds = (
+        "median",
+        "annual rate",
+        "share of 0.3, upper bound",
+        "share of 0.3, both bounds",
+        "expected falls",
     )
+    columns = [(kind, is_real) for kind in kinds for is_real in (False, True)]
     body = []
-    for drawn in dict.fromkeys((row["earthquakes"], row["stations_each"]) for row in rows):
-        cells = [" × ".join(drawn)]
-        for _, truth, measure in columns:
-            own = [
-                row
-                for row in rows
-                if (row["earthquakes"], row["stations_each"]) == drawn
-                and (row["truth"], row["measure"]) == (truth, measure)
-                and int(row["intervals"]) >= FEWEST_INTERVALS
-            ]
-            held = _least_to_largest(row["held"] for row in own)
-            if measure == "median" and own:  # of few draws each: all of them together
-                held = f"{100 * sum(float(row['held']) for row in own) / len(own):.0f}"
-            before = _least_to_largest(row["held_as_if_independent"] for row in own)
-            cells.append(
-                f"{held} % ({before})" if before and drawn[1] != "1" else f"{held} %" if held else "–"
+    for part in dict.fromkeys(row.part for row in rows if not row.part.endswith(_ALONE)):
+        cells = [part.replace(" earthquakes, ", " × ").removesuffix(" stations each")]
+        for kind, is_real in columns:
+            own, alone = (
+                [
+                    row.value
+                    for row in rows
+                    if row.part == called
+                    and row.measure == f"{kind}: intervals that hold it"
+                    and row.subject.endswith("real sites") == is_real
+                    and row.cases >= FEWEST_INTERVALS
+                ]
+                for called in (part, part + _ALONE)
             )
+            held = f"{100 * sum(own) / len(own):.0f}" if kind == "median" and own else _least_to_largest(own)
+            before = f" ({_least_to_largest(alone)})" if alone and " 1 stations" not in part else ""
+            cells.append(f"{held} %{before}" if held else "–")
         body.append(cells)
-    return table(("earthquakes × stations", *(name for name, _, _ in columns)), body)
+    names = (f"{kind}, {'real sites' if is_real else 'made'}" for kind, is_real in columns)
+    return table(("earthquakes × stations", *names), body)
 
 
-def _least_to_largest(shares: Iterable[str]) -> str:
-    percent = [f"{100 * float(share):.0f}" for share in shares if share]
+_ALONE = ", stations as if independent"
+
+
+def _least_to_largest(shares: Iterable[float]) -> str:
+    percent = [f"{100 * share:.0f}" for share in sorted(shares)]
     if not percent:
         return ""
     least, largest = min(percent, key=int), max(percent, key=int)
@@ -207,8 +212,7 @@ def _least_to_largest(shares: Iterable[str]) -> str:
 
 def rates() -> str:
     """What the intervals of an annual rate hold: of each structure at real sites, of all populations; widest first."""
-    with (MEASURED / "rates.csv").open(encoding="utf-8", newline="") as stream:
-        rows = list(csv.DictReader(stream))
+    rows = _coverage_of_rates()
     real = [row for row in rows if row["truth"] == "real"]
     stations = list(dict.fromkeys(row["stations"] for row in rows))
     widest = sorted(
@@ -225,6 +229,36 @@ def rates() -> str:
         body.append(("populations", slope, *cells))
     head = ("stations from", "slope", *(f"{count} stations" for count in stations))
     return table(head, body)
+
+
+_RATES = {
+    "told": "rates that are told",
+    "held": "intervals that hold the rate",
+    "held_by_ends": "ends that hold the rate where it is not told",
+    "reach": "high end over rate",
+}
+"""What was measured of an annual rate, by the name of its column."""
+
+
+def _coverage_of_rates() -> list[dict[str, str]]:
+    """What was measured of each structure and population, at each slope and number of stations; "" of none."""
+    values: dict[tuple[str, str], dict[str, str]] = {}
+    for row in scores_of("cover_rate"):
+        name = next((name for name, measure in _RATES.items() if measure == row.measure), None)
+        if name is None:
+            continue
+        slope, stations = row.part.removeprefix("slope ").removesuffix(" stations").split(", ")
+        subject, _, sites = row.subject.rpartition(", ")
+        is_real = sites.endswith("real sites")
+        names = (
+            {"truth": "real", "subject": subject} if is_real else {"truth": "made", "subject": row.subject}
+        )
+        empty = dict.fromkeys(_RATES, "") if is_real else dict.fromkeys(_RATES, "") | {"told": "1"}
+        own = values.setdefault(
+            (row.subject, row.part), names | {"slope": slope, "stations": stations} | empty
+        )
+        own[name] = "" if math.isnan(row.value) else str(row.value)
+    return list(values.values())
 
 
 def _cell_of_rate(rows: Sequence[Mapping[str, str]]) -> str:
@@ -274,13 +308,10 @@ def stands() -> str:
 def pulse_shapes() -> str:
     """What each shape of pulse is worth on all records, with 90 % intervals."""
     scores: dict[str, dict[str, str]] = {}
-    with (MEASURED / "pulse_shapes.csv").open(encoding="utf-8", newline="") as stream:
-        for line in csv.DictReader(stream):
-            if line["part"] == "all records":
-                value, low, high = (
-                    f"{100 * float(line[key]):.0f}" for key in ("value", "value_low", "value_high")
-                )
-                scores.setdefault(line["subject"], {})[line["measure"]] = f"{value} % ({low}–{high})"
+    for row in scores_of("pulse_shapes"):
+        if row.part == "all records":
+            value, low, high = (f"{100 * end:.0f}" for end in (row.value, row.value_low, row.value_high))
+            scores.setdefault(row.subject, {})[row.measure] = f"{value} % ({low}–{high})"
     measures = ("explained energy", "wrong verdicts", "unsafe verdicts", "median error of the rotation")
     rows = ((name, *(own[measure] for measure in measures)) for name, own in scores.items())
     return table(("pulse", *measures), rows)

@@ -406,9 +406,11 @@ class RecordKind(Kind):
     )
     EARTHQUAKES_FEW = auto(), Sentence(
         "With {earthquakes} earthquakes, fewer than {fewest}, nothing is resampled: intervals are those of Student, "
-        "or of Clopper and Pearson, on the earthquakes, and that of a median holds less often than nine times in ten.",
+        "or of Clopper and Pearson, on the earthquakes, and those of a median and of a rate hold less often than nine "
+        "times in ten.",
         "Con {earthquakes} terremoti, meno di {fewest}, nulla è ricampionato: gli intervalli sono quelli di Student, "
-        "o di Clopper e Pearson, sui terremoti, e quello di una mediana vale meno di nove volte su dieci.",
+        "o di Clopper e Pearson, sui terremoti, e quelli di una mediana e di un tasso valgono meno di nove volte su "
+        "dieci.",
     )
     EARTHQUAKE_NAMED_TWICE = auto(), Sentence(
         "One motion is listed under two earthquakes, {first} and {second}: name it once, or leave one record out.",
