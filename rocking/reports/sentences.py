@@ -1,7 +1,8 @@
-"""Words and numbers of documents that are written in English or Italian.
+"""Remarks, numbers and descriptions as a document prints them in English or Italian; it holds no sentence itself.
 
 The law and the office that takes the pages to sign are Italian; every other document is English. The words of a remark
-stand where its kind is declared; a product over all records keeps what it alone says in its folder.
+stand where its kind is declared, the Italian names of keys in `rocking.structures.names`; a product over all records
+keeps what it alone says in its folder, as sentences.csv.
 """
 
 from dataclasses import dataclass

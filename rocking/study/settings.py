@@ -417,7 +417,8 @@ class _Restricted(Settings):
             raise ConfigurationError.naming(
                 name,
                 None,
-                f"setting {name}: nothing says that it is needed here; add it to rocking.study.made_from.TABLE.",
+                f"setting {name}: nothing says that it is needed here; add it to the line of this job in "
+                "rocking.study.made_from.TABLE or, of a product, in rocking.study.products.",
             )
         return object.__getattribute__(self, name)
 

@@ -13,10 +13,12 @@ import pytest
 
 import rocking
 
-ROOT = Path(rocking.__file__).parents[1]
+PACKAGE = Path(rocking.__file__).parent
+ROOT = PACKAGE.parent
 _RECIPE = re.compile(r"^### ([^\n]*)\n(.*?)(?=^#|\Z)", re.M | re.S)
 _BLOCK = re.compile(r"^( *)```(python|diff|sh)\n(.*?)^ *```$", re.M | re.S)
-RECIPES = dict(_RECIPE.findall((ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")))
+TEXT = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+RECIPES = dict(_RECIPE.findall(TEXT))
 LEFT_OUT = {".git", ".venv", "results", ".snakemake"}
 
 
@@ -86,8 +88,14 @@ def test_a_recipe_can_be_followed_to_the_letter(tree, name):
     assert check.returncode == 0, check.stdout
 
 
+def test_the_path_of_a_record_names_files_that_there_are():
+    path = TEXT.partition("the path of a record")[2].partition("\n* A **Mechanism**")[0]
+    named = re.findall(r"`([\w/]+(?:/|\.\w+))`", path)
+    assert len(named) > len(re.findall(r"^\d+\. ", path, re.M)) > 0
+    assert not [name for name in named if not any((folder / name).exists() for folder in (ROOT, PACKAGE))]
+
+
 def test_the_map_names_every_wing():
-    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
-    drawn = text.partition("## Layout")[2].partition("```text\n")[2].partition("```")[0]
-    wings = {path.stem for path in (ROOT / "rocking").iterdir() if path.suffix in ("", ".py")}
+    drawn = TEXT.partition("## Layout")[2].partition("```text\n")[2].partition("```")[0]
+    wings = {path.stem for path in PACKAGE.iterdir() if path.suffix in ("", ".py")}
     assert wings - {"__init__", "__pycache__", "shipped"} <= set(re.findall(r"\w+", drawn))

@@ -1,4 +1,4 @@
-"""What stands over all records beside the summary: the rules checks, fragility, trade and map, of one text.
+"""What stands over all records beside the summary: a rule for each product of rocking.study.products, all of one text.
 
 In such a loop a function that is called later sees the last product: whatever differs is handed over by its name.
 """

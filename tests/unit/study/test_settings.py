@@ -17,6 +17,7 @@ from rocking.errors import ConfigurationError
 from rocking.fragility.measures import INTENSITY_MEASURES, MEASURES_IN_WORDS, SPELLINGS
 from rocking.records.design_spectrum import SOILS, TOPOGRAPHIES
 from rocking.records.processing import UNPROCESSED_DEFAULT
+from rocking.study.made_from import settings_for
 from rocking.study.settings import (
     EXAMPLE,
     Settings,
@@ -224,7 +225,7 @@ def test_the_schema_allows_what_the_tree_allows(name: tuple[str, ...], value: ob
 
 
 def test_what_a_study_is_told_by_stands_in_every_report_and_changes_no_number() -> None:
-    """Whatever declares that it is told: nothing but its declaration puts it there."""
+    """Whatever declares that it is told, which the job of every document can read."""
     told = {
         each.name: each.more["printed_as"]
         for each in described_values(Settings).values()
@@ -232,8 +233,9 @@ def test_what_a_study_is_told_by_stands_in_every_report_and_changes_no_number() 
     }
     assert {"study", "client", "author", "date", "project_number"} <= told.keys()
     settings = replace(Settings(), **{name: f"the {name}" for name in told})
-    printed = settings.for_pages.about
-    assert printed == {label: f"the {name}" for name, label in told.items()}
+    for kind in ("record", "summary", "checks"):
+        printed = settings_for(kind, settings).for_pages.about
+        assert printed == {label: f"the {name}" for name, label in told.items()}, kind
     numbers = Settings.changing_numbers()
     assert settings.values_of(numbers) == Settings().values_of(numbers)
     assert replace(settings, tolerance=1e-7).values_of(numbers) != settings.values_of(numbers)
