@@ -22,7 +22,7 @@ def forms() -> Iterator[tuple[str, str, Form]]:
 
 @styled
 def drawing(kind: str, form: Form) -> Figure:
-    """Return the structure of the form's examples, at rest, measured, and displaced beside it.
+    """Return the structure of the form's examples, at rest, measured, and displaced next to that.
 
     What a file holds is drawn by the first form of its type.
     """

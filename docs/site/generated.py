@@ -30,7 +30,7 @@ from rocking.tables import data_package, read_table
 MEASURED = Path(__file__).parents[1] / "measured"
 """The tables that were measured once, each with what made it in figures.csv."""
 FEWEST_INTERVALS = 40
-"""Intervals below which a cell of coverage says nothing: of few draws a rate is told."""
+"""Intervals below which a cell of coverage says nothing: of few draws there is a rate."""
 
 
 def formats() -> str:
@@ -134,7 +134,7 @@ def measured_trade() -> list[TradeRow]:
 
 
 def what_follows() -> str:
-    """What the measured trade says of the closed form beside the integration, and the machine."""
+    """What the measured trade says of the closed form against the integration, and the machine."""
     rows = measured_trade()
     lines = [f"* {sentence}" for sentence in sentences_of_trade(rows)]
     return "\n".join([*lines, f"* Measured on {rows[0].machine}."])
@@ -262,7 +262,7 @@ def _coverage_of_rates() -> list[dict[str, str]]:
 
 
 def _cell_of_rate(rows: Sequence[Mapping[str, str]]) -> str:
-    """How often a rate is told, what its intervals hold, and their upper end over it, least to largest of some rows."""
+    """How often there is a rate, what its intervals hold, and their upper end over it, least to largest of rows."""
 
     def span(name: str, scale: float, unit: str) -> str:
         values = [scale * float(row[name]) for row in rows if row[name]]

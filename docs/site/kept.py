@@ -42,7 +42,7 @@ def score(target: str, subject: str, part: str, measure: str) -> Score:
     return named[0]
 
 
-def told(form: str, content: str) -> str:
+def printed_score(form: str, content: str) -> str:
     """Return what a page prints for `content`, "TARGET; SUBJECT; PART; MEASURE", in a form.
 
     Raises ConfigurationError for an unknown form or score.

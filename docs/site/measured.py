@@ -2,7 +2,7 @@
 since.
 
 `docs/measured/figures.csv` holds a row for each. A page prints one by `<!-- measured: NAME -->`, and by
-`<!-- measured by: NAME -->` what made it and how old it is, beside a table or a sentence that tells it. Run as a script
+`<!-- measured by: NAME -->` what made it and how old it is, at a table or a sentence that gives it. Run as a script
 it lists the figures whose code has changed since in meaning, or whose list of records; `--first-screen` fails where one
 that a reader meets first is older, `--renew` writes the hashes of the code as it is, for figures that were just
 measured again, and `--keep` keeps the scores of a target, which pages print cell by cell (`kept`).
@@ -68,16 +68,16 @@ class Figure:
     @property
     def words(self) -> str:
         """The figure as a page prints it: value, interval, numbers and, where it is older than its code, its age."""
-        told = self.value
-        if beside := "; ".join(filter(None, (self.interval, self._of))):
-            told += f" ({beside})"
-        return f"{told} [measured at {self.commit}, code changed since]" if self.is_older else told
+        words = self.value
+        if details := "; ".join(filter(None, (self.interval, self._of))):
+            words += f" ({details})"
+        return f"{words} [measured at {self.commit}, code changed since]" if self.is_older else words
 
     @property
     def origin(self) -> str:
         """What made it, on what and when: "`snakemake stand` at 1a2b3c4d, 50 sites of 20 earthquakes"."""
-        told = ", ".join(filter(None, (f"`{self.script}` at {self.commit}", self._of)))
-        return f"{told}, code changed since" if self.is_older else told
+        words = ", ".join(filter(None, (f"`{self.script}` at {self.commit}", self._of)))
+        return f"{words}, code changed since" if self.is_older else words
 
     @property
     def _of(self) -> str:

@@ -21,7 +21,7 @@ from matplotlib.figure import Figure
 from docs.paper.report import equivalence_figures
 from docs.site.drawings import drawing, forms
 from docs.site.generated import GENERATED
-from docs.site.kept import told
+from docs.site.kept import printed_score
 from docs.site.measured import measured
 from rocking.errors import ConfigurationError
 
@@ -119,7 +119,7 @@ def filled(text: str, name: str) -> str:
         found = measured(match[2])
         return found.origin if match[1] else found.words
 
-    printed = _SCORE.sub(lambda match: told(*match.groups()), _MEASURED.sub(figure, text))
+    printed = _SCORE.sub(lambda match: printed_score(*match.groups()), _MEASURED.sub(figure, text))
     return _MARK.sub(content, printed)  # a file is shown as it stands
 
 

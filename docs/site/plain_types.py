@@ -29,7 +29,7 @@ def _values(part: Object) -> Iterator[Attribute | Parameter]:
 
 
 def _plain(annotation: Annotation, package: Module) -> Annotation:
-    """Return the type that an annotation says, without what it says beside."""
+    """Return the type that an annotation says, without what it says besides."""
     if isinstance(annotation, ExprName) and annotation.canonical_path.startswith(f"{package.path}."):
         target = package.modules_collection[annotation.canonical_path]
         return _plain(target.value, package) if target.is_attribute else annotation

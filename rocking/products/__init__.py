@@ -1,1 +1,1 @@
-"""Products: what stands over all records beside the summary, each in its folder, listed in `rocking.study.products`."""
+"""Products: what is made of all records besides the summary, each in its folder, listed in `rocking.study.products`."""

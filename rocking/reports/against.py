@@ -1,4 +1,4 @@
-"""Prediction against integration: a strip for each structure that moves, with the closed forms beside what happens."""
+"""Prediction against integration: a strip for each structure that moves, with the closed forms against what happens."""
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -44,7 +44,7 @@ HEADS = (
     AgainstHead("closed form", "exact"),
     AgainstHead("integrated", "whole record"),
 )
-"""The methods beside the strips."""
+"""The methods whose results stand at the strips."""
 LEGEND = (
     "Black: the mechanism under the whole record, with the crack of its row in comparison.csv, under the component "
     "that turns it farthest; a triangle where it falls. Band: closed form of the equivalent block under the sine. "
@@ -118,7 +118,7 @@ def _moving(
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """Prediction against integration of one record, as page two and the page to explore tell it.
+    """Prediction against integration of one record, as page two and the page to explore show it.
 
     moving: the structures that move, the worst first. grounds: the components under which those of them move that have
     a strip. span: the time that strips show, s. at_rest: the sentence on the others. several: whether components are
@@ -274,7 +274,7 @@ def _each_compared(
 
 
 def compared_in_words(moving: Moving, structure: Structure, several: bool) -> ComparedWords:
-    """Return what stands beside the strip of a structure. several: whether its component is to be named."""
+    """Return the texts at the strip of a structure. several: whether its component is to be named."""
     case = moving.case
     crack = case.crack or moving.conclusion.verdict.crack
     period = case.support_period_s

@@ -1,4 +1,4 @@
-"""The spectra of records beside that of the design level."""
+"""The spectra of records with that of the design level."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def design_figure(motions: Sequence[Trace], level: DesignSpectrum) -> Figure:
 
 @styled
 def design_summary_figure(spectra: Sequence[Sequence[float]], level: DesignSpectrum) -> Figure:
-    """Draw the spectra [m/s²] of all components, or the quantiles of many, and their mean beside the design level.
+    """Draw the spectra [m/s²] of all components, or the quantiles of many, and their mean with the design level.
 
     spectra: at the periods of `spectrum_periods`.
     """

@@ -62,7 +62,7 @@ _BESIDE = Line(
     'fill="#f4f4f4" stroke="#b3b3b3" stroke-width="0.12"',
     {"facecolor": "0.96", "edgecolor": "0.7", "linewidth": 0.5, "zorder": 0.5},
 )
-"""The rest of a wall beside a leaf of it that falls alone."""
+"""The rest of a wall of which a leaf falls alone."""
 _FRONT: dict[str, Any] = {"fill": False, "edgecolor": "0.3", "linewidth": 0.6}
 _FALLS: dict[str, Any] = {"facecolor": "0.85", "edgecolor": "0.3", "linewidth": 0.8}
 """The front of a wall, and what of it falls between two ties."""
@@ -142,10 +142,10 @@ def thinned(times: np.ndarray, values: np.ndarray, most: int = MOST_POINTS) -> t
 
 
 def room(
-    structure: Structure, rotation: float, width: float, height: float, beside: Sequence[np.ndarray] = ()
+    structure: Structure, rotation: float, width: float, height: float, rest: Sequence[np.ndarray] = ()
 ) -> tuple[float, np.ndarray]:
     """Return the scale [mm/m] at which `sketch` fills a picture of that size in mm, and the middle (2,), m, of it."""
-    every = np.vstack([*structure.outline(rotation), *structure.outline(), *beside])
+    every = np.vstack([*structure.outline(rotation), *structure.outline(), *rest])
     bottom, top = every.min(axis=0), every.max(axis=0)
     scale = min((np.array([width, height]) - 1.3) / (top - bottom))  # circles stand over the edges
     return float(scale), (bottom + top) / 2
@@ -157,21 +157,21 @@ def sketch(
     width: float,
     height: float,
     scale: float = 0.0,
-    beside: Sequence[np.ndarray] = (),
+    rest: Sequence[np.ndarray] = (),
 ) -> list[str]:
     """Return a structure at a signed `rotation` [rad] and dashed at rest, as shapes of SVG that fill a picture in mm.
 
     With its hinges (circles), loads (arrows), ties and supports (lines), as `draw_structure` draws them. scale: mm/m;
-    0: that at which it fills the picture. beside: the rest of the wall of which it is a leaf, drawn lightly.
+    0: that at which it fills the picture. rest: the others of the wall of which it is a leaf, drawn lightly.
     """
-    largest, middle = room(structure, rotation, width, height, beside)
+    largest, middle = room(structure, rotation, width, height, rest)
     scale = scale or largest
     filled = 'fill="#c7c7c7" stroke="#595959" stroke-width="0.18"'
     dashed = 'fill="none" stroke="#4d4d4d" stroke-width="0.18" stroke-dasharray="0.65 0.28"'
     circled = 'fill="white" stroke="black" stroke-width="0.21"'
     around = np.array([[np.cos(turn), np.sin(turn)] for turn in np.linspace(0, 2 * np.pi, 13)])
 
-    areas = [(shape, _BESIDE.by_hand) for shape in beside]
+    areas = [(shape, _BESIDE.by_hand) for shape in rest]
     areas += [(part, filled) for part in structure.outline(rotation)]
     areas += [(part, dashed) for part in structure.outline()]
     areas += [(hinge + 0.53 / scale * around, circled) for hinge in structure.hinges(rotation)]
@@ -212,13 +212,13 @@ def draw_structure(
     values: bool = False,
     look: dict[str, Any] | None = None,
     place: Transform | None = None,
-    beside: Sequence[np.ndarray] = (),
+    rest: Sequence[np.ndarray] = (),
 ) -> None:
     """Draw the parts at a signed `rotation` [rad], and the loads, thrusts (arrows) and ties (lines) that act on them.
 
     Displaced, it is drawn also at rest (dashed), and with the hinges (circles). values: write the value of each load
-    and tie beside it. look: of the filled parts, as matplotlib.patches.Polygon takes it. place: from m to the units of
-    the axes. beside: the rest of the wall of which it is a leaf, drawn lightly.
+    and tie next to it. look: of the filled parts, as matplotlib.patches.Polygon takes it. place: from m to the units of
+    the axes. rest: the others of the wall of which it is a leaf, drawn lightly.
     """
     from matplotlib.patches import Polygon
 
@@ -226,7 +226,7 @@ def draw_structure(
     filled = {"facecolor": "0.85", "edgecolor": "0.3", "linewidth": 0.8, "transform": where} | (look or {})
     parts = structure.outline(rotation)
     at_rest = structure.outline() if rotation else []
-    for outline in beside:
+    for outline in rest:
         axes.add_patch(Polygon(outline, closed=True, transform=where, **_BESIDE.on_axes))
     for outline in parts:
         axes.add_patch(Polygon(outline, closed=True, **filled))
@@ -243,7 +243,7 @@ def draw_structure(
 def _draw_mark(axes: Axes, mark: Mark, where: Transform, corner: tuple[float, float] | None) -> None:
     """Draw a load or thrust as an arrow, a tie as a line to its anchorage, a support as the edge of a floor.
 
-    corner: left end and top of the structure, m, beside which values stand; None draws no values.
+    corner: left end and top of the structure, m, next to which values stand; None draws no values.
     """
     tail, tip = mark.line
     if mark.kind == "support":
@@ -266,7 +266,7 @@ def _draw_mark(axes: Axes, mark: Mark, where: Transform, corner: tuple[float, fl
     left, top = corner
     if mark.kind == "tie":
         text = mark.text.replace(", ", " \n") + " "
-        # Below the line of the tie; a thrust is told above it.
+        # Below the line of the tie; a thrust is written above it.
         axes.annotate(
             text, (left, tail[1]), (0, -3), xycoords=where, textcoords="offset points", ha="right", va="top"
         )

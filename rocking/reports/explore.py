@@ -133,12 +133,12 @@ def _where(components: Sequence[RecordRow]) -> Content:
 
 def _remarks_of(name: str, structures: Collection[str], remarks: Iterable[RemarkRow]) -> list[str]:
     """The remarks on one structure, and those on the settings, which are about no structure."""
-    told = []
+    sentences = []
     for row in remarks:
         about = row.about.partition(": ")[0]
         if about == name or about not in structures:
-            told.append(row.sentence)
-    return told
+            sentences.append(row.sentence)
+    return sentences
 
 
 def explore_page(
@@ -150,7 +150,7 @@ def explore_page(
     strips: Sequence[Strip] = (),
     remarks: Sequence[RemarkRow] = (),
 ) -> bytes:
-    """Return the page as UTF-8 HTML that loads nothing; it stands beside the folders of the records.
+    """Return the page as UTF-8 HTML that loads nothing; it stands in the folder that holds those of the records.
 
     records: their `record_content`, in the order of the catalogue. title: of the study. conclusions,
     notes: of the products over all records, and on each structure by its name. strips: of the variants of structures.
@@ -272,7 +272,7 @@ def _case(period_result: PeriodResult, row: ComparisonRow | None) -> Content:
 
 
 def _moving(moving: Moving, structure: Structure, several: bool) -> Content:
-    """Return the history that moves the drawing of a structure, and what stands beside it on page two of the record.
+    """Return the history that moves the drawing of a structure, and its texts on page two of the record.
 
     several: whether its component is to be named.
     """

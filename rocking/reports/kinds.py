@@ -9,7 +9,7 @@ class ReportKind(Kind):
     """A kind of remark that only a page makes."""
 
     # fmt: off
-    # What explains a decision of which nothing more would tell.
+    # What explains a decision that nothing more would settle.
     STANDS_AS_VOUSSOIRS = auto(), Sentence(
         "A joint of {about} needs a friction of {needed:.2g} while it rocks; as loose voussoirs on a friction of 0.5 "
         "and more, such arches stood wherever their mechanism does.",
@@ -31,7 +31,7 @@ class ReportKind(Kind):
         brief="{about}: crushing at 2 MPa would matter",
     )
 
-    # What a strip of variants says of each beside the first.
+    # What a strip of variants says of each against the first.
     THE_FIRST = auto(), Sentence("the first", "riferimento")
     SHARE_DIFFERS = auto(), Sentence("{points} points of share", "{points} punti percentuali")
     SAME_SHARE = auto(), Sentence("same share", "stessa percentuale")

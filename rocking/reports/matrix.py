@@ -13,7 +13,7 @@ from rocking.reports.pages import Chip, Matrix, MatrixHead, MatrixRow
 from rocking.reports.printing import NOTHING, chip, number
 
 MOST_RECORDS = 12
-"""Records beside each other; of more the map has a line each."""
+"""Records next to each other; of more the map has a line each."""
 MOST_STRUCTURES = 20
 """Structures below each other, the worst first; verdicts.csv holds all."""
 MOST_IN_WORDS = 2
@@ -29,7 +29,7 @@ _UNSAID = (AssessmentKind.STRENGTHEN, *UNSAID)
 def matrix(made: Sequence[Conclusion], records: Sequence[RecordRow], pulses: Sequence[PulseRow]) -> Matrix:
     """Return heads and rows: a column for each record, a row for each structure, both the worst first.
 
-    Without rows where there are more records than stand beside each other. made: the conclusions on all. The legend is
+    Without rows where there are more records than stand next to each other. made: the conclusions on all. The legend is
     empty where the cells hold their words.
     """
     columns = worst_first((conclusion.verdict.record, conclusion.severity) for conclusion in made)
@@ -85,15 +85,15 @@ def _cell(conclusion: Conclusion | None, records: int) -> Chip:
     if conclusion is None:
         return Chip(word="", share="", fill="#ffffff", ink="#000000", hatched=False)
     decision = conclusion.verdict.decision
-    untold = decision.word is Verdict.CANNOT_BE_TOLD
+    unknown = decision.word is Verdict.CANNOT_BE_TOLD
     if records > MOST_IN_WORDS:
         share = decision.share_in_a_cell.removesuffix("\u00a0%").replace("≥ ", "≥")
         if records > MOST_WITH_ALL and decision.word.badness <= Verdict.PROBABLY_STANDS.badness:
             share = ""
         elif not share and records <= MOST_WITH_ALL:
-            share = "?" if untold else NOTHING
+            share = "?" if unknown else NOTHING
         return replace(chip(decision.word, share), word="")
-    return chip(decision.word, "" if untold else decision.share_in_words)
+    return chip(decision.word, "" if unknown else decision.share_in_words)
 
 
 def _remark(conclusion: Conclusion) -> str:

@@ -16,7 +16,7 @@ FOLDER = Path(__file__).parent
 
 @dataclass(frozen=True, kw_only=True)
 class PageSettings:
-    """What the settings of a study say of its pages. about: what every report tells of the study, by its label."""
+    """What the settings of a study say of its pages. about: what every report says of the study."""
 
     about: Mapping[str, str] = field(default_factory=dict)
     language: Language = "en"
@@ -71,7 +71,7 @@ class CaptionedTable:
 
 @dataclass(frozen=True, kw_only=True)
 class Chip:
-    """A word on its colour, with a share beside it; hatched: within a dashed edge."""
+    """A word on its colour, with a share at its right; hatched: within a dashed edge."""
 
     word: str
     share: str
@@ -108,7 +108,7 @@ class Footer:
 
 @dataclass(frozen=True, kw_only=True)
 class Page:
-    """What every document has. template: the file that sets it, as if it stood beside those of the reports."""
+    """What every document has. template: the file that sets it, as if it stood in their folder."""
 
     template: ClassVar[Path]
     title: str
@@ -277,7 +277,7 @@ class Ground:
 
 @dataclass(frozen=True, kw_only=True)
 class ComparedWords:
-    """What stands beside the strip of a structure: the largest rotation by paper, closed form and integration.
+    """The texts at the strip of a structure: the largest rotation by paper, closed form and integration.
 
     below: its sizes. constants: λ, p, φ_cr and η. note: component, support and crack. outside: whether the paper's
     equation is asked outside of its regime.
@@ -295,7 +295,7 @@ class ComparedWords:
 
 @dataclass(frozen=True, kw_only=True)
 class Compared(ComparedWords):
-    """The strip of a structure that moves, and what stands beside it."""
+    """The strip of a structure that moves, and its texts."""
 
     picture: Picture
 

@@ -61,8 +61,8 @@ LOOKS: dict[Verdict, tuple[str, str, str, str]] = {
 }
 """Sign, colour, colour of letters on it, and hatch of each verdict.
 
-The worse, the darker (L* 14, 42, 64, 84, 96), also in print without colour and to eyes that tell few of them apart;
-what cannot be told stands apart, hatched.
+The worse, the darker (L* 14, 42, 64, 84, 96), also in print without colour and to eyes that distinguish few of them;
+what cannot be told is hatched.
 """
 LEGEND = ", ".join(f"{sign} {verdict}" for verdict, (sign, *_) in LOOKS.items())
 """The signs of a map."""
@@ -70,7 +70,7 @@ SHARES = (
     "The number is the share of the ensemble that overturns, in %: a range where cracks, or the members and contact "
     "dynamics, disagree; ≥ where something doubtful or missing may add to it."
 )
-"""What stands beside these signs."""
+"""What the numbers at these signs are."""
 METHODS = {
     Method.CLOSED_FORM: "Closed form, block",
     Method.MECHANISM_ON_PULSE: "Mechanism, pulse",
@@ -150,7 +150,7 @@ def to_spread(value: float, result: Banded) -> str:
 
 
 def chip(verdict: Verdict, share: str = "", text: str = "") -> Chip:
-    """Return a verdict on its colour with a share beside it, as the templates set it. text: in another language."""
+    """Return a verdict on its colour with a share at its right, as the templates set it. text: in another language."""
     _, fill, ink, hatch = LOOKS[verdict]
     word = f"{'? ' * bool(hatch)}{text or verdict}"
     return Chip(word=word, share=share, fill=fill, ink=ink, hatched=bool(hatch))
@@ -362,7 +362,7 @@ _LONGEST_NAME = 60
 def write_document(pdf: Path, page: Page, kinds: Figures) -> list[Path]:
     """Write the document of a page and, where asked for, its figures; return the files.
 
-    The figures of summary.pdf stand beside it in summary_figures.zip.
+    The figures of summary.pdf stand in the same folder in summary_figures.zip.
     """
     write_whole(pdf, compile_document(page))
     if kinds == "none":

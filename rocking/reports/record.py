@@ -105,7 +105,7 @@ MOVED = 0.1
 MOST_NOTICED = 3
 """Failures that stand above everything; failures.csv holds all."""
 TOLD_FIRST = (StructureKind.RESTITUTION_TYPED, ReportKind.CRUSHING_WOULD_TELL)
-"""Remarks on the models that page one tells briefly, before their sentences."""
+"""Remarks on the models that page one says briefly, before their sentences."""
 MOST_PULSES = 3
 """Ranks of pulses that are printed."""
 MOST_COMPARED = 24
@@ -148,7 +148,7 @@ class RecordReport:
 
     Every number of a table is a cell of `tables`, the rows of `result`, or of the structures table, rounded.
     structures: by name. level: the design level; None where the study has none.
-    of_study: the remarks on the study itself, beside those on the record in `tables`.
+    of_study: the remarks on the study itself, besides those on the record in `tables`.
     """
 
     result: RecordResult
@@ -518,7 +518,7 @@ def structure_row(conclusion: Conclusion, structure: Structure | None, friction:
 
 
 def _beside_the_word(conclusion: Conclusion, structure: Structure | None, friction: float) -> str:
-    """What stands beside the marks; "" where there is nothing to say."""
+    """The text at the end of a row; "" where there is nothing to say."""
     remark = conclusion.remark
     if remark.kind in UNSAID:
         return ""
@@ -533,8 +533,8 @@ def _turned(verdict: VerdictRow, structure: Structure) -> Picture:
     broken = cracked(structure, verdict.crack)
     sign = -1 if verdict.peak_side == -1 else 1
     side = broken.mechanism().sides[0 if sign > 0 else -1]
-    beside = structure.beside(part_cracked(structure, verdict.crack))
-    shapes = sketch(broken, sign * _DRAWN * side.critical_rotation, *_ROOM, beside=beside)
+    rest = structure.beside(part_cracked(structure, verdict.crack))
+    shapes = sketch(broken, sign * _DRAWN * side.critical_rotation, *_ROOM, rest=rest)
     return drawn_by_hand(shapes, *_ROOM, f"{verdict.structure}, turned, and at rest.")
 
 
@@ -551,17 +551,19 @@ def _known_crack(structure: Structure | None, verdict: VerdictRow) -> str:
 
 def _uncertain(report: RecordReport) -> list[str]:
     """Say of the structures that are uncertain why, and what then."""
-    told = []
+    uncertain = []
     for conclusion in report.conclusions:
         decision = conclusion.verdict.decision
         if decision.word is Verdict.UNCERTAIN:
             reasons = [f"{decision.share_in_words} fall" if not math.isnan(decision.share) else decision.why]
             reasons += [remark.brief for remark in (*decision.doubts, *decision.would_settle)[:1]]
-            told.append(f"{conclusion.verdict.structure} ({'; '.join(reasons)})")
-    if not told:
+            uncertain.append(f"{conclusion.verdict.structure} ({'; '.join(reasons)})")
+    if not uncertain:
         return []
-    verb = "is" if len(told) == 1 else "are"
-    return [f"{listed(told, _MOST_UNCERTAIN)} {verb} uncertain: take as may overturn until more is known."]
+    verb = "is" if len(uncertain) == 1 else "are"
+    return [
+        f"{listed(uncertain, _MOST_UNCERTAIN)} {verb} uncertain: take as may overturn until more is known."
+    ]
 
 
 def _reserve_in_words(drawn: Sequence[Conclusion]) -> str:
@@ -735,8 +737,8 @@ def _contacts(report: RecordReport) -> list[str]:
         if row.slides and stands and not row.bounces:
             needed[name] = max(needed.get(name, 0.0), row.required_friction)
     texts = [f"{name} ({' and '.join(sorted(kinds, reverse=True))})" for name, kinds in failing.items()]
-    told = [f"The model does not hold, because a contact fails, for {listed(texts)}."] if texts else []
-    return told + [
+    sentences = [f"The model does not hold, because a contact fails, for {listed(texts)}."] if texts else []
+    return sentences + [
         str(Remark.of(ReportKind.STANDS_AS_VOUSSOIRS, name, needed=largest))
         for name, largest in needed.items()
         if name not in failing
@@ -746,7 +748,7 @@ def _contacts(report: RecordReport) -> list[str]:
 def _would_crush(period_result: PeriodResult) -> bool:
     """Whether a compressive strength of 2 MPa would change a structure that states none.
 
-    λ falls, and so does what overturns it in proportion: as far as the reserve on this record tells.
+    λ falls, and so does what overturns it in proportion: as far as the reserve on this record shows.
     """
     reserve = period_result.reserve
     # What no factor overturns, no loss of λ does; to crush an arch takes a fifth of a second.
@@ -762,7 +764,7 @@ def _would_crush(period_result: PeriodResult) -> bool:
 
 
 def _advice(report: RecordReport) -> Part:
-    """Return what would tell more of the cases that are not sure, each thing to do once with its structures."""
+    """Return what would settle the cases that are not sure, each thing to do once with its structures."""
     to_do: dict[str, list[str]] = {}
     for period_result in report.result.worst_first:
         if period_result.decision.word.is_sure:
@@ -813,12 +815,12 @@ def _notices(report: RecordReport) -> list[Notice]:
         text = "No pulse could be sought in this record, so there is no closed-form prediction."
         notices.append(Notice(text))
     of_failures = [f"{row.structure or row.component}: {row.message}" for row in tables.failures]
-    told = list(dict.fromkeys(of_failures))
-    if len(told) > MOST_NOTICED:
-        told[MOST_NOTICED - 1 :] = [
-            f"Another {counted(len(told) - MOST_NOTICED + 1, 'failure')} in failures.csv."
+    failed = list(dict.fromkeys(of_failures))
+    if len(failed) > MOST_NOTICED:
+        failed[MOST_NOTICED - 1 :] = [
+            f"Another {counted(len(failed) - MOST_NOTICED + 1, 'failure')} in failures.csv."
         ]
-    return [*notices, *map(Notice, [*to_check(report.remarks), *told])]
+    return [*notices, *map(Notice, [*to_check(report.remarks), *failed])]
 
 
 def _pulse_doubts(report: RecordReport) -> list[str]:
@@ -1166,7 +1168,7 @@ PULSE_FIELDS = (
 
 
 def _method_columns(rows: Sequence[ComparisonRow]) -> list[Column]:
-    """Every method that gave anything beside the others, and what stands behind them."""
+    """Every method that gave anything, and the columns behind them."""
     heads = {RATIO_COLUMNS[method]: head for method, head in printing.METHODS.items()}
     names = [name for name in heads if not all(math.isnan(getattr(row, name)) for row in rows)]
     of_methods = columns_of(ComparisonRow, " ".join(names), "0.92")

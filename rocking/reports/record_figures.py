@@ -37,7 +37,7 @@ _ZOOM = 1.5
 _MAP_COLUMNS = 240
 """Columns of the map of energy, at most twice as many."""
 _BESIDE_CASES = 29
-"""Small letters that stand beside a case of the comparison."""
+"""Small letters that stand at a case of the comparison."""
 _SMALLEST = 1e-3
 """Rotation ratio at the left end of the comparison."""
 _FALLEN = 3.0
@@ -232,10 +232,10 @@ def _draw_history(panel: Axes, history: History, level: int, label: str, several
         f"{ratio(case.integrated_rotation_ratio, 2)}{component}, {counted(case.impacts or 0, 'impact')}\n"
         f"closed form: {ratio(predicted, 2)}"
     )
-    beside: dict[str, Any] = {"transform": panel.get_yaxis_transform(), "va": "center", "fontsize": 7}
+    look: dict[str, Any] = {"transform": panel.get_yaxis_transform(), "va": "center", "fontsize": 7}
     name = wrapped(label, 24, 3)
-    panel.text(-0.02, level, f"{name}\n± {reach:.2g}", ha="right", linespacing=1.3, **beside)
-    panel.text(1.01, level, remark, ha="left", linespacing=1.3, **beside)
+    panel.text(-0.02, level, f"{name}\n± {reach:.2g}", ha="right", linespacing=1.3, **look)
+    panel.text(1.01, level, remark, ha="left", linespacing=1.3, **look)
 
 
 # The closed form -------------------------------------------------------------------------------------------

@@ -29,7 +29,7 @@ _SPACING = 0.075
 _MOST_POINTS = 5000
 """Points that are drawn as shapes; more become a picture, whose size does not grow with them."""
 _MOST_PACKED = 120
-"""Points that are packed into a corner; of more its number tells."""
+"""Points that are packed into a corner; of more their number is written."""
 _LIGHT = "#C9CED6"
 _DARK = "#1F3A5F"
 _MISSED = "#A33B14"
@@ -154,7 +154,7 @@ def _write_counts(axes: Axes, predicted: np.ndarray, integrated: np.ndarray) -> 
     # Points that lie behind a count leave it readable.
     paper = {"facecolor": "white", "alpha": 0.7, "linewidth": 0, "pad": 0.8}
     large: dict[str, Any] = {"fontsize": 11.5, "fontweight": "bold", "bbox": paper}
-    beside: dict[str, Any] = {"ha": "right", "bbox": paper}
+    to_the_right: dict[str, Any] = {"ha": "right", "bbox": paper}
     axes.text(low, _END - 0.05, f"{int((falls & ~sees).sum())} missed", color=_MISSED, va="top", **large)
     axes.text(_ZONE + 0.05, _END - 0.05, f"{int((falls & sees).sum())} right", va="top", **large)
     axes.text(
@@ -165,15 +165,17 @@ def _write_counts(axes: Axes, predicted: np.ndarray, integrated: np.ndarray) -> 
     )
     right = _ZONE - 0.04
     axes.text(
-        right, low + 0.26, f"{int(rock.sum())} rock in both,", fontsize=9.5, fontweight="bold", **beside
+        right, low + 0.26, f"{int(rock.sum())} rock in both,", fontsize=9.5, fontweight="bold", **to_the_right
     )
-    axes.text(right, low + 0.12, f"{int((factor <= 1).sum())} within factor two", fontsize=8.5, **beside)
+    axes.text(
+        right, low + 0.12, f"{int((factor <= 1).sum())} within factor two", fontsize=8.5, **to_the_right
+    )
 
 
 def _write_key(
     figure: Figure, energy: np.ndarray, sees: np.ndarray, falls: np.ndarray, left: float, height: float
 ) -> None:
-    """Write beside the scatter, by the energy in the sine, how many falls are missed."""
+    """Write at the right of the scatter, by the energy in the sine, how many falls are missed."""
     axes = panel_at(figure, left, 0, WIDTH - left, height)
     axes.set_axis_off()
     axes.set(xlim=(0, WIDTH - left), ylim=(-height, 0))

@@ -72,7 +72,7 @@ def new_figure(
 ) -> Figure:
     """Return an empty figure of `width` by `height` mm with the margins left, right, bottom and top of its panels, mm.
 
-    Margins are given, not sought: seeking them costs more than drawing.
+    Margins are given, not searched: searching them costs more than drawing.
     """
     from matplotlib.figure import Figure
 

@@ -95,7 +95,7 @@ MOST_HIGH = 12
 _HIGH, _LOW = 112.0, 76.0
 """Heights of the scatter, mm."""
 _BESIDE = 30
-"""Letters of a name beside a bar."""
+"""Letters of a name at a bar."""
 _LETTERS = 8.0
 """Of the tables, pt."""
 _TOGETHER = 14
@@ -115,18 +115,18 @@ def summary_data(
     settings: PageSettings,
     design: Design | None = None,
     strips: Sequence[Strip] = (),
-    conclusions_beside: Sequence[str] = (),
+    other_conclusions: Sequence[str] = (),
     panels: Sequence[Panel] = (),
     structures: Mapping[str, Structure] = MappingProxyType({}),
 ) -> SummaryPage:
     """Return the page of the summary: texts, tables and figures.
 
     rows: of the tables of the summary. design: None where the study has no design level. strips: of the variants of
-    structures. conclusions_beside, panels: of the other products over all records. structures: by name, of which it is
+    structures. other_conclusions, panels: of the other products over all records. structures: by name, of which it is
     said whose crack is known.
     """
     with displaying(settings):
-        return _page(rows, settings, design, strips, conclusions_beside, panels, structures)
+        return _page(rows, settings, design, strips, other_conclusions, panels, structures)
 
 
 def _page(
@@ -134,7 +134,7 @@ def _page(
     settings: PageSettings,
     design: Design | None,
     strips: Sequence[Strip],
-    conclusions_beside: Sequence[str],
+    other_conclusions: Sequence[str],
     panels: Sequence[Panel],
     structures: Mapping[str, Structure],
 ) -> SummaryPage:
@@ -154,7 +154,7 @@ def _page(
     unsafe = [row for row in comparison if row.agreement is Agreement.TOO_LOW]
     unsafe.sort(key=lambda row: row.integrated_rotation_ratio, reverse=True)
     # Names that stand upright, a second sentence and more rows leave less room below them.
-    low = bool(len(judged) > MOST_WITH_ALL or conclusions_beside or len(words_of_all) > MOST_HIGH)
+    low = bool(len(judged) > MOST_WITH_ALL or other_conclusions or len(words_of_all) > MOST_HIGH)
     return SummaryPage(
         title="Summary over the records",
         about=printing.facts_of(settings),
@@ -165,7 +165,7 @@ def _page(
         f"{counted(len(rows_of(StructureRow, rows)), 'structure')}",
         conclusion=conclusion_in_words(words_of_all, len(judged)),
         falls=falls_in_words(rows_of(ExpectedFallsRow, rows)),
-        conclusions=tuple(conclusions_beside),
+        conclusions=tuple(other_conclusions),
         matrix=matrix(made, records, pulses),
         notices=(
             *_notices(records, comparison, len(failures)),
@@ -293,7 +293,7 @@ def _scatter(
 
 
 def _design(design: Design | None) -> Part:
-    """The figure of the spectra beside the design level, and what that is."""
+    """The figure of the spectra with the design level, and what that is."""
     if design is None:
         return Part()
     level, spectra = design
@@ -346,9 +346,9 @@ def outcomes_figure(verdicts: Sequence[VerdictRow]) -> Figure:
     """Draw of each structure, the worst first, under how many records it has each verdict."""
     counts = outcome_counts(verdicts)
     names = list(counts)[:MOST_STRUCTURES]
-    beside = [wrapped(name, _BESIDE, 2) for name in names]
+    labels = [wrapped(name, _BESIDE, 2) for name in names]
     kinds = [kind for kind in ORDER if any(counts[name][kind] for name in names)]
-    row = 6.2 if any("\n" in name for name in beside) else 5.0
+    row = 6.2 if any("\n" in name for name in labels) else 5.0
     head = 7.0
     foot = 10.0
     figure = new_figure(row * len(names) + head + foot, margins=(46, 4, foot, head))
@@ -368,7 +368,7 @@ def outcomes_figure(verdicts: Sequence[VerdictRow]) -> Figure:
                 text = f"{size:.0f}"
                 axes.text(begin + size / 2, place, text, ha="center", va="center", color=ink, bbox=box)
         start += width
-    axes.set_yticks(places, beside, linespacing=1.1)
+    axes.set_yticks(places, labels, linespacing=1.1)
     axes.tick_params(axis="y", length=0)
     axes.set(xlim=(0, float(start.max())), ylim=(len(names) - 0.4, -0.6), xlabel="number of records [-]")
     axes.xaxis.set_major_locator(MaxNLocator(8, integer=True))
@@ -479,7 +479,7 @@ def method_table(comparison: Sequence[ComparisonRow]) -> Table:
 
 
 class _Worth(NamedTuple):
-    """Counts of the cases of a method beside the integration.
+    """Counts of the cases of a method against the integration.
 
     same, too_low, too_high: by outcome. both_rock: those that rock by both; near: of these within a factor two.
     """

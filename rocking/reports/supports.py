@@ -122,19 +122,19 @@ def _draw_shares(axes: Axes, structures: Sequence[SceneResult]) -> None:
 def _draw_reserves(axes: Axes, structures: Sequence[SceneResult]) -> None:
     """Draw on a scale of its own the factor on the record at which half of the members overturn, where there is one.
 
-    Single points, with nothing between them: it is sought on the ground and at the worst period.
+    Single points, with nothing between them: it is searched on the ground and at the worst period.
     """
-    beside = axes.twinx()
+    reserve_axes = axes.twinx()
     limits = []
     for scene in structures:
         periods = scene.first_periods
         reserves = [period_result.reserve for period_result in scene.periods]
         factors = [reserve.median if reserve else np.nan for reserve in reserves]
         limits += [reserve.limit for reserve in reserves if reserve]
-        beside.plot(periods, factors, linestyle="", marker="x", color=PREDICTED, markersize=3.5)
-    beside.set(ylim=(0, max(limits)))
-    beside.set_ylabel("median reserve [×]", color=PREDICTED)
-    beside.spines["right"].set_visible(True)
+        reserve_axes.plot(periods, factors, linestyle="", marker="x", color=PREDICTED, markersize=3.5)
+    reserve_axes.set(ylim=(0, max(limits)))
+    reserve_axes.set_ylabel("median reserve [×]", color=PREDICTED)
+    reserve_axes.spines["right"].set_visible(True)
 
 
 def _draw_spectra(axes: Axes, panel: SupportPanel) -> None:

@@ -59,7 +59,7 @@ def read_start(path: Path, size: int) -> bytes:
 
 
 def write_whole(path: Path, content: bytes | Iterable[bytes]) -> None:
-    """Write `content`, or its pieces, to `path` through a temporary file beside it, so that it appears whole."""
+    """Write `content`, or its pieces, to `path` through a temporary file in its folder, so that it appears whole."""
     with whole(path) as stream:
         stream.writelines([content] if isinstance(content, bytes) else content)
 

@@ -46,7 +46,7 @@ _OF_AN_INDENT = (
     "expected <block end>",
     "could not find expected ':'",
 )
-"""How yaml tells of a line that is indented otherwise than the entry to which it belongs."""
+"""How yaml reports a line that is indented otherwise than the entry to which it belongs."""
 
 
 def _where_and_why(defect: yaml.YAMLError | ValueError) -> str:

@@ -36,7 +36,7 @@ def page_two(study: Study, record: str) -> Image.Image:
     return Image.open(io.BytesIO(pages[1])).convert("RGB")
 
 
-def beside(pictures: list[Image.Image]) -> Image.Image:
+def side_by_side(pictures: list[Image.Image]) -> Image.Image:
     """Return pictures of one size beside each other."""
     width, height = pictures[0].size
     both = Image.new("RGB", (width * len(pictures), height), "white")
@@ -47,7 +47,7 @@ def beside(pictures: list[Image.Image]) -> Image.Image:
 
 if __name__ == "__main__":
     study = Study(load_scenes(ROOT / "config" / "structures.yaml"), Settings())
-    drawn = beside([page_two(study, record) for record in SHOWN])
+    drawn = side_by_side([page_two(study, record) for record in SHOWN])
     drawn.convert("P", palette=Image.Palette.ADAPTIVE, colors=200).save(
         Path(__file__).with_suffix(".png"), optimize=True
     )

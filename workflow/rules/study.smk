@@ -67,7 +67,7 @@ def declared(*paths):
 
 
 def params_of(product):
-    """What a product is made from, each thing by itself: snakemake tells those that changed."""
+    """What a product is made from, each thing by itself: snakemake reports those that changed."""
 
     def thing(number):
         return lambda wildcards: RECORDS_OF(product.format(**wildcards))[number]

@@ -78,10 +78,10 @@ class CodeConclusion:
         return {check.check: ratio_in_words(check.ratio) for check in self.checks}
 
     def __str__(self) -> str:
-        """The conclusion, and beside "verified" what other stations would say of it."""
+        """The conclusion, and after "verified" what other stations would say of it."""
         others = self.other_sets
-        beside = f" ({others})" if self.verified and others else ""
-        return f"{self.remark}{beside}"
+        in_brackets = f" ({others})" if self.verified and others else ""
+        return f"{self.remark}{in_brackets}"
 
     @property
     def name(self) -> str:

@@ -21,9 +21,9 @@ from rocking.structures import Structure
 from rocking.structures.tied import Tied
 
 _HEIGHT = 102.0
-"""mm; of the mechanism beside its bars."""
+"""mm; of the mechanism to the left of its bars."""
 _BASIS_HEIGHT = 72.0
-"""mm; of the drawing beside its capacity curve, which leaves the page room for its tables."""
+"""mm; of the drawing to the left of its capacity curve, which leaves the page room for its tables."""
 _TURNED = 0.5
 """Share of the critical rotation at which a mechanism is drawn."""
 _POINTS = 200
@@ -43,7 +43,7 @@ _BAR = 0.24
 def bars_figure(
     structure: Structure, checked: StructureCheck, untied: StructureCheck | None, words: SignSentences
 ) -> Figure:
-    """Draw the mechanism that governs, turned, and beside it capacity over demand of each check on one scale.
+    """Draw the mechanism that governs, turned, and at its right capacity over demand of each check on one scale.
 
     structure: of which a leaf may be what falls. untied: the checks without ties, whose bars are outlined below the
     others.
@@ -55,15 +55,15 @@ def bars_figure(
     foot = 6 if bay is None else 6 + _HEIGHT / 3
     drawn = panel_at(figure, 2, foot, 58, _HEIGHT - 4 - foot)
     rotation = mechanism.candidate.sign * _TURNED * mechanism.static.side.critical_rotation
-    # The values beside loads and ties are English; on an Italian page they stand among the assumptions alone.
+    # The values at loads and ties are English; on an Italian page they stand among the assumptions alone.
     values = words.language == "en"
     rest = structure.beside(mechanism.candidate.part)
-    draw_structure(drawn, body, rotation, values=values, beside=rest)
+    draw_structure(drawn, body, rotation, values=values, rest=rest)
     _to_scale(figure, drawn)
     if bay is not None:
-        beside = panel_at(figure, 2, 6, 58, _HEIGHT / 3 - 6)
-        draw_bay(beside, bay)
-        _to_scale(figure, beside)
+        bay_axes = panel_at(figure, 2, 6, 58, _HEIGHT / 3 - 6)
+        draw_bay(bay_axes, bay)
+        _to_scale(figure, bay_axes)
 
     axes = panel_at(figure, 92, 6, 76, _HEIGHT - 18)
     axes.axvspan(_LEAST, 1, color=_SIDE, zorder=0)
@@ -123,7 +123,7 @@ def bars_figure(
 
 
 def _draw_bar(axes: Axes, place: float, check: Check, words: SignSentences, look: dict[str, Any]) -> None:
-    """One bar from 1 on, with its ratio: within it where it is not met, beside it where it is."""
+    """One bar from 1 on, with its ratio: within it where it is not met, at its right where it is."""
     end = min(max(check.ratio, _LEAST), _MOST)
     axes.barh(place, end - 1, _BAR, 1, linewidth=0.8, zorder=3, **look)
     text = words.decimal(check.ratio_in_words)
@@ -231,7 +231,7 @@ def _draw_capacity(axes: Axes, mechanism: CodeCapacity, words: SignSentences) ->
 
 @styled
 def selection_figure(selection: Selection) -> Figure:
-    """Draw the spectra of the set of records beside the design spectrum."""
+    """Draw the spectra of the set of records with the design spectrum."""
     figure = new_figure(80.0)
     plot(selection, figure.subplots())
     return figure

@@ -75,7 +75,7 @@ class Sheet:
 
 @dataclass(frozen=True)
 class SetFigure:
-    """The set of records of the dynamic check beside its target."""
+    """The set of records of the dynamic check against its target."""
 
     picture: Picture
     caption: str

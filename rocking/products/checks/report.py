@@ -58,7 +58,7 @@ class CheckedStructure:
     place, support: where it stands, and of what stands on a support one along its axis, None on the ground below it.
     checked: None where it could not be checked, and `refusal` then says why. overturning_share: mean over the stations
     of the study, of each the mean over its records, nan without any; share_interval: its 90 % interval by earthquakes;
-    records, stations, earthquakes: how many there are, but for those of which it cannot be told; still: stations at
+    records, stations, earthquakes: how many there are, but for those of which that is unknown; still: stations at
     which nothing lifts it. verdicts: stations by the worst verdict on it there, and doubts: what may make
     one worse than said. reserves: under each record of the study under which one was sought; reserve_doubts: the kinds
     of doubt for which they may be too high. mechanisms: all in which it may fall. mechanism_shares: of each that was
@@ -200,7 +200,7 @@ def _sheets(
                 with one_structure(name):
                     headline, details = _conclusion(page, checked, conclusion, spectrum, words)
                     # Once, with the structure that the others vary.
-                    beside = (strip_of[name],) if name in strip_of else ()
+                    variant_strips = (strip_of[name],) if name in strip_of else ()
                     bars = picture(
                         bars_figure(page.structure, checked, page.untied, words), words("bars alt", name=name)
                     )
@@ -209,7 +209,7 @@ def _sheets(
                         bars=(bars,),
                         sure=_sure(page, checked.dynamic, words),
                         assumptions=tuple(_assumptions(page, checked.governing, words)),
-                        basis=_basis(page, checked, conclusion, everywhere, beside, words),
+                        basis=_basis(page, checked, conclusion, everywhere, variant_strips, words),
                     )
                     pages.append(
                         Sheet(
@@ -265,7 +265,7 @@ def _conclusion(
     spectrum: DesignSpectrum,
     words: SignSentences,
 ) -> tuple[str, tuple[str, ...]]:
-    """The conclusion as a headline, and what there is to say beside it."""
+    """The conclusion as a headline, and what else there is to say."""
     decisive = conclusion.decisive
     also = [check.clause for check in conclusion.checks if check.part == Part.COUNTS_TOO]
     overruled = [words(f"check {check.check}") for check in conclusion.checks if check.part == Part.OVERRULED]
@@ -399,7 +399,7 @@ def _reserve(page: CheckedStructure, words: SignSentences) -> tuple[str, str]:
     limit = max(reserve.limit for reserve in page.reserves)
     doubts = ""
     of_all = words.counted(lows.size, "record")
-    if lows.size < page.records:  # on a support it is sought at the worst period of each record
+    if lows.size < page.records:  # on a support it is searched at the worst period of each record
         of_all = words("of worst period", count=of_all, records=page.records)
     if reached.size and lows.size > 1:
         middle = float(np.quantile(np.where(np.isnan(lows), np.inf, lows), 0.5, method="lower"))
@@ -439,8 +439,8 @@ def _assumptions(page: CheckedStructure, mechanism: CodeCapacity, words: SignSen
         if checked
         else []
     )
-    held = [restraint.ties for restraint in checked.restraints] if checked else []
-    if any(map(math.isinf, (*ties, *held))):
+    strengths_elsewhere = [restraint.ties for restraint in checked.restraints] if checked else []
+    if any(map(math.isinf, (*ties, *strengths_elsewhere))):
         lines.append(words("assumed ties"))
     lines += [words.of(assumption) for assumption in structure.assumptions]
     if page.support is not None:
@@ -457,7 +457,7 @@ def _basis(
     checked: StructureCheck,
     conclusion: CodeConclusion,
     everywhere: Sequence[CheckedStructure],
-    beside: tuple[Strip, ...],
+    variant_strips: tuple[Strip, ...],
     words: SignSentences,
 ) -> Basis:
     """The page behind it: the capacity curve, the checks with their values, the other places, and the study's share."""
@@ -471,7 +471,7 @@ def _basis(
         sentences=tuple(_sentences(page, checked, words)),
         periods=_period_table(others, conclusion, words) if others else Table(),
         share=_share(page, words),
-        strips=beside,
+        strips=variant_strips,
     )
 
 

@@ -46,7 +46,7 @@ class Checks(Work):
     sheets = (CodeCheckRow,)
 
     def make(self, job: Job) -> Made:
-        """Check every structure beside what became of it under the records of the study."""
+        """Check every structure, and set against it what became of it under the records of the study."""
         rows = [outcome.rows for outcome in read_outcomes(job.plan.outcomes())]
         checked = write_checks(
             job.study,
@@ -174,7 +174,7 @@ def write_checks(
             except RockingError as error:
                 page = replace(page, checked=None, refusal=error.remark or str(error))
             pages.append(page)
-            tell(f"{placed(name, period)}: {page.refusal or _told(page.checked)}")
+            tell(f"{placed(name, period)}: {page.refusal or _checks_in_words(page.checked)}")
     rows = [
         row
         for page in pages
@@ -203,7 +203,7 @@ def _checked(
     verdicts: Sequence[VerdictRow],
     names: Mapping[str, tuple[str, str]],
 ) -> CheckedStructure:
-    """The checks of one scene beside its verdicts in the study; where it cannot be checked, why.
+    """The checks of one scene with its verdicts in the study; where it cannot be checked, why.
 
     support: one along the axis of its place. check_at: `check` at the design level of the study. names: station and
     earthquake of each record, by its identifier.
@@ -288,7 +288,7 @@ def verdicts_by_station(verdicts: Iterable[VerdictRow], station_of: Mapping[str,
     return Counter(worst.values())
 
 
-def _told(checked: StructureCheck | None) -> str:
+def _checks_in_words(checked: StructureCheck | None) -> str:
     """The checks in a line."""
     checks = checked.checks if checked else ()
     words = ", ".join(f"{KINDS[check.clause]} {check.outcome} ({check.ratio_in_words})" for check in checks)

@@ -86,7 +86,7 @@ def ida_frame(rows: Mapping[type[Row], Iterable[Row]]) -> "DataFrame":
 def write_fragility_report(
     rows: Mapping[type[Row], Sequence[Row]], pdf: Path, image: Path, figures: Figures = "none"
 ) -> None:
-    """Set the rows of the tables of fragility as the files `pdf` and `image` (SVG), and its figures beside them."""
+    """Set the rows of the tables of fragility as the files `pdf` and `image` (SVG), and its figures next to them."""
     curves = frame(FragilityRow, by_place(FragilityRow, rows))
     summary = by_place(FragilitySummaryRow, rows)
     measures = frame(IntensityMeasureRow, by_place(IntensityMeasureRow, rows))
@@ -186,7 +186,7 @@ def fragility_table(summary: Sequence[FragilitySummaryRow], ida: "DataFrame") ->
 
 def scatter_table(measures: "DataFrame") -> CaptionedTable:
     """Return one row per structure: by how much the level that overturns scatters in each intensity measure."""
-    # A measure has a row for each figure beside it, but one scatter.
+    # A measure has a row for each figure that it is set against, but one scatter.
     once = measures.drop_duplicates(["structure", "intensity_measure"]).sort_values(
         "efficiency", kind="stable"
     )
@@ -199,8 +199,8 @@ def scatter_table(measures: "DataFrame") -> CaptionedTable:
     def needed(name: str) -> str:
         rows = by_structure[name].dropna(subset=["stations_needed"])
         pairs = dict(zip(rows["intensity_measure"], rows["stations_needed"], strict=True))
-        told = {measure: count for measure, count in pairs.items() if measure in (next(iter(pairs)), _FIRST)}
-        return ", ".join(f"{int(count)} with {measure}" for measure, count in told.items())
+        shown = {measure: count for measure, count in pairs.items() if measure in (next(iter(pairs)), _FIRST)}
+        return ", ".join(f"{int(count)} with {measure}" for measure, count in shown.items())
 
     names = [name for name in dict.fromkeys(measures["structure"].astype(str)) if name in by_structure]
     table = table_of(
@@ -231,14 +231,14 @@ def _scaled(rows: Sequence[FragilitySummaryRow]) -> str:
 
 def _reaching_median(row: FragilitySummaryRow) -> str:
     """Return how many stations reach the median: "14 of 22 (factor 23)"."""
-    told = f"{row.stations_at_median} of {row.stations}"
+    reached = f"{row.stations_at_median} of {row.stations}"
     if row.stations_at_median >= REACHING * row.stations or math.isnan(row.factor_for_median):
-        return told
-    return f"{told} (factor {number(row.factor_for_median, 2)})"
+        return reached
+    return f"{reached} (factor {number(row.factor_for_median, 2)})"
 
 
 def _untold(rows: Sequence[FragilitySummaryRow]) -> str:
-    """Return the sentence on rates that too few stations tell, "" without any."""
+    """Return the sentence on rates for which there are too few stations, "" without any."""
     if not any(math.isnan(row.annual_rate) and row.annual_rate_high > 0 for row in rows):
         return ""
     return (
@@ -249,7 +249,7 @@ def _untold(rows: Sequence[FragilitySummaryRow]) -> str:
 
 
 def _rate_with_interval(row: FragilitySummaryRow) -> str:
-    """Return the annual rate with its interval, or both ends of one that too few stations tell."""
+    """Return the annual rate with its interval, or both ends of one for which there are too few stations."""
     ends = f"{number(row.annual_rate_low, 2)}–{number(row.annual_rate_high, 2)}"
     return ends if math.isnan(row.annual_rate) else f"{number(row.annual_rate, 2)} ({ends})"
 

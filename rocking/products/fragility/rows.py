@@ -430,7 +430,7 @@ MARGIN = 0.2
 
 
 def stations_for(scatter: float) -> int | None:
-    """Return how many stations tell a median to ± MARGIN, 90 %; None of an unknown scatter.
+    """Return how many stations give a median to ± MARGIN, 90 %; None of an unknown scatter.
 
     The logarithm of a sample median of n scatters by √(π/2) times the scatter over √n, a normal law supposed.
     """
@@ -467,7 +467,7 @@ def intensity_measure_rows(
 
 
 def _figures(records: Sequence[Accelerogram]) -> dict[str, np.ndarray]:
-    """Figures of each record that the level of overturning may depend on beside its intensity; nan where unknown."""
+    """Figures of each record that the level of overturning may depend on besides its intensity; nan where unknown."""
     return {
         "PGV/PGA": np.log([peak_velocity(record) / record.peak_acceleration for record in records]),
         "magnitude": np.array([record.magnitude for record in records], dtype=float),

@@ -59,7 +59,7 @@ def write_fragility(
     records: Iterable[CatalogueRecord],
     study: Study,
     folder: Path,
-    tell: Callable[..., None] = lambda *_: None,
+    show_progress: Callable[..., None] = lambda *_: None,
     log: Path | str = "the log",
 ) -> tuple[dict[type[Row], list[Row]], list[str]]:
     """Write the fragility tables of `study` and their description into `folder`, and its curves for OpenQuake.
@@ -68,7 +68,8 @@ def write_fragility(
     OpenQuake lacks holds no function, and says why.
 
     A record that cannot be read, or lacks the intensity measure, costs no other, and a fault of a record or a structure
-    neither. tell: takes a line for each structure, how many are done, and of how many. log: where faults are written.
+    neither. show_progress: takes a line for each structure, how many are done, and of how many. log: where faults are
+    written.
     Raises ConfigurationError, before anything is written, where the records that are left come from fewer than two
     stations, the hazard curve is none, or no structure can overturn; one that cannot is left out, and said.
     """
@@ -78,14 +79,14 @@ def write_fragility(
         hazard.check_measure(settings.intensity_measure)
     faults: list[Row] = []
     net = partial(costs_no_other, faults, log)
-    held: dict[str, str] = {}
+    never_because: dict[str, str] = {}
     for name, scene in study.scenes.items():
         with net("its fragility", name):
-            held[name] = never_overturns_because(scene.structure)
-    if all(held.values()) and not faults:
+            never_because[name] = never_overturns_because(scene.structure)
+    if all(never_because.values()) and not faults:
         raise ConfigurationError.naming(
             "structures",
-            list(held),
+            list(never_because),
             "no structure of the list can overturn, so that none has a fragility; give ties a tie_strength at which "
             "they let go, or leave the fragility out.",
         )
@@ -96,7 +97,7 @@ def write_fragility(
         )
     curves: dict[tuple[str, float | None], Fragility] = {}
     tables: dict[type[Row], list[Row]] = {row_class: [] for row_class in FRAGILITY_TABLES.values()}
-    for count, (name, never) in enumerate(held.items(), start=1):
+    for count, (name, never) in enumerate(never_because.items(), start=1):
         if never:
             reasons.append(f"{name}: it cannot overturn, and has no fragility: it {never}.")
             continue
@@ -106,7 +107,7 @@ def write_fragility(
             reasons += its_reasons
             for row in its_rows:
                 tables[type(row)].append(row)
-        tell(f"{count} of {len(study.scenes)}: {name}", count, len(study.scenes))
+        show_progress(f"{count} of {len(study.scenes)}: {name}", count, len(study.scenes))
     if not (curves or faults):
         raise ConfigurationError(reasons[-1])
     write_tables(tables, folder, "rocking-fragility")
@@ -122,7 +123,7 @@ def _curves_of(
     hazard: Hazard | None,
     net: Callable[..., AbstractContextManager[None]],
 ) -> tuple[dict[tuple[str, float | None], Fragility], list[Row], list[str]]:
-    """The curves of one structure by the period of its support, their rows, and what could not be used or told."""
+    """The curves of one structure by the period of its support, their rows, and what could not be used or computed."""
     settings = study.settings.fragility
     scene = study.scenes[name]
     mechanism = scene.structure.mechanism()
@@ -149,7 +150,7 @@ def _curves_of(
                 tolerance=study.settings.tolerance,
                 support=support,
             )
-        # Periods of one structure may be such that few records can tell the measure.
+        # Periods of one structure may be such that few records have the measure.
         except RockingError as error:
             reasons.append(f"{name}: {error}")
             break
@@ -161,7 +162,7 @@ def _curves_of(
                 f"curve is {f'of {hazard.measure}' if hazard.measure else f'in {hazard.unit}'}."
             )
         rows += curve_rows(name, names, analysis, hazard, period)
-        # The curves are finished, and no table beside them may take them along.
+        # The curves are finished, and no other table may take them along.
         with net(f"its rows of {IntensityMeasureRow.table.file_name}", name):
             rows += list(intensity_measure_rows(name, mechanism, accelerograms, analysis, period))
     return curves, rows, reasons

@@ -18,16 +18,16 @@ def geojson(stations: Sequence[StationRow], verdicts: Sequence[VerdictRow]) -> b
     verdicts: of each record and structure one. Longitude and latitude stand in this order, in degrees (WGS 84); what is
     not known is null. A share is the largest of those that make the word.
     """
-    told: dict[str, Properties] = {}
+    properties_of: dict[str, Properties] = {}
     for verdict in verdicts:
-        of_record = told.setdefault(verdict.record, {})
+        of_record = properties_of.setdefault(verdict.record, {})
         of_record[f"{verdict.structure}: word"] = str(verdict.decision.word)
         of_record[f"{verdict.structure}: share"] = _number(verdict.overturning_share)
     features = [
         _point(
             longitude=station.station_longitude_deg,
             latitude=station.station_latitude_deg,
-            properties={"kind": "station", **_cells(station), **told.get(station.record, {})},
+            properties={"kind": "station", **_cells(station), **properties_of.get(station.record, {})},
         )
         for station in stations
     ]

@@ -150,8 +150,8 @@ def _runs(
         return math.inf if members.overturning_share > 0.5 else members.rotation_ratio_median
 
     def as_printed() -> float:
-        told = predict_as_printed(mechanism, sines[0].pulse)
-        return math.nan if told is None else told.rotation_ratio
+        printed = predict_as_printed(mechanism, sines[0].pulse)
+        return math.nan if printed is None else printed.rotation_ratio
 
     by_sines = {TradeMethod.ONE_SINE: sines[:1], TradeMethod.SINES: sines} if sines else {}
     return {
@@ -192,7 +192,7 @@ def break_even(sine: TradeRow, other: TradeRow) -> float:
 
 
 def what_follows(rows: Iterable[TradeRow]) -> Iterator[str]:
-    """Yield, in a sentence each, what the rows over all structures say of the closed form beside the integration."""
+    """Yield, in a sentence each, what the rows over all structures say of the closed form against the integration."""
     of_all = {row.method: row for row in rows if row.structure == ""}
     sine = of_all.get(TradeMethod.ONE_SINE)
     mechanism = of_all.get(TradeMethod.MECHANISM)

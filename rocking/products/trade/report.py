@@ -33,7 +33,7 @@ _MOST_STRUCTURES = 1000
 def write_trade_report(
     tables: Mapping[type[Row], Sequence[Row]], pdf: Path, image: Path, figures: Figures = "none"
 ) -> None:
-    """Set the rows of the trade and of its faults as the files `pdf` and `image` (SVG), and its figure beside them."""
+    """Set the rows of the trade and of its faults as the files `pdf` and `image` (SVG), and its figure next to them."""
     rows = rows_of(TradeRow, tables)
     table = printing.table_of(
         rows,
@@ -91,7 +91,7 @@ def _picture(rows: Sequence[TradeRow]) -> Picture:
 
 @styled
 def trade_figure(rows: Sequence[TradeRow]) -> Figure:
-    """Draw what a record costs by each method for any number of structures, and beside it how often each is wrong."""
+    """Draw what a record costs by each method for any number of structures, and how often each is wrong."""
     of_all = {row.method: row for row in rows if row.structure == ""}
     figure = new_figure(62, margins=(14, 3, 11, 7))
     cost, errors = figure.subplots(1, 2, width_ratios=(1.25, 1))

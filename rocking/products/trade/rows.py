@@ -35,7 +35,7 @@ class TradeMethod(StrEnum):
 
 @dataclass(frozen=True, kw_only=True)
 class TimedAnswer:
-    """The answer of one method to one record beside the reference: largest rotations over the critical one, and times.
+    """The answer of one method to one record and the reference: largest rotations over the critical one, and times.
 
     cpu: of the response, s. preparation: of the search for the record's sines, s. record: its place among the records.
     """

@@ -171,7 +171,7 @@ def test_every_score_on_a_page_is_kept_and_its_target_has_a_figure_that_says_whe
     scripts = {figure.script.rpartition("snakemake ")[2] for figure in figures().values()}
     for page in written_pages():
         for form, content in re.findall(r"<!-- score (\S+): (.*?) -->", page.read_text(encoding="utf-8")):
-            assert kept.told(form, content), page.name
+            assert kept.printed_score(form, content), page.name
             assert content.partition(";")[0] in scripts, f"{page.name}: {content}"
 
 

@@ -152,7 +152,7 @@ def test_the_first_page_of_the_summary_holds_matrix_and_scatter_in_at_most_260_w
     checks = [row for name, each in structures.items() for row in code_check_rows(name, check(each, level))]
     shown = summarised(tables, structures) | {CodeCheckRow: checks}
     by_the_code = code_conclusion_in_words(code_conclusions(checks))
-    page = pages(compile_document(summary_data(shown, SETTINGS, conclusions_beside=[by_the_code])))[0]
+    page = pages(compile_document(summary_data(shown, SETTINGS, other_conclusions=[by_the_code])))[0]
     assert covered(page) == []
     first = [word[4] for word in page]
     assert len(first) <= 260
