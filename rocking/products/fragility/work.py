@@ -88,7 +88,7 @@ def write_fragility(
             "structures",
             list(never_because),
             "no structure of the list can overturn, so that none has a fragility; give ties a tie_strength at which "
-            "they let go, or leave the fragility out.",
+            "they fail, or leave the fragility out.",
         )
     opened, reasons = _opened(records, study, net)
     if not (opened or faults):
