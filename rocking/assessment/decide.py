@@ -411,16 +411,16 @@ def decide(facts: Facts) -> Decision:
     ===  ================================================================  =============================================
     1    no crack that counts can overturn, no doubt                       cannot overturn
     2    nothing can lift                                                  stands
-    3    every crack that counts slides before it lifts, and the motion    cannot be printed
+    3    every crack that counts slides before it lifts, and the motion    cannot be told
          reaches so far, and no stones were followed
-    4    no result at all                                                  cannot be printed
+    4    no result at all                                                  cannot be told
     5    one run: settled by an estimate / stands up to FAR / else         as settled / probably stands / uncertain
     6    cracks that count                                                 step of the worst one, but no worse than
                                                                            uncertain where the first (probably) stands,
                                                                            no worse than probably overturns where the
                                                                            first does not overturn; of a held wall the
                                                                            worse of that and the step of its bulge
-    7    a crack without one member, or only with the members that failed  cannot be printed
+    7    a crack without one member, or only with the members that failed  cannot be told
          does it (probably) overturn
     8    the step is overturns                                             overturns
     8b   a held wall some chain of which goes beyond BEYOND, as the        no safer than probably stands
@@ -429,7 +429,7 @@ def decide(facts: Facts) -> Decision:
          UNANIMOUS runs of contact dynamics, which are on that friction;
          or an arch on piers that was not followed as stones
     9    contact dynamics ran                                              the worse of its step and that of the members
-    10   contacts open, an impact may open them or courses may be thrown   cannot be printed
+    10   contacts open, an impact may open them or courses may be thrown   cannot be told
          and contact dynamics did not run, or a component is missing; and
          it does not (probably) overturn
     11   else                                                              the step
