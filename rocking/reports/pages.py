@@ -4,7 +4,7 @@ A class of a page names the variable of the template that holds it: a `Row` is `
 """
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, fields, is_dataclass
+from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -15,10 +15,18 @@ FOLDER = Path(__file__).parent
 
 
 @dataclass(frozen=True, kw_only=True)
+class Fact:
+    """What the settings say of the study: a label and its text."""
+
+    label: str
+    text: str
+
+
+@dataclass(frozen=True, kw_only=True)
 class PageSettings:
     """What the settings of a study say of its pages. about: what every report says of the study."""
 
-    about: Mapping[str, str] = field(default_factory=dict)
+    about: tuple[Fact, ...] = ()
     language: Language = "en"
     date: str | None = None
     display_units: str = "SI"
@@ -86,14 +94,6 @@ class Notice:
 
     text: str
     strong: bool = True
-
-
-@dataclass(frozen=True, kw_only=True)
-class Fact:
-    """What the settings say of the study: a label and its text."""
-
-    label: str
-    text: str
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,6 @@ from rocking.reports.pages import (
     FOLDER,
     Cell,
     Chip,
-    Fact,
     Footer,
     Page,
     PageSettings,
@@ -168,11 +167,6 @@ def band_text(result: Banded, to: str) -> str:
     low = ratio(result.rotation_ratio_low, 2)
     high = ratio(result.rotation_ratio_high, 2)
     return low if low == high else f"{low}{to}{high}"
-
-
-def facts_of(settings: PageSettings) -> tuple[Fact, ...]:
-    """Return what the settings say of the study: who, what and when."""
-    return tuple(Fact(label=label, text=text) for label, text in settings.about.items())
 
 
 def footer_of(settings: PageSettings) -> Footer:

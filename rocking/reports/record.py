@@ -77,7 +77,6 @@ from rocking.reports.printing import (
     columns_of,
     compile_document,
     displaying,
-    facts_of,
     footer_of,
     known_crack,
     number,
@@ -174,7 +173,7 @@ class RecordReport:
             title, subtitle = _title(self)
             return RecordPage(
                 title=title,
-                about=facts_of(self.settings),
+                about=self.settings.about,
                 footer=footer_of(self.settings),
                 subtitle=subtitle,
                 running=f"{self.result.record}.{self.scale_note}" if self.scale_note else self.result.record,

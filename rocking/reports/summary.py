@@ -157,7 +157,7 @@ def _page(
     low = bool(len(judged) > MOST_WITH_ALL or other_conclusions or len(words_of_all) > MOST_HIGH)
     return SummaryPage(
         title="Summary over the records",
-        about=printing.facts_of(settings),
+        about=settings.about,
         footer=printing.footer_of(settings),
         strips_title="The variants: word and share under the worst record of each" if strips else "",
         strips=tuple(strips),

@@ -28,7 +28,7 @@ from rocking.records.design_spectrum import DesignSpectrum
 from rocking.records.processing import Processing
 from rocking.records.scaling import ScalingTarget
 from rocking.remarks import Remark
-from rocking.reports.pages import PageSettings
+from rocking.reports.pages import Fact, PageSettings
 from rocking.structures.kinds import StructureKind
 from rocking.structures.structure import CRACKS
 from rocking.tables.yaml_file import scalar_value
@@ -389,24 +389,23 @@ class Settings(AssessmentSettings):
             name: asdict(value) if is_dataclass(value) else value  # type: ignore[arg-type]
             for name, value in vars(self).items()
         }
+        return values | {"about": {fact.label: fact.text for fact in self.facts}}
+
+    @property
+    def facts(self) -> tuple[Fact, ...]:
+        """What every report prints of the study; what was left blank is left out."""
         labels = {
             name: setting.more.get("printed_as", "") for name, setting in described_values(Settings).items()
         }
-        facts = {label: vars(self).get(name) for name, label in labels.items() if label}
-        # What was left blank is left out.
-        return values | {"about": {label: str(fact) for label, fact in facts.items() if fact}}
+        printed = ((label, vars(self).get(name)) for name, label in labels.items() if label)
+        return tuple(Fact(label=label, text=str(value)) for label, value in printed if value)
 
     @property
     def for_pages(self) -> PageSettings:
         """What documents print of them."""
-        values = self.mapping()
-        return PageSettings(
-            **{
-                setting.name: values[setting.name]
-                for setting in fields(PageSettings)
-                if setting.name in values
-            }
-        )
+        values = vars(self)
+        own = {field.name: values[field.name] for field in fields(PageSettings) if field.name in values}
+        return PageSettings(about=self.facts, **own)
 
 
 class _Restricted(Settings):

@@ -131,7 +131,7 @@ def structures_data(
         return StructuresPage(
             title=words("title"),
             language=settings.language,
-            about=tuple(Fact(label=words(label), text=text) for label, text in settings.about.items()),
+            about=tuple(Fact(label=words(fact.label), text=fact.text) for fact in settings.about),
             footer=Footer(
                 made=f"{words('foot')} {stamp(settings)}",
                 page=words("page", page="{page}", pages="{pages}"),

@@ -17,6 +17,7 @@ from rocking.errors import ConfigurationError
 from rocking.fragility.measures import INTENSITY_MEASURES, MEASURES_IN_WORDS, SPELLINGS
 from rocking.records.design_spectrum import SOILS, TOPOGRAPHIES
 from rocking.records.processing import UNPROCESSED_DEFAULT
+from rocking.reports.pages import Fact
 from rocking.study.made_from import settings_for
 from rocking.study.settings import (
     EXAMPLE,
@@ -235,7 +236,7 @@ def test_what_a_study_is_told_by_stands_in_every_report_and_changes_no_number() 
     settings = replace(Settings(), **{name: f"the {name}" for name in told})
     for kind in ("record", "summary", "checks"):
         printed = settings_for(kind, settings).for_pages.about
-        assert printed == {label: f"the {name}" for name, label in told.items()}, kind
+        assert printed == tuple(Fact(label=label, text=f"the {name}") for name, label in told.items()), kind
     numbers = Settings.changing_numbers()
     assert settings.values_of(numbers) == Settings().values_of(numbers)
     assert replace(settings, tolerance=1e-7).values_of(numbers) != settings.values_of(numbers)
