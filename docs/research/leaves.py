@@ -19,7 +19,7 @@ import pandas as pd
 from docs.research import scores
 from docs.research.held_walls import UNIT_WEIGHT, true_runs
 from docs.research.report import Target
-from docs.research.sites import SiteRecord, Trial, draw_of, independent, lifting_factor
+from docs.research.sites import SiteRecord, Trial, draw_of, independent, lifting_factor, sample_of
 from docs.research.stacks import strong_part
 from rocking import Facade, LoadedWall, Verdict, Wall, assess
 from rocking.assessment.settings import AssessmentSettings
@@ -42,7 +42,6 @@ class LeavesTrial(Trial):
     """One trial."""
 
     catalogue: str = column("The catalogue that the station is of: fema_p695, or another one")
-    earthquake: str = column("Event of the record")
     bonders: int = column("Number of rows of bonders")
     thrown_back: bool = column("Whether leaves are thrown back by each other")
     verdict: Verdict = column("Verdict of the package")
@@ -152,8 +151,8 @@ def leaves_trial(component: SiteRecord, kind: str, place: int) -> LeavesTrial:
         site=component.site,
         structure=kind,
         scale_factor=float(motion.peak_acceleration / record.peak_acceleration),
-        catalogue="fema_p695" if component.identifier.startswith("P695") else "near_fault",
         earthquake=component.earthquake,
+        catalogue="fema_p695" if component.identifier.startswith("P695") else "near_fault",
         bonders=len(wall.bonder_heights),
         thrown_back=wall.thrown_back is not None,
         verdict=station.verdict,
@@ -183,4 +182,4 @@ def leaves_scores(trials: Sequence[LeavesTrial]) -> Iterator[scores.Score]:
                 'is said to stand among what "stands" as one leaf': np.where(of_one, stands, np.nan),
                 '"stands"': stands.astype(float).to_numpy(),
             }
-            yield from scores.scored(str(kind), stations, measures, own.earthquake.tolist())
+            yield from scores.scored(str(kind), stations, measures, sample_of(own.site, own.earthquake))
