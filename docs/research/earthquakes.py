@@ -144,8 +144,8 @@ def real_scores(name: str, pool: RealSites) -> Iterator[scores.Score]:
                 }
                 for trial, places in enumerate(draws):
                     told = rate_within(pool, places, sample, hazard)
-                    measure = "annual rate" if told.is_told else "ends of a rate that is not told"
-                    held[TOLD][trial] = told.is_told
+                    measure = "annual rate" if told.is_stated else "ends of a rate that is not told"
+                    held[TOLD][trial] = told.is_stated
                     held[measure][trial] = told.low <= rate <= told.high
                     for share, level in at_shares.items():
                         own = pool.curves[places, level]

@@ -90,15 +90,15 @@ def study_scores(subject: str, slope: float, pool: RealSites) -> Iterator[scores
             rate_within(pool, rng.integers(0, pool.sample.count, count), sample, hazard)
             for _ in range(REAL_TRIALS)
         ]
-        is_told = np.array([fragility_rate.is_told for fragility_rate in of_draws])
+        is_stated = np.array([fragility_rate.is_stated for fragility_rate in of_draws])
         holds = np.array(
             [fragility_rate.low <= truth <= fragility_rate.high for fragility_rate in of_draws], dtype=float
         )
         reach = np.array([fragility_rate.high / fragility_rate.value for fragility_rate in of_draws])
         measures: dict[str, scores.Measured] = {
-            "rates that are told": is_told,
-            "intervals that hold the rate": np.where(is_told, holds, np.nan),
-            "ends that hold the rate where it is not told": np.where(is_told, np.nan, holds),
+            "rates that are told": is_stated,
+            "intervals that hold the rate": np.where(is_stated, holds, np.nan),
+            "ends that hold the rate where it is not told": np.where(is_stated, np.nan, holds),
             "high end over rate": scores.mean(reach, np.median),
         }
         yield from scores.scored(

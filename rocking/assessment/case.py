@@ -16,7 +16,7 @@ from rocking.assessment.cracks import (
     decided_by,
     is_own,
     never_overturns_because,
-    would_tell,
+    worth_measuring,
 )
 from rocking.assessment.decide import BEYOND, Decision, Facts, Severity, Verdict, decide, severity
 from rocking.assessment.ensemble import NO_MEMBERS, Ensemble
@@ -228,7 +228,7 @@ class CaseResult:
             as_stones=body.as_stones,
             needs_stones=body.needs_stones,
             stackable=self.contact is None and stackable(body),
-            remarks=would_tell(self.ensembles, restitution_is_typed=typed) if self.ensembles else (),
+            remarks=worth_measuring(self.ensembles, restitution_is_typed=typed) if self.ensembles else (),
             failures=failures,
         )
 

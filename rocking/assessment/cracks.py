@@ -482,7 +482,7 @@ def decided_by(ensembles: CrackEnsembles) -> str:
     return f"nothing decides by itself, most {first.words}"
 
 
-_TELLS = 0.2
+_WORTH_MEASURING = 0.2
 """Share of the variance of overturning from which on knowing one input better is worth a measurement."""
 _KINDS = {
     "restitution": AssessmentKind.RESTITUTION,
@@ -491,8 +491,8 @@ _KINDS = {
 }
 
 
-def would_tell(ensembles: CrackEnsembles, *, restitution_is_typed: bool = False) -> tuple[Remark, ...]:
-    """Return the unknown whose measurement would help most: the first one, if it explains _TELLS at least.
+def worth_measuring(ensembles: CrackEnsembles, *, restitution_is_typed: bool = False) -> tuple[Remark, ...]:
+    """Return the unknown whose measurement would help most: the first one, if it explains _WORTH_MEASURING at least.
 
     restitution_is_typed: whether the description gives its range, so that it is not known any better.
     """
@@ -502,7 +502,7 @@ def would_tell(ensembles: CrackEnsembles, *, restitution_is_typed: bool = False)
     worth = (
         Remark(_KINDS[cause.name])
         for cause in deciding(ensembles)
-        if cause.origin is Origin.IGNORANCE and cause.share >= _TELLS and cause.name in _KINDS
+        if cause.origin is Origin.IGNORANCE and cause.share >= _WORTH_MEASURING and cause.name in _KINDS
         if not (restitution_is_typed and cause.name == "restitution")
     )
     return tuple(worth)[:1]

@@ -237,7 +237,7 @@ def _integrated(mechanism: Mechanism, inputs: CaseInputs, clock: Clock) -> dict[
     block = mechanism.equivalent_block(settings.acceleration_scale)
     record = inputs.accelerogram
     vertical = inputs.vertical
-    follow_as_given = partial(
+    follow_as_recorded = partial(
         integrate,
         mechanism,
         record,
@@ -246,7 +246,7 @@ def _integrated(mechanism: Mechanism, inputs: CaseInputs, clock: Clock) -> dict[
         vertical=vertical,
         repeat_fragile=True,
     )
-    runs = {Method.MECHANISM_ON_RECORD: follow_as_given}
+    runs = {Method.MECHANISM_ON_RECORD: follow_as_recorded}
     follow_simpler = partial(integrate, tolerance=strict(settings.tolerance))
     if mechanism.can_overturn:
         runs[Method.BLOCK_ON_RECORD] = partial(follow_simpler, block, record, vertical=vertical)

@@ -313,7 +313,7 @@ class AnnualRate:
     reaching : int, default 0
         Stations that reach it within the largest factor, of `stations`. Where these are fewer than 90 %,
         nobody knows the others' part: value is nan, and the ends are those of both cases, that the others
-        never overturn beyond what they reach, and that they do at once (`is_told`).
+        never overturn beyond what they reach, and that they do at once (`is_stated`).
     stations : int, default 0
         Number of stations.
 
@@ -334,7 +334,7 @@ class AnnualRate:
     stations: int = 0
 
     @property
-    def is_told(self) -> bool:
+    def is_stated(self) -> bool:
         """Whether enough stations reach the level at which half of the rate is made."""
         return self.reaching >= REACHING * self.stations
 
@@ -388,8 +388,8 @@ def annual_rate(
     # Beyond the last level there is nothing to reach.
     needed = min(half, float(levels[-1])) * (1 - 1e-9)
     reaching = int((~np.isnan(curves[:, levels >= needed])).any(axis=1).sum())
-    is_told = reaching >= REACHING * sample.count
-    if not is_told:
+    is_stated = reaching >= REACHING * sample.count
+    if not is_stated:
         low = rate_interval(rates_of(_filled(curves, at_once=False)) @ frequencies, sample)[0]
         high = rate_interval(rates_of(_filled(curves, at_once=True)) @ frequencies, sample)[1]
 
@@ -403,11 +403,11 @@ def annual_rate(
     }
     most = float(hazard.annual_rates[0])
     return AnnualRate(
-        value=rate if is_told else math.nan,
+        value=rate if is_stated else math.nan,
         low=min(low, rate),
         high=max(rate, min(high, most)),
         remainder=float(above + below),
-        of_quantiles=of_quantiles if is_told else dict.fromkeys(of_quantiles, math.nan),
+        of_quantiles=of_quantiles if is_stated else dict.fromkeys(of_quantiles, math.nan),
         half_level=half,
         reaching=reaching,
         stations=sample.count,

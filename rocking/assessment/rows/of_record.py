@@ -823,7 +823,9 @@ RECORD_TABLES: tuple[type[Row], ...] = tuple(RecordRows().tables)
 
 
 @contextmanager
-def _told(failures: list[FailedCase], identity: Identity, period_result: "PeriodResult") -> Iterator[None]:
+def _as_failures(
+    failures: list[FailedCase], identity: Identity, period_result: "PeriodResult"
+) -> Iterator[None]:
     """Add why the rows of one structure that are made within could not be, to `failures`."""
     try:
         with one_structure(period_result.structure):
@@ -889,7 +891,7 @@ def rows_of_record(
         by_component[BOTH_COMPONENTS] = replace(identities[0], component=BOTH_COMPONENTS)
     for component, identity in by_component.items():
         for period_result, case in result.cases(component):
-            with _told(failures, identity, period_result):
+            with _as_failures(failures, identity, period_result):
                 if case.answer is not None:
                     compared = ComparedCase(identity, period_result, case, friction_coefficient)
                     comparison.append(ComparisonRow.of(compared))
@@ -911,10 +913,10 @@ def rows_of_record(
     mechanisms: list[MechanismRow] = []
     for period_result in result.periods:
         identity = by_component[period_result.worst.component] if period_result.worst else identities[0]
-        with _told(failures, identity, period_result):
+        with _as_failures(failures, identity, period_result):
             identity = replace(identity, component=period_result.component)
             verdicts.append(VerdictRow.of(OfStructure(identity, period_result)))
-        with _told(failures, identity, period_result):
+        with _as_failures(failures, identity, period_result):
             mechanisms += [MechanismRow.of(case) for case in candidate_cases(period_result, identity)]
     components = list(zip(identities, result.components, strict=True))
     return RecordRows(

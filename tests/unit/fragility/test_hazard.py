@@ -259,8 +259,8 @@ def test_the_csv_holds_the_curve(tmp_path):
     assert rocking.Hazard is Hazard
 
 
-@pytest.mark.parametrize(("weak", "is_told"), [(0, True), (1, True), (2, False), (4, False)])
-def test_a_rate_is_told_where_nine_in_ten_stations_reach_where_half_of_it_is_made(weak, is_told):
+@pytest.mark.parametrize(("weak", "is_stated"), [(0, True), (1, True), (2, False), (4, False)])
+def test_a_rate_is_told_where_nine_in_ten_stations_reach_where_half_of_it_is_made(weak, is_stated):
     """All overturn from 1 on, and some reach 0.5 only: 0 of these if never, all from there on if at once."""
     shares = np.tile((LEVELS >= 1.0).astype(float), (10, 1))
     shares[:weak, LEVELS > 0.5] = np.nan
@@ -268,10 +268,10 @@ def test_a_rate_is_told_where_nine_in_ten_stations_reach_where_half_of_it_is_mad
     rate = fragility_of(LEVELS, shares, Sample.scattered("abcdefghij")).annual_rate(
         Hazard(ends, 1e-3 * ends**-2.0)
     )
-    assert (rate.reaching, rate.stations, rate.is_told) == (10 - weak, 10, is_told)
-    assert math.isnan(rate.value) is not is_told
+    assert (rate.reaching, rate.stations, rate.is_stated) == (10 - weak, 10, is_stated)
+    assert math.isnan(rate.value) is not is_stated
     # Steps of 2 % in the level are 4 % of a rate that falls with its square.
-    if is_told:
+    if is_stated:
         assert rate.value == pytest.approx(1e-3, rel=0.04)
     else:
         never = (1 - weak / 10) * 1e-3
