@@ -27,7 +27,7 @@ from rocking.reports.printing import LOOKS, cell_text
 from rocking.reports.record import RecordReport
 from rocking.reports.summary import summary_data
 from rocking.study.job import Study, assess_catalogued, rows_of
-from rocking.study.own_files import _told
+from rocking.study.own_files import _lines_of
 from rocking.study.terminal import record_line
 from rocking.tables import frame, write_rows
 from rocking.tables.workbook import workbook
@@ -116,7 +116,7 @@ def test_the_workbook_holds_it(report, decisions):
 
 def test_the_terminal_says_it(report, decisions):
     line = record_line(report.result.scenes.values(), [])
-    told = [text for each in report.result.periods for text in _told(each, 1.0)]
+    told = [text for each in report.result.periods for text in _lines_of(each, 1.0)]
     for name, decision in decisions.items():
         (own,) = (text for text in told if text.startswith(f"{name}: "))
         assert own == f"{name}: {decision.word} ({decision.share_in_words}); {decision.why}"
@@ -208,7 +208,7 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
 
     report = detailed(RecordReport(result, tables, study.structures, study.settings.for_pages))
     data = report.page()
-    told = [line for each in result.periods for line in _told(each, 1.0)]
+    told = [line for each in result.periods for line in _lines_of(each, 1.0)]
     of_all = zip(report.result.worst_first, data.details[0].verdicts.table.rows, strict=True)
     lines = workbook_lines(tables)
     stations = {row.record: (row.station, row.event) for row in tables.record}
