@@ -695,13 +695,13 @@ class Tied(CrackedAtHeight, Leaved):
     def bay(self) -> Bay | None:
         if not self.ties_apart or self.tie_spacing is None:
             return None
-        left = max(float(each[:, 0].max()) for each in self.outline()) + _ASIDE * self.height
+        left = max(float(outline[:, 0].max()) for outline in self.outline()) + _ASIDE * self.height
         ends = left + _BESIDE_A_BAY * self.tie_spacing + np.array([0.0, self.tie_spacing])
         right = float(ends[1]) + _BESIDE_A_BAY * self.tie_spacing
         top = self.height
         openings = [self.opening]
         if self.opening is None:
-            own = [each.structure for each in self.mechanisms() if not each.part]
+            own = [candidate.structure for candidate in self.mechanisms() if not candidate.part]
             openings = [wall.opening for wall in own if isinstance(wall, Tied)]
         falls = []
         for opening in openings:
