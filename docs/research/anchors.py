@@ -85,7 +85,7 @@ def anchored_wall(draw: np.random.Generator) -> Facade:
         heights,
         (float(draw.uniform(0.3, 0.6)),) * storeys,
         UNIT_WEIGHT,
-        floor_loads=tuple(np.exp(draw.uniform(*np.log([1e3, 20e3]), storeys)).tolist()),
+        floor_loads=tuple(np.exp(draw.uniform(np.log(1e3), np.log(20e3), storeys)).tolist()),
         restitution=float(draw.uniform(0.3, 0.7)),
         behind=behind,
         tie_heights=tuple(levels[held].tolist()),

@@ -236,7 +236,7 @@ def _highest_frequency(units: Units, touching: Touching, props: Props) -> float:
 
 
 @njit(cache=True, fastmath={"contract"}, error_model="numpy")
-def _followed(units, touching, props, ground, spacing, friction, damping, step, limits):
+def _followed(units, touching, props, ground, spacing, friction, damping, step, limits):  # type: ignore[no-untyped-def]
     mass, weight, inertia, _ = units
     pairs, normals, arms, springs = touching
     count = mass.size

@@ -238,7 +238,7 @@ def select(
     >>> spectrum = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.4)
     >>> (record,) = rocking.read("records/synthetic_strong_pulse.AT2")
     >>> scaled = [rocking.Accelerogram(f * record.acceleration, 0.01, station=str(f)) for f in (0.9, 1.0, 1.1, 1.2)]
-    >>> pool = {each.station: [each] for each in scaled}
+    >>> pool = {record.station: [record] for record in scaled}
     >>> rocking.select(pool, spectrum, 3, below=0.9, above=9.0, sets=2).chosen.size
     3
     """
