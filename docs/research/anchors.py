@@ -1,12 +1,16 @@
 """Ties whose anchors may get more than the wall around them gives: does what is said to stand fall as they slide out?
 
-Fronts of one or two storeys are drawn, with ties at their floors that stretch, some
-of which yield. What stands, and
-of which a tie may get more than the wall around its anchor gives by friction (its strength, or without one 2.8 times
-what it needs at rest), is followed as stacks of the whole wall in which each tie gives that friction alone, until its
-course has slid out by half the thickness. Nothing was chosen on these walls; that a held wall only probably stands
-beyond 0.4 φ_cr was read off others, on stations of FEMA P-695, so that the stations outside of it are a part of their
-own.
+Fronts of one or two storeys are drawn, with ties at their floors that stretch, some of which yield, and floors whose
+mass the building holds or which ride on the wall. What stands, and of which a tie may get more than the wall around its
+anchor gives by friction (its strength, or without one 2.8 times what it needs at rest), is followed as stacks of the
+whole wall in which each tie gives that friction alone, until what it grips has slid out by half the thickness. Nothing
+was chosen on these walls; that a held wall only probably stands beyond 0.4 φ_cr was read off others, on stations of
+FEMA P-695, so that the stations outside of it are a part of their own.
+
+The first campaign, on floors that ride, had no rule on anchors: of 42 walls that stood 13 fell, and none of these with
+its ties as described. All 13 are among the 37 in which the wall around an anchor gives less than the bulge asks of the
+tie at rest, under motions that reach the load at which it then slides out by limit analysis (`anchors_slide_at`). Such
+walls now only probably stand, by statics and not by a threshold that was chosen.
 """
 
 import warnings
@@ -37,7 +41,7 @@ from rocking.structures.linkage import FRICTION
 from rocking.structures.stack import Stack
 from rocking.tables import column, row
 
-WALLS = 3
+WALLS = 6
 """Drawn under each component."""
 UPLIFTS = (0.95, 1.8)
 """Range of peak acceleration over the least uplift acceleration to which records are scaled, log-uniform."""
@@ -86,6 +90,7 @@ def anchored_wall(draw: np.random.Generator) -> Facade:
         (float(draw.uniform(0.3, 0.6)),) * storeys,
         UNIT_WEIGHT,
         floor_loads=tuple(np.exp(draw.uniform(np.log(1e3), np.log(20e3), storeys)).tolist()),
+        loads_held=bool(draw.random() < 0.7),
         restitution=float(draw.uniform(0.3, 0.7)),
         behind=behind,
         tie_heights=tuple(levels[held].tolist()),
@@ -140,7 +145,7 @@ def anchor_trials(component: SiteRecord) -> Iterator[AnchorTrial]:
 def anchor_trial(component: SiteRecord, place: int) -> AnchorTrial:
     """Return one trial: wall and scale drawn."""
     record = component.accelerogram
-    draw = draw_of(component.identifier, 67, place)
+    draw = draw_of(component.identifier, 68, place)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", StructureWarning)
         wall = anchored_wall(draw)

@@ -111,7 +111,8 @@ class CaseResult:
     coefficient that a contact needs while it rocks, where it has less, of what (probably) stands but for that; else
     nan. crack: to which prediction, responses, check and answer belong; "" where it is that of the structure. statics:
     the case of that one, where another crack governs. ties_give: whether its ties let so much through that it turns
-    beyond BEYOND; not computed where that changes no word. variations: other cracks, then other processings.
+    beyond BEYOND; not computed where that changes no word. anchors_slide: whether a motion reaches the acceleration at
+    which what an anchor grips slides out. variations: other cracks, then other processings.
     """
 
     component: str
@@ -129,6 +130,7 @@ class CaseResult:
     statics: "CaseResult | None" = None
     doubt: Remark | None = None
     ties_give: bool = False
+    anchors_slide: bool = False
     contact: ContactShare | None = None
     variations: tuple[Variation, ...] = ()
     failures: tuple[Failure, ...] = ()
@@ -216,6 +218,7 @@ class CaseResult:
             doubts=(self.doubt,) if self.doubt else (),
             held=bool(held_parts),
             beyond=beyond,
+            anchors_slide=self.anchors_slide,
             top=next(
                 (
                     restraint.remark

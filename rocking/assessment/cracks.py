@@ -24,7 +24,7 @@ from rocking.motion.table import forcing_of, table_of
 from rocking.remarks import Remark
 from rocking.structures import Structure
 from rocking.structures.crackable import WEAK_MASONRY
-from rocking.structures.leaves import of_leaf
+from rocking.structures.leaves import of_leaf, parts_of
 from rocking.structures.structure import CRACKS, Candidate
 from rocking.structures.tied import Tied
 
@@ -348,6 +348,13 @@ def slides_first(candidate: Candidate, motions: GroundMotions, settings: Assessm
     level = slides_at(candidate, settings.friction_coefficient)
     forcings = (forcing_of(motion, motions.vertical) for motion in motions.horizontal.values())
     return not math.isnan(level) and any(forcing.excitation > level for forcing in forcings)
+
+
+def anchors_slide(structure: Structure, motions: GroundMotions) -> bool:
+    """Whether the anchor of a tie slides out of the structure, or of a leaf, under motions that reach so far."""
+    level = min(part.anchors_slide_at for _, part in parts_of(structure))
+    forcings = (forcing_of(motion, motions.vertical) for motion in motions.horizontal.values())
+    return math.isfinite(level) and any(forcing.excitation > level for forcing in forcings)
 
 
 def slides_at(candidate: Candidate, friction_coefficient: float) -> float:

@@ -243,7 +243,9 @@ class Facts:
     while it rocks, where it has less; else nan. doubts: what one degree of freedom does not follow. held: whether it is
     a wall that is held above its foot, and beyond: HELD_BEYOND where some chain of it goes beyond BEYOND of its
     critical rotation in any member, TIES_GIVE where only one that its ties hold does, under the motion that these let
-    through. top: what its top needs and does not get, so that it slips; None where it holds, or there is none. stacks:
+    through. anchors_slide: whether the motion reaches the acceleration at which what the anchor of a tie grips slides
+    out, which neither mechanisms nor stacks follow. top: what its top needs and does not get, so that it slips; None
+    where it holds, or there is none. stacks:
     stacks of courses that fall in contact dynamics, of how many; None where none was followed. as_stones: as what chain
     of stones it is followed then, "as voussoirs"; "" where as a stack of courses. needs_stones: whether only its stones
     may say that it stands. stackable: whether contact dynamics can follow it and has not done so yet. remarks: what
@@ -261,6 +263,7 @@ class Facts:
     doubts: tuple[Remark, ...] = ()
     held: bool = False
     beyond: Kind | None = None
+    anchors_slide: bool = False
     top: Remark | None = None
     stacks: tuple[int, int] | None = None
     as_stones: str = ""
@@ -410,7 +413,8 @@ def decide(facts: Facts) -> Decision:
     row  facts                                                             word
     ===  ================================================================  =============================================
     1    no crack that counts can overturn, no doubt                       cannot overturn
-    2    nothing can lift                                                  stands
+    2    nothing can lift                                                  stands; probably stands where the anchor of
+                                                                           a tie slides out
     3    every crack that counts slides before it lifts, and the motion    cannot be told
          reaches so far, and no stones were followed
     4    no result at all                                                  cannot be told
@@ -427,7 +431,8 @@ def decide(facts: Facts) -> Decision:
          motion comes or as its ties let it through; or a contact that
          needs more friction than it has while it rocks; and fewer than
          UNANIMOUS runs of contact dynamics, which are on that friction;
-         or an arch on piers that was not followed as stones
+         or an arch on piers that was not followed as stones; or the
+         anchor of a tie that slides out, which no stack follows
     9    contact dynamics ran                                              the worse of its step and that of the members
     10   contacts open, an impact may open them or courses may be thrown   cannot be told
          and contact dynamics did not run, or a component is missing; and
@@ -459,7 +464,7 @@ def decide(facts: Facts) -> Decision:
     would_settle: tuple[Remark, ...]
 
     # 1, 2, 3: what follows without any member.
-    if facts.never_overturns_because and not facts.doubts:
+    if facts.never_overturns_because and not facts.doubts and not facts.anchors_slide:
         would_settle = (Remark(AssessmentKind.TIE_STRENGTH),)
         return Decision(
             Verdict.CANNOT_OVERTURN,
@@ -471,7 +476,11 @@ def decide(facts: Facts) -> Decision:
         )
     if facts.rests:
         why = "the ground never reaches the uplift acceleration"
-        return Decision(Verdict.STANDS, 0.0, (0.0, 0.0), why, (*doubts, *left_out))
+        if facts.anchors_slide:
+            doubts = (*doubts, Remark(AssessmentKind.ANCHOR_GIVES))
+        word = Verdict.PROBABLY_STANDS if facts.anchors_slide else Verdict.STANDS
+        would_settle = (Remark(AssessmentKind.ANCHORS),) if facts.anchors_slide else ()
+        return Decision(word, 0.0, (0.0, 0.0), why, (*doubts, *left_out), would_settle)
     if sliding and not (facts.as_stones and facts.stacks):
         would_settle = (Remark(AssessmentKind.FRICTION), *(contact_dynamics if facts.as_stones else ()))
         return Decision(Verdict.CANNOT_BE_TOLD, math.nan, (math.nan, math.nan), sliding, doubts, would_settle)
@@ -550,6 +559,10 @@ def decide(facts: Facts) -> Decision:
             *contact_dynamics,
             *([Remark(AssessmentKind.FRICTION)] if slides else []),
         )
+    if facts.anchors_slide:
+        word = worse(word, Verdict.PROBABLY_STANDS)
+        doubts = (*doubts, Remark(AssessmentKind.ANCHOR_GIVES))
+        would_settle = (*would_settle, Remark(AssessmentKind.ANCHORS))
     if facts.stacks is not None:
         of_stacks = step(falls=fallen, members=runs, risk=risk)
         if of_stacks.badness > word.badness and runs < UNANIMOUS and not fallen:

@@ -64,6 +64,11 @@ class AssessmentKind(Kind):
         "un contatto richiede più attrito di quello che ha mentre oscilla",
         brief="a contact slides",
     )
+    ANCHOR_GIVES = auto(), Sentence(
+        "the course that the anchor of a tie grips slides out before the wall moves as it is followed",
+        "il corso afferrato dal capochiave di una catena si sfila prima che la parete si muova come simulato",
+        brief="an anchor slides out",
+    )
 
     # What would tell more of a decision.
     TIE_STRENGTH = auto(), Sentence(
@@ -75,6 +80,11 @@ class AssessmentKind(Kind):
         "measure the friction of its joints, and give it (friction_coefficient)",
         "misurare l'attrito dei giunti e assegnarlo (friction_coefficient)",
         brief="measure friction",
+    )
+    ANCHORS = auto(), Sentence(
+        "let each anchor grip more of the wall, and say how much (anchor_height_m)",
+        "far afferrare al capochiave più muratura, e dichiararla (anchor_height_m)",
+        brief="larger anchors",
     )
     INPUT = auto(), Sentence(
         "give a record and settings under which it can be followed",

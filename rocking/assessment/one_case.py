@@ -14,6 +14,7 @@ from time import process_time
 from rocking.assessment.case import CaseResult, Failure, Prediction, Variation
 from rocking.assessment.contacts import MOST_RUNS, RUNS, contact_share, doubt, friction_needed, ties_give
 from rocking.assessment.cracks import (
+    anchors_slide,
     counting_cracks,
     cracked,
     cracks,
@@ -189,6 +190,8 @@ def with_contacts(
         case = replace(case, contact=contact_share(structure, motions, settings, runs))
     if slides or (case.contact is not None and case.contact.runs):
         return case
+    if decide(case.facts(structure)).word.stays_up:
+        case = replace(case, anchors_slide=anchors_slide(structure, motions))
     if decide(case.facts(structure)).word is Verdict.STANDS:
         case = replace(case, ties_give=ties_give(structure, motions, settings))
     exempt = settings.friction_coefficient >= structure.stands_on_friction

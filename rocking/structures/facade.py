@@ -123,6 +123,8 @@ class Facade(Tied):
         Modulus of elasticity of a rod, Pa.
     rod_pretension : float, default 0.0
         Force of a rod at rest, N; needs `behind` "cross_walls".
+    anchor_height : float, default 0.2
+        Height of the masonry that the anchor of each tie grips, by whose friction it holds, m.
     loaded_leaf : {'inner', 'outer'} or None, optional
         The leaf on which loads bear; None: the inner one.
     opening : Opening or None, optional
@@ -410,6 +412,7 @@ class Facade(Tied):
             backed=self._leans,
             strength=self.compressive_strength,
             ties_apart=self.ties_apart,
+            gripped=self.anchor_height,
         )
 
     def _slab_edge(self, storey: int, load: float) -> float:

@@ -5,6 +5,7 @@ the part above turns against the part below by ω_j, outwards positive, about th
 outwards by u(z) = Σ ω_j (z − z_j)₊. What rises is G(0), what is pushed B(0), and λ = G(0)/|B(0)|.
 """
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import KW_ONLY, dataclass, replace
 from functools import cached_property
@@ -333,7 +334,8 @@ class HeldWall:
 
     storeys: from the ground up. thrusts: height [m] and force outwards [N/m]. backed: cross walls stand behind it, so
     that nothing moves inwards. strength: f_c at which the edges of joints crush, Pa; or None. ties_apart: whether its
-    ties stand so far apart along the wall that it may fall between them.
+    ties stand so far apart along the wall that it may fall between them. gripped: height of the masonry that each
+    anchor grips, m.
     """
 
     storeys: tuple[Storey, ...]
@@ -343,6 +345,7 @@ class HeldWall:
     backed: bool = False
     strength: float | None = None
     ties_apart: bool = False
+    gripped: float = GRIPPED
 
     @property
     def height(self) -> float:
@@ -376,11 +379,33 @@ class HeldWall:
     def grip(self, height: float) -> float:
         """Return the most that the wall gives around an anchor at `height` [m] by friction, N per metre.
 
-        That of what lies above it, with the floor that bears there, and of the course of GRIPPED that it grips.
+        That of what lies above it, with the floor that bears there, and of the masonry that it grips.
         """
         floor = sum(load.weight for load in self.loads if load.z == height and not load.slab)
         storey = next(storey for storey in self.storeys if storey.low < height <= storey.high)
-        return FRICTION * (self.pressing(height) + floor + GRIPPED * storey.weight)
+        return FRICTION * (self.pressing(height) + floor + self.gripped * storey.weight)
+
+    @cached_property
+    def anchors_slide_at(self) -> float:
+        """The least λ at which what an anchor grips slides out and the wall with it; inf where no anchor does.
+
+        By limit analysis, in which a tie holds no more than the wall around its anchor gives.
+        """
+        held = tuple(
+            hold._replace(outwards=min(hold.outwards, self.grip(hold.height))) if hold.kind == "tie" else hold
+            for hold in self.holds
+        )
+        if held == self.holds:
+            return math.inf
+        drawn = [
+            multiplier
+            for opening, multiplier in replace(self, holds=held, ties_apart=False).family()
+            if any(
+                hold.kind == "tie" and _moved(opening.kinks, hold.height) > _SAME * self.height
+                for hold in held
+            )
+        ]
+        return min(drawn, default=math.inf)
 
     def joint(self, height: float) -> tuple[float, float, float]:
         """Return M⁺ and M⁻, the moments of all weights above about the outer and the inner edge, and S of the masses.

@@ -102,11 +102,11 @@ class StructureKind(Kind):
     )
     ANCHOR_SLIDES = auto(), Sentence(
         "The tie at {height_m:.4g} m may get {most_kN_m:.3g} kN/m, but the wall around it gives {grip_kN_m:.3g} kN/m "
-        "by friction (0.6 of what lies above it and of a course of 0.2 m): the course that the anchor grips may slide "
-        "out; spread the anchor over several courses.",
+        "by friction (0.6 of what lies above it and of what the anchor grips, anchor_height_m): that may slide out; "
+        "spread the anchor over several courses.",
         "La catena a {height_m:.4g} m può ricevere {most_kN_m:.3g} kN/m, ma la parete attorno all'ancoraggio dà "
-        "{grip_kN_m:.3g} kN/m per attrito (0,6 di ciò che sta sopra e di un corso di 0,2 m): il corso afferrato può "
-        "sfilarsi; va distribuito l'ancoraggio su più corsi.",
+        "{grip_kN_m:.3g} kN/m per attrito (0,6 di ciò che sta sopra e di ciò che il capochiave afferra, "
+        "anchor_height_m): questo può sfilarsi; va distribuito l'ancoraggio su più corsi.",
     )
     TIE_YIELDS = auto(), Sentence(
         "The tie at {height_m:.4g} m fails at {gives_kN_m:.3g} kN/m, before the wall {about}, for which it "

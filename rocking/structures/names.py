@@ -62,6 +62,7 @@ ITALIAN = {
     "unit_length": "lunghezza dei blocchi della muratura",
     "held_between": "ritegno fra le catene",
     "rod_diameter": "diametro di ogni catena",
+    "anchor_height": "altezza della muratura afferrata dal capochiave",
     "rod_length": "lunghezza di ogni catena",
     "rod_yield_stress": "tensione di snervamento di ogni catena",
     "rod_modulus": "modulo elastico di ogni catena",

@@ -127,6 +127,14 @@ class Structure(ABC):
         """
         return math.nan
 
+    @property
+    def anchors_slide_at(self) -> float:
+        """The acceleration [g] at which what the anchor of a tie grips slides out of the wall (theory: section 13.3).
+
+        inf where the wall around each anchor gives what the tie needs at rest, and where there is no tie.
+        """
+        return math.inf
+
     def mechanism(self) -> Mechanism:
         """Return the structure in standard form; the same object at every call."""
         return self._mechanism

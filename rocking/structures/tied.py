@@ -21,6 +21,7 @@ from rocking.structures.held_wall import Chain, HeldWall, Hold, Opening
 from rocking.structures.kinds import StructureKind
 from rocking.structures.leaves import Leaf, Leaved, of_leaf
 from rocking.structures.linkage import (
+    GRIPPED,
     STILL,
     Hung,
     Linkage,
@@ -79,6 +80,7 @@ _NO_TIES: dict[str, Any] = {
     "tie_spacing": None,
     "unit_length": None,
     "held_between": None,
+    "anchor_height": GRIPPED,
     **_RODS_SPREAD,
 }
 """The fields of a wall without ties."""
@@ -113,7 +115,8 @@ class Tied(CrackedAtHeight, Leaved):
     tie_spacing: of the ties of a row along the wall, m, with the unit_length of the masonry, m, or held_between:
     "floor" where a stiff floor or a ring beam holds all along; without a spacing they are taken to. rod_diameter,
     rod_length, m, rod_yield_stress and rod_modulus, Pa, rod_pretension, N: of each rod, in place of the stiffness
-    E A/(L s), the strength f_y A/s and the pretension T/s.
+    E A/(L s), the strength f_y A/s and the pretension T/s. anchor_height: of the masonry that the anchor of each tie
+    grips, m.
     compressive_strength: of the masonry, Pa; None: the edges of its joints do not crush.
     loaded_leaf: of its leaves the one on which loads and thrusts bear. Ties hold each leaf without bonders as they hold
     the wall; a leaf that goes inwards alone is held by none.
@@ -214,6 +217,16 @@ class Tied(CrackedAtHeight, Leaved):
     rod_pretension: Annotated[
         float, Value("Force of a rod at rest; needs a wall that cannot move inwards", None, "kN", (0, 200))
     ] = field(default=0.0, kw_only=True)
+    anchor_height: Annotated[
+        float,
+        Value(
+            "Height of the masonry that the anchor of each tie grips, by whose friction it holds",
+            None,
+            "m",
+            (0.1, 2),
+            bounds={"gt": 0, "le": 1000},
+        ),
+    ] = field(default=GRIPPED, kw_only=True)
     loaded_leaf: Annotated[
         Literal["inner", "outer"] | None,
         Value(
@@ -527,6 +540,14 @@ class Tied(CrackedAtHeight, Leaved):
                 )
             )
         return tuple(found)
+
+    @cached_property
+    def anchors_slide_at(self) -> float:
+        if not any(
+            restraint.kind == "tie" and restraint.needed > restraint.grip for restraint in self.restraints()
+        ):
+            return math.inf
+        return self.held_wall.anchors_slide_at
 
     @property
     def does(self) -> str:

@@ -573,6 +573,8 @@ class LoadedWall(CrackedWall, Tied):
         Modulus of elasticity of a rod, Pa.
     rod_pretension : float, default 0.0
         Force of a rod at rest, N; needs `one_sided`.
+    anchor_height : float, default 0.2
+        Height of the masonry that the anchor of each tie grips, by whose friction it holds, m.
     loaded_leaf : {'inner', 'outer'} or None, optional
         The leaf on which loads bear; None: the inner one.
     opening : Opening or None, optional
@@ -719,6 +721,7 @@ class LoadedWall(CrackedWall, Tied):
             backed=self.one_sided,
             strength=self.compressive_strength,
             ties_apart=self.ties_apart,
+            gripped=self.anchor_height,
         )
 
     def with_friction(self, coefficient: float) -> Self:

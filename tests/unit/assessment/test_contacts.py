@@ -142,6 +142,7 @@ def test_contact_dynamics_is_asked_where_it_cannot_be_told_and_of_a_held_wall_th
         restitution=0.5,
         tie_heights=(3.2,),
         tie_stiffness=2e7,
+        anchor_height=3.2,
     )
     words = []
     for severity, period in ((1.2, 0.4), (1.6, 0.4), (4.0, 0.25), (2.1, 0.4)):

@@ -325,7 +325,14 @@ def test_what_a_tie_keeps_shut_caps_no_word(step):
 def test_a_held_wall_that_turns_far_only_probably_stands():
     """Row 8b: beyond 0.4 φ_cr of any mechanism, in any member; what its contacts need is left out."""
     front = Facade(
-        (3.2,), (0.4,), 19e3, behind="cross_walls", restitution=0.5, tie_heights=(3.2,), tie_stiffness=2e7
+        (3.2,),
+        (0.4,),
+        19e3,
+        behind="cross_walls",
+        restitution=0.5,
+        tie_heights=(3.2,),
+        tie_stiffness=2e7,
+        anchor_height=3.2,  # so that the anchors hold what the tie gets
     )
     words = {}
     for amplitude in (4.0, 5.0):
@@ -376,6 +383,7 @@ def test_ties_that_give_are_told_beside_the_word():
         restitution=0.5,
         tie_heights=(3.2,),
         tie_stiffness=2e6,
+        anchor_height=3.2,
     )
     times = np.arange(0, 6, STEP)
     swing = np.sin(2 * np.pi * times / wall.tie_period) * (times < 5)

@@ -10,6 +10,7 @@ from bonded import BondedWall
 import rocking
 from rocking.assessment.contacts import stackable
 from rocking.assessment.cracks import cracks, mechanisms_of
+from rocking.assessment.kinds import AssessmentKind
 from rocking.codes.static_check import kinematic_check
 from rocking.errors import RockingError, StructureError
 from rocking.structures import Facade, LoadedWall
@@ -236,11 +237,47 @@ def test_closer_and_stronger_ties_are_never_worse(fronts):
 def test_front_that_stands_held_all_along_falls_between_its_ties():
     times = np.arange(0, 6, 0.005)
     motion = rocking.Accelerogram(0.48 * G * np.sin(2 * np.pi * times) * (times < 2), 0.005)
-    all_along = rocking.assess(motion, replace(FRONT, held_between="floor"))
+    all_along = rocking.assess(motion, replace(FRONT, held_between="floor", anchor_height=1.0))
     apart = rocking.assess(motion, FRONT)
     assert all_along.verdict is rocking.Verdict.STANDS
     assert apart.verdict.badness >= rocking.Verdict.PROBABLY_OVERTURNS.badness
     assert TRIANGLE in apart.crack
+
+
+ALL_ALONG = replace(FRONT, tie_spacing=None, unit_length=None, held_between="floor")
+
+
+def test_anchors_slide_out_at_the_load_of_hand():
+    """A front of 3.2 × .4 m about its foot against μ (N + .2 w) at its top; the bulge needs 6.7 kN/m of it."""
+    weight, load = 18e3 * 0.4 * 3.2, 5e3
+    grip = 0.6 * (load + 0.2 * 18e3 * 0.4)
+    by_hand = ((weight + load) * 0.2 + grip * 3.2) / (weight * 1.6 + load * 3.2)
+    (tie,) = ALL_ALONG.restraints()
+    assert tie.needed > tie.grip == pytest.approx(grip)
+    assert ALL_ALONG.anchors_slide_at == pytest.approx(by_hand, rel=1e-6)
+    assert by_hand < 0.7 * ALL_ALONG.static_multiplier
+    larger = replace(ALL_ALONG, anchor_height=1.0)
+    assert larger.restraints()[0].grip == pytest.approx(0.6 * (load + 18e3 * 0.4))
+    assert larger.anchors_slide_at == ALL_ALONG.without_ties().anchors_slide_at == np.inf
+    weak = replace(ALL_ALONG, tie_strength=grip / 2, tie_plastic_elongation=0.05)
+    assert weak.anchors_slide_at == np.inf  # it yields before
+
+
+def test_what_stands_but_for_its_anchors_only_probably_stands():
+    """Below the load at which they slide, with larger ones, and without ties the word is what it was."""
+    times = np.arange(0, 4, 0.005)
+
+    def of(wall, peak):
+        sine = peak * G * np.sin(2 * np.pi * times / 0.25) * (times < 0.5)
+        return rocking.assess(rocking.Accelerogram(sine, 0.005), wall)
+
+    for peak in (0.4, 0.55):  # at the first nothing lifts by its mechanisms
+        doubted = of(ALL_ALONG, peak)
+        assert doubted.verdict is rocking.Verdict.PROBABLY_STANDS
+        assert AssessmentKind.ANCHOR_GIVES in {each.kind for each in doubted.decision.doubts}
+        assert AssessmentKind.ANCHORS in {each.kind for each in doubted.decision.would_settle}
+        assert of(replace(ALL_ALONG, anchor_height=1.0), peak).verdict.stays_up
+    assert of(ALL_ALONG, 0.2).verdict.stays_up
 
 
 @pytest.mark.parametrize(
