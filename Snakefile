@@ -34,8 +34,8 @@ include: "workflow/rules/paper.smk"
 include: "workflow/rules/documentation.smk"
 
 
-# The installed package does not carry it.
-if (HOME / "docs" / "research").is_dir():
+# The installed package carries of the research what reads its scores alone.
+if (HOME / "docs" / "research" / "research.smk").is_file():
 
     include: "docs/research/research.smk"
 

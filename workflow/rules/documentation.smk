@@ -8,6 +8,7 @@ rule documentation:
             for path in (HOME / "docs").rglob("*")
             if path.suffix in (".css", ".js", ".md", ".py", ".yml") and "research" not in path.parts
         ),
+        scores=f"{HOME}/docs/research/scores.py",
     output:
         directory(f"{RESULTS}/documentation"),
     log:
