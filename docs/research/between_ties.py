@@ -242,7 +242,7 @@ def triangle_falls(wall: Facade, acceleration: np.ndarray, time_step: float) -> 
 
 
 @njit(cache=True)
-def _turns_over(lifted, drawn_out, ground, spacing, restitution):
+def _turns_over(lifted, drawn_out, ground, spacing, restitution):  # type: ignore[no-untyped-def]
     angle = 0.0
     speed = 0.0
     fine = 2e-4

@@ -42,6 +42,11 @@ TARGETS_OF_RESEARCH = {
         [*REAL_RECORDS, f"{HOME}/records/catalogue.csv"],
         ["anchors.csv"],
     ),
+    "diaphragms": (
+        "Hold walls between floors beside the same walls below a diaphragm that drifts",
+        REAL_RECORDS,
+        ["diaphragms.csv"],
+    ),
     "leaves": (
         "Hold walls of two leaves beside stacks of each leaf",
         REAL_RECORDS,

@@ -218,10 +218,9 @@ class RecordReport:
             concerned[Remark(ReportKind.CRUSHING_WOULD_TELL)] = [self.called(name) for name in would_crush]
         of_one_leaf = [remark for remark in concerned if remark.kind is StructureKind.ONE_LEAF]
         if len(of_one_leaf) > 1:  # one line of all thicknesses
-            thicknesses = [text for remark in of_one_leaf for text in str(remark["thickness"]).split(", ")]
+            thicknesses = ", ".join(str(remark["thickness"]) for remark in of_one_leaf)
             names = [name for remark in of_one_leaf for name in concerned.pop(remark)]
-            every = ", ".join(dict.fromkeys(thicknesses))
-            concerned[Remark.of(StructureKind.ONE_LEAF, thickness=every)] = names
+            concerned[Remark.of(StructureKind.ONE_LEAF, thickness=thicknesses)] = names
         return {remark: list(dict.fromkeys(names)) for remark, names in concerned.items()}
 
     @cached_property

@@ -242,7 +242,7 @@ _DATA_1 = re.compile(
     r"Format:\s*\((?P<per_line>\d+)[FE](?P<width>\d+)"
 )
 _DATA_2 = re.compile(
-    r"(?i)^\s*(?P<n>\d+)\s+points of (?P<quantity>acc|vel|dis)\w* data equally spaced at\s+(?P<step>[\d.]+)\s*sec"
+    r"(?i)^\s*(?P<n>\d+)\s+points\s+of (?P<quantity>acc|vel|dis)\w* data equally spaced at\s+(?P<step>[\d.]+)\s*sec"
     r"[.,]?\s*(?:(?:in units|in|\(units:)\s*(?P<unit>[\w/]+)[.)]*\s*(?:\((?P<per_line>\d+)[FE](?P<width>\d+))?)?"
 )
 
