@@ -41,7 +41,7 @@ from rocking.structures.linkage import FRICTION
 from rocking.structures.stack import Stack
 from rocking.tables import column, row
 
-WALLS = 6
+WALLS = 14
 """Drawn under each component."""
 UPLIFTS = (0.95, 1.8)
 """Range of peak acceleration over the least uplift acceleration to which records are scaled, log-uniform."""

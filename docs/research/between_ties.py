@@ -39,7 +39,7 @@ from rocking.quantities import GRAVITY
 from rocking.structures.linkage import FRICTION
 from rocking.tables import column, row
 
-WALLS = 3
+WALLS = 9
 """Drawn under each component."""
 UPLIFTS = (1.3, 4.0)
 """Range of peak acceleration over the least uplift acceleration to which records are scaled, log-uniform."""

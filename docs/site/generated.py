@@ -115,7 +115,7 @@ TOPICS = {
     "pulses": ("pulses", "sine_pulse"),
     "motion": ("motion", "contacts"),
     "assessment": ("assessment", "codes", "fragility", "strengthening"),
-    "studies": ("study", "reports", "remarks", "errors"),
+    "studies": ("study", "products", "reports", "remarks", "errors"),
 }
 """Page of the Python names: the parts of the package from which they come."""
 
