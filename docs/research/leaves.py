@@ -133,7 +133,7 @@ def leaves_trial(component: SiteRecord, kind: str, place: int) -> LeavesTrial:
         motion = record.scaled(lifting_factor(record, multiplier, UPLIFTS, draw))
         motion = strong_part(motion, multiplier)
         started = process_time()
-        together = assess(motion, replace(wall, **wall.together), settings=settings)
+        together = assess(motion, replace(wall, **wall._as_one_leaf), settings=settings)
         between = process_time()
         station = assess(motion, wall, settings=settings)
         spent = process_time() - between

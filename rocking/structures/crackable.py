@@ -205,7 +205,7 @@ class CrackedAtHeight(Crackable):
     @cached_property
     def _cracked_there_only(self) -> Self:
         """This structure with its crack known, from which those cracked elsewhere are made; its leaves together."""
-        return replace(self, crack="known", **self._placed(self.crack_position), **self.together)
+        return replace(self, crack="known", **self._placed(self.crack_position), **self._as_one_leaf)
 
     def _candidate(self, height: float) -> Candidate | None:
         try:

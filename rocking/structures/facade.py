@@ -324,7 +324,7 @@ class Facade(Tied):
             self,
             thicknesses=(leaf.thickness,) * len(self.thicknesses),
             held_at=tuple(sorted(set(held_at))),
-            **(self.together | loads | self._ties_of(leaf) | cracked),
+            **(self._as_one_leaf | loads | self._ties_of(leaf) | cracked),
             **self._stands_as(leaf),
         )
 

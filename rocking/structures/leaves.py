@@ -44,7 +44,7 @@ class Leaved(Structure):
     each rocks both ways, with the restitution of its own geometry.
     """
 
-    together: ClassVar[dict[str, Any]] = {"leaves": (), "bonders": None, "thrown_back": None}
+    _as_one_leaf: ClassVar[dict[str, Any]] = {"leaves": (), "bonders": None, "thrown_back": None}
 
     leaves: Annotated[
         tuple[float, ...],

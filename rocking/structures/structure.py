@@ -64,8 +64,8 @@ class Structure(ABC):
     it may fall as stones where its mechanism stands, so that only these may say that it does. _usual_restitution:
     where none is given. statics_chooses: whether codes check the mechanism of least λ alone, as between supports limit
     analysis finds it; otherwise every crack that may open is a mechanism of its own.
-    _contacts_unknown: why no contact forces are known; "" where the moving parts give them. together: the values of its
-    fields with which its leaves do not part.
+    _contacts_unknown: why no contact forces are known; "" where the moving parts give them. _as_one_leaf: the values
+    of its fields with which its leaves do not part.
     """
 
     __signature__ = PlainSignature()
@@ -79,7 +79,7 @@ class Structure(ABC):
     _usual_restitution: ClassVar[float | str] = "momentum"
     statics_chooses: ClassVar[bool] = False
     _contacts_unknown: ClassVar[str] = ""
-    together: ClassVar[dict[str, Any]] = {}
+    _as_one_leaf: ClassVar[dict[str, Any]] = {}
 
     restitution_range: Annotated[
         float | None,

@@ -124,7 +124,7 @@ class Tied(CrackedAtHeight, Leaved):
     holds this leaf of it to both sides, m; files give neither.
     """
 
-    together: ClassVar[dict[str, Any]] = {**Leaved.together, "loaded_leaf": None}
+    _as_one_leaf: ClassVar[dict[str, Any]] = {**Leaved._as_one_leaf, "loaded_leaf": None}
     loads_rise_only: ClassVar[bool] = False
     """Whether loads with a mass move up and down only, as something holds them sideways."""
 

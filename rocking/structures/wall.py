@@ -654,7 +654,7 @@ class LoadedWall(CrackedWall, Tied):
             thickness=leaf.thickness,
             crack=None if self.bonder_heights else self.crack,
             held_at=self.bonder_heights,
-            **(self.together | loads | self._ties_of(leaf) | self._stands_as(leaf)),
+            **(self._as_one_leaf | loads | self._ties_of(leaf) | self._stands_as(leaf)),
         )
 
     @classmethod
@@ -752,7 +752,7 @@ class LoadedWall(CrackedWall, Tied):
         return Opening(foot=0.0, hinge=self.lower_height, hold=self.height)
 
     def opened(self, opening: Opening) -> Self:
-        return replace(self, crack="known", opening=opening, **self.together)
+        return replace(self, crack="known", opening=opening, **self._as_one_leaf)
 
     def _parts(self) -> list[tuple[int, np.ndarray]]:
         return super()._parts() if self.opening is None else self.held_wall.outlines(self.opening)

@@ -85,8 +85,9 @@ def test_the_intervals_cover_a_known_curve(trials, scatter):
         inside = (curve.probability_low <= truth) & (truth <= curve.probability_high)
         covered.append(inside[middle].mean())
         medians.append(curve.interval[0] <= 1.0 <= curve.interval[1])
-    # 60 trials of a coverage of 0.9 scatter by 0.04, 16 by 0.075; three deviations of a single proportion are 0.12.
-    assert np.mean(covered) == pytest.approx(0.9, abs=scatter) and np.mean(medians) >= 0.78
+    # 60 trials of a coverage of 0.9 scatter by 0.04, 16 by 0.075; three deviations of a single proportion are 0.12. It
+    # may be more: where few stations fall, or nearly all, the bound is that of Clopper and Pearson, which is wide.
+    assert np.mean(covered) >= 0.9 - scatter and np.mean(medians) >= 0.78
 
 
 def test_a_curve_that_is_no_lognormal_has_the_median_of_the_rising_curve_beside_it():

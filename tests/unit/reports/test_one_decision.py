@@ -237,7 +237,7 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
     summary = summary_data(summarised(tables, study.structures), SETTINGS)
     rows = {row.name: row for row in data.page_one.rows}
     cells = {row.name: row.cells[0] for row in summary.matrix.rows}
-    table = {line[0].text: line for line in summary.structures.rows}
+    table = {line[0].text: line for line in summary.structures.table.rows}
     line = record_line(result.scenes.values(), [])
     page = explore_page([content], study.structures).decode()
     assert data.conclusion == summary.conclusion and data.conclusion in page

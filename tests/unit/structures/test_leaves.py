@@ -137,7 +137,7 @@ def test_loaded_leaf_is_computed_and_no_other_scales_but_its_multiplier():
     wall = described("loaded_wall", leaves_m=[0.25, 0.25])
     whole = wall.mechanism().positive
     alone = dict(wall.leaves_alone)
-    bare = replace(wall, **wall.together, top_load=0.0).candidates()[0]
+    bare = replace(wall, **wall._as_one_leaf, top_load=0.0).candidates()[0]
     outer = alone["outer leaf"].candidates()[0]
     assert outer.uplift_multiplier == pytest.approx(bare.uplift_multiplier / 2, rel=1e-9)
     assert outer.critical_rotation == pytest.approx(bare.critical_rotation / 2, rel=0.03)
@@ -189,7 +189,7 @@ def test_its_word_is_that_of_the_worst_part():
     settings = AssessmentSettings(fidelity="auto")
     told = rocking.assess(motion, wall, settings=settings)
     by_itself = rocking.assess(motion, outer, settings=settings)
-    as_one = rocking.assess(motion, replace(wall, **wall.together), settings=settings)
+    as_one = rocking.assess(motion, replace(wall, **wall._as_one_leaf), settings=settings)
     assert told.verdict.badness == max(each.verdict.badness for each in (told, by_itself, as_one))
     assert by_itself.verdict is rocking.Verdict.OVERTURNS and told.crack.startswith("outer leaf alone")
 
@@ -296,7 +296,10 @@ def test_contact_dynamics_follows_each_leaf():
     motion = rocking.Accelerogram(0.3 * G * np.sin(2 * np.pi * times / 1.5) * (times < 1.5), 0.005)
     share = contact_share(wall, GroundMotions({("", ""): motion}), runs=2)
     assert share.falls == share.runs > 0
-    assert contact_share(replace(wall, **wall.together), GroundMotions({("", ""): motion}), runs=2).falls == 0
+    assert (
+        contact_share(replace(wall, **wall._as_one_leaf), GroundMotions({("", ""): motion}), runs=2).falls
+        == 0
+    )
     bonded = replace(wall, bonders=0.8).leaves_alone[0].structure.stack()
     assert (
         sum(each.tie is not None for each in bonded.held)
