@@ -812,6 +812,8 @@ class Tied(CrackedAtHeight, Leaved):
         strength = self.tie_strength
         for height in self.tie_heights:
             check_inside("tie_heights", height, self.height)
+        if self.tie_heights:
+            check_inside("anchor_height", self.anchor_height, self.height)
         if 0 < stiffness < LEAST_STIFFNESS:
             said = f", but must be 0 or at least {LEAST_STIFFNESS!r} N/m², below which a tie holds nothing."
             raise SizeError.of("tie_stiffness", repr(stiffness), said)

@@ -263,6 +263,11 @@ def test_anchors_slide_out_at_the_load_of_hand():
     assert weak.anchors_slide_at == np.inf  # it yields before
 
 
+def test_an_anchor_grips_no_more_than_the_wall():
+    with refused(StructureError, "anchor_height", repr(ALL_ALONG.height + 0.1)):
+        replace(ALL_ALONG, anchor_height=ALL_ALONG.height + 0.1)
+
+
 def test_what_stands_but_for_its_anchors_only_probably_stands():
     """Below the load at which they slide, with larger ones, and without ties the word is what it was."""
     times = np.arange(0, 4, 0.005)
