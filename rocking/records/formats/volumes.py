@@ -301,7 +301,8 @@ def _csmip(block: list[str], options: Options, total: int) -> Accelerogram:
     }
     record = layout.channel(head, values, options, **more)
     for part, (_, data) in zip(parts[1:], announced[1:], strict=True):
-        if (data.groupdict().get("quantity") or "").lower() == "vel" and data["unit"].lower() == "cm/sec":
+        of = data.groupdict(default="")
+        if of.get("quantity", "").lower() == "vel" and of["unit"].lower() == "cm/sec":
             record = agree_with_velocity(record, part / 100)
     return record
 

@@ -113,6 +113,14 @@ def test_a_peak_out_of_its_place_is_warned_of(name: str, old: str, new: str) -> 
     assert new_one.kind is RecordKind.PEAK_ELSEWHERE
 
 
+def test_a_volume_2_whose_velocity_states_no_unit_is_read_without_that_check() -> None:
+    text = made("USC Volume 2")
+    announced = f"{N} POINTS OF VEL DATA EQUALLY SPACED AT   {STEP:.3f} SEC."
+    assert f"{announced}  IN UNITS CM/SEC\n" in text
+    (record,) = read_text(text.replace(f"{announced}  IN UNITS CM/SEC\n", f"{announced}\n"))
+    assert record.acceleration == pytest.approx(TRUE, abs=1e-5)
+
+
 COUNTS = np.round(1e4 * np.sin(np.arange(4000) / 30)).astype(np.int32)
 
 
