@@ -413,7 +413,7 @@ def decide(facts: Facts) -> Decision:
     row  facts                                                             word
     ===  ================================================================  =============================================
     1    no crack that counts can overturn, no doubt                       cannot overturn
-    2    nothing can lift                                                  stands; probably stands where the anchor of
+    2    nothing can lift, and its ties do not give                        stands; probably stands where the anchor of
                                                                            a tie slides out
     3    every crack that counts slides before it lifts, and the motion    cannot be told
          reaches so far, and no stones were followed
@@ -474,7 +474,8 @@ def decide(facts: Facts) -> Decision:
             (*doubts, *left_out),
             would_settle,
         )
-    if facts.rests:
+    # What swings on ties that give may fall though its mechanism, which takes them as rigid, rests: rows 8b and 9.
+    if facts.rests and facts.beyond is not AssessmentKind.TIES_GIVE:
         why = "the ground never reaches the uplift acceleration"
         if facts.anchors_slide:
             doubts = (*doubts, Remark(AssessmentKind.ANCHOR_GIVES))

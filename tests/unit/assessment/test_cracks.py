@@ -374,6 +374,37 @@ def test_a_wall_whose_ties_swing_with_the_motion_only_probably_stands():
         assert contacts.ties_give(wall, motions, AssessmentSettings()) is ties_give
 
 
+@pytest.mark.parametrize("share", [0.5, 0.95])
+def test_a_wall_at_rest_on_ties_that_give_only_probably_stands(share):
+    """The ground never reaches the λ of a wall held rigidly, but the wall swings on its ties and then falls.
+
+    At .95 λ the stacks of the whole wall that contact dynamics follows show it.
+    """
+    wall = Facade(
+        (3.2,),
+        (0.4,),
+        19e3,
+        floor_loads=(1e4,),
+        behind="cross_walls",
+        restitution=0.5,
+        tie_heights=(3.2,),
+        tie_stiffness=3e6,
+        anchor_height=3.2,
+    )
+    times = np.arange(0, 6, STEP)
+    swing = np.sin(2 * np.pi * times / wall.tie_period) * (times < 5)
+    motion = Accelerogram(share * wall.static_multiplier * 9.80665 * swing, STEP)
+    assessed = rocking.assess(motion, wall)
+    assert np.all(assessed.rotation_ratios == 0)
+    assert assessed.decision.word is Verdict.PROBABLY_STANDS
+    assert [each.kind for each in assessed.decision.doubts] == [AssessmentKind.TIES_GIVE]
+    assert AssessmentKind.CONTACT_DYNAMICS in [each.kind for each in assessed.decision.would_settle]
+    stacks = contacts.contact_share(wall, GroundMotions.of(motion), AssessmentSettings(), 8)
+    assert (stacks.falls > 0) is (share == 0.95)
+    unmoved = rocking.assess(motion, replace(wall, tie_stiffness=1e9)).decision
+    assert (unmoved.word, unmoved.doubts) == (Verdict.STANDS, ())
+
+
 def test_ties_that_give_are_told_beside_the_word():
     wall = Facade(
         (3.2,),

@@ -89,6 +89,12 @@ def test_1_what_nothing_overturns_cannot_overturn():
 def test_2_what_nothing_lifts_stands():
     decision = decide(Facts(cracks=(crack(0, farthest=0.0),), rests=True))
     assert (str(decision.word), decision.share, decision.share_in_words) == ("stands", 0.0, "0\u00a0%")
+    # but for ties that give, of which stacks tell
+    gives = Facts(cracks=(crack(0, farthest=0.0),), rests=True, held=True, beyond=AssessmentKind.TIES_GIVE)
+    assert decide(gives).word is Verdict.PROBABLY_STANDS
+    assert kinds(decide(gives).doubts) == [AssessmentKind.TIES_GIVE]
+    assert decide(replace(gives, stacks=(0, 64))).word is Verdict.STANDS
+    assert decide(replace(gives, stacks=(24, 64))).word is Verdict.UNCERTAIN
 
 
 def test_3_what_slides_first_cannot_be_told():
