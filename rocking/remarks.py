@@ -5,6 +5,7 @@ with its sentence in every language: `kinds.py` of each folder. Code compares ki
 where a person reads them.
 """
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
@@ -66,32 +67,35 @@ class Sentence:
 
 
 class Kind(StrEnum):
-    """A kind of remark: its code, which tables and results hold, and its sentence in every language.
+    """A kind of remark: its code, which tables and results hold, and its sentence.
 
-    Each folder declares its own kinds as members of a class of this one. The code is the name in small letters; no two
-    kinds have the same.
+    Each folder declares its own kinds as members of a class of this one, a line each; a sentence that takes more lines
+    is folded to one. The code is the name in small letters; no two kinds have the same.
     """
 
-    said: Sentence
     sentence: str
-    """The English sentence."""
+    """The sentence in English, with its values in braces; {about} is what the remark is about."""
+    italian: str
+    """The same of a kind that the pages to sign print."""
     brief: str
-    """The same in as few words as a line of a table has room for; the sentence where it is short itself."""
+    """The sentence in as few words as a line of a table has room for; itself where it is short."""
     value_names: tuple[str, ...]
     """The values that the sentence names, in order of the alphabet."""
     names_subject: bool
     """Whether it also names what the remark is about."""
 
-    def __new__(cls, code: str, said: Sentence | None = None) -> "Kind":
-        """Make a kind of its code, with what it says beside it. Raises ValueError for one that says nothing."""
-        if not isinstance(said, Sentence):
-            raise ValueError(f"remark {code} has no Sentence, which holds its words in every language.")
+    def __new__(cls, code: str, said: "Sentence | str" = "", short: str = "") -> "Kind":
+        """Make a kind of its code, with what it says. Raises ValueError for one that says nothing."""
+        if not said:
+            raise ValueError(f"remark {code} has no sentence.")
         kind = str.__new__(cls, code)
         kind._value_ = code
-        kind.said = said
-        kind.sentence = said.en
-        kind.brief = said.brief or said.en
-        named = values_named(said.en)
+        if isinstance(said, Sentence):
+            kind.sentence, kind.italian, short = said.en, said.it, said.brief
+        else:
+            kind.sentence = kind.italian = re.sub(r"\s*\n\s*", " ", said)
+        kind.brief = short or kind.sentence
+        named = values_named(kind.sentence)
         kind.value_names = tuple(sorted(named - {"about"}))
         kind.names_subject = "about" in named
         return kind
@@ -173,7 +177,7 @@ class Remark:
 
     def sentence_in(self, language: Language) -> str:
         """Return the sentence alone in one language."""
-        text = self.kind.said.text_in(language)
+        text = self.kind.sentence if language == "en" else self.kind.italian
         return filled(text, language, {**dict(self.values), "about": self.about})
 
     @property

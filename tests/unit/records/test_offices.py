@@ -16,7 +16,7 @@ from rocking.records.files import fill_hashes
 from rocking.records.folder import list_folder
 from rocking.records.kinds import RecordKind
 from rocking.records.listing import listing_text
-from rocking.remarks import Remark, Sentence
+from rocking.remarks import Remark
 from rocking.study.workspace import write_catalogue
 from tests.refusals import refused
 
@@ -163,6 +163,6 @@ def test_nothing_is_decided_by_the_words_of_a_remark(tmp_path: Path, monkeypatch
     assert len({kind for file in before[0] for kind in file[4]}) > 3
     for kind in RecordKind:
         words = "".join(f"{{{name}}}" for name in kind.value_names)
-        monkeypatch.setattr(kind, "said", Sentence(f"xyzzy{words}", f"xyzzy{words}"))
+        monkeypatch.setattr(kind, "sentence", f"xyzzy{words}")
     assert str(Remark(RecordKind.WARNING_OF_OBSPY, values=(("text", "a"),))) == "xyzzya"
     assert found() == before
