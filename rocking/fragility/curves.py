@@ -25,7 +25,7 @@ from rocking.assessment.settings import EnsembleSettings
 from rocking.drawn import Drawn
 from rocking.errors import ConfigurationError, StructureError
 from rocking.floors.support import Support
-from rocking.fragility.exchange import fragility_csv, nrml
+from rocking.fragility.exchange import CURVE, NRML, fragility_csv, nrml
 from rocking.fragility.hazard import AnnualRate, Hazard, annual_rate
 from rocking.fragility.measures import IntensityMeasure, check_name
 from rocking.fragility.measures import intensity_measure as measure_named
@@ -36,7 +36,7 @@ from rocking.records import Accelerogram
 from rocking.records.sample import Sample
 from rocking.structures import EquivalentBlock, Mechanism, Structure
 from rocking.structures.unknown_geometry import as_structure
-from rocking.tables import write_whole
+from rocking.tables import check_target, write_whole
 
 LEVELS = 40
 """Levels in all."""
@@ -157,13 +157,16 @@ class Fragility(Drawn):
         """Write the curve as a fragility model of OpenQuake, NRML 0.5: discrete, or with two parameters of a lognormal.
 
         name: of the function, by which an exposure model names its class. Levels are in OpenQuake's unit. Raises
-        ConfigurationError for a measure that OpenQuake lacks.
+        ConfigurationError for a measure that OpenQuake lacks, and for a file that exists and is no such model.
         """
-        write_whole(Path(path), nrml({name: self}, lognormal))
+        write_whole(check_target(path, NRML), nrml({name: self}, lognormal))
 
     def to_csv(self, path: str | Path) -> None:
-        """Write the curve as a CSV: a row a level, with the measure and its unit in each."""
-        write_whole(Path(path), fragility_csv(self))
+        """Write the curve as a CSV: a row per level, with the measure and its unit in each.
+
+        Raises ConfigurationError for a file that exists and is no such table.
+        """
+        write_whole(check_target(path, CURVE), fragility_csv(self))
 
     def reaching(self, level: float) -> int:
         """Return how many stations have a record that was tried at `level` or above, within the largest factor."""

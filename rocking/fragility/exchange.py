@@ -13,9 +13,14 @@ from rocking.errors import ConfigurationError
 from rocking.fragility.measures import of_openquake
 from rocking.quantities import UNPRINTABLE
 from rocking.records.sample import Sample
+from rocking.tables import Document
 
 _NRML = "http://openquake.org/xmlns/nrml/0.5"
 _COLUMNS = ("probability", "probability_low", "probability_high", "lognormal")
+_HEAD = ("intensity_measure", "unit", "threshold", "level", *_COLUMNS)
+_MODEL = {"id": "rocking", "assetCategory": "buildings", "lossCategory": "structural"}
+NRML = Document("fragility model", ".xml", lambda content: b'<fragilityModel id="rocking"' in content)
+CURVE = Document("table of a curve", ".csv", lambda content: content.startswith(",".join(_HEAD).encode()))
 
 
 class FragilityCurve(Protocol):
@@ -48,9 +53,7 @@ def nrml(curves: Mapping[str, FragilityCurve], lognormal: bool) -> bytes:
     threshold = next(iter(curves.values())).threshold
     state = "overturning" if math.isinf(threshold) else f"rotation_{threshold:g}"
     root = ElementTree.Element("nrml", xmlns=_NRML)
-    model = ElementTree.SubElement(
-        root, "fragilityModel", id="rocking", assetCategory="buildings", lossCategory="structural"
-    )
+    model = ElementTree.SubElement(root, "fragilityModel", _MODEL)
     over = dict.fromkeys(f"{curve.measure}, {curve.sample.words}" for curve in curves.values())
     ElementTree.SubElement(model, "description").text = f"{state} over {'; '.join(over)}"
     ElementTree.SubElement(model, "limitStates").text = state
@@ -62,9 +65,7 @@ def nrml(curves: Mapping[str, FragilityCurve], lognormal: bool) -> bytes:
 def nrml_without(reason: str) -> bytes:
     """Return a fragility model that holds no function, and whose description says why, NRML 0.5."""
     root = ElementTree.Element("nrml", xmlns=_NRML)
-    model = ElementTree.SubElement(
-        root, "fragilityModel", id="rocking", assetCategory="buildings", lossCategory="structural"
-    )
+    model = ElementTree.SubElement(root, "fragilityModel", _MODEL)
     ElementTree.SubElement(model, "description").text = f"No function: {reason}"
     return _written(root)
 
@@ -110,7 +111,7 @@ def fragility_csv(curve: FragilityCurve) -> bytes:
     """Return the curve as a CSV; a level where nothing was tried has empty cells."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(("intensity_measure", "unit", "threshold", "level", *_COLUMNS))
+    writer.writerow(_HEAD)
     values = zip(
         curve.levels.tolist(), *(getattr(curve, column).tolist() for column in _COLUMNS), strict=True
     )

@@ -341,9 +341,10 @@ def _spectrum(options: argparse.Namespace) -> int:
     import numpy as np
 
     from rocking.assessment.rows import SpectrumRow, spectrum_rows
-    from rocking.tables import write_rows
-    from rocking.tables.rows import csv_lines
+    from rocking.tables import check_target, csv_lines, document_of, write_rows
 
+    if options.output is not None:
+        check_target(options.output, document_of(SpectrumRow))
     axes = np.geomspace(0.5, 10, 40), np.geomspace(0.02, 1, 40)  # p in rad/s, and uplift multiplier
     own, accelerograms = _accelerograms(options)
     rows = spectrum_rows(accelerograms, *axes, options.restitution)

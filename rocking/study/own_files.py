@@ -11,7 +11,14 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from rocking.assessment.conclusion import to_check
-from rocking.assessment.rows import CapacityRow, RemarkRow, StructureRow, capacity_rows, structure_rows
+from rocking.assessment.rows import (
+    RECORD_TABLES,
+    CapacityRow,
+    RemarkRow,
+    StructureRow,
+    capacity_rows,
+    structure_rows,
+)
 from rocking.assessment.scene import Scene, load_scenes, placed
 from rocking.errors import ConfigurationError, RecordError
 from rocking.records import Accelerogram
@@ -25,7 +32,16 @@ from rocking.records.read import bytes_of, read_raw
 from rocking.remarks import Remark
 from rocking.study.kinds import StudyKind
 from rocking.study.settings import Settings, settings_sha256
-from rocking.tables import Row, read_whole, write_tables, write_whole, written_together
+from rocking.tables import (
+    Document,
+    Row,
+    check_tables,
+    check_target,
+    read_whole,
+    write_tables,
+    write_whole,
+    written_together,
+)
 
 if TYPE_CHECKING:  # as in `assess_stations`
     from rocking.assessment.case import PeriodResult
@@ -182,6 +198,13 @@ def _siblings(
                 yield Remark.of(StudyKind.SIBLING_NOT_USED, file.file, other=other.name)
 
 
+REPORT = Document(
+    "report",
+    ".pdf",
+    lambda content: content.startswith(b"%PDF-") and b"<pdf:Keywords>rocking</pdf:Keywords>" in content,
+)
+"""The keyword is set by `reports/layout.typ`."""
+
 STDIN = "-"
 
 
@@ -213,7 +236,8 @@ def assess_stations(
     """Assess the structure `name` (None: all) of a list under each record, and yield lines of text.
 
     output: a folder for report.pdf and the tables, laid out like the results of a study; pdf: a file for the report of
-    the one record alone. Raises RecordError or ConfigurationError before anything is written.
+    the one record alone; both are checked before any work. Raises RecordError or ConfigurationError before anything is
+    written.
     """
     # It loads numba, for which who only reads a file would wait as well.
     from rocking.study.job import Study, assess_catalogued, rows_of, write_report
@@ -225,6 +249,13 @@ def assess_stations(
         raise ConfigurationError(
             f"output is {str(output)!r}, but is a folder; give the file as --pdf {output}."
         )
+    if pdf is not None:
+        check_target(pdf, REPORT)
+    if output is not None:
+        for own in found:
+            check_target(output / own.record.id / "report.pdf", REPORT)
+            check_tables(RECORD_TABLES, output / own.record.id)
+        check_tables((RemarkRow, StructureRow, CapacityRow), output / "summary")
     if pdf is not None and len(found) != 1:
         ids = ", ".join(own.record.id for own in found)
         raise ConfigurationError(

@@ -9,7 +9,7 @@ from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, TimingRow
 from rocking.errors import RockingError
 from rocking.study.product import Product
 from rocking.study.products import PRODUCTS
-from rocking.tables import Row, frame, write_whole, written_together
+from rocking.tables import Row, check_tables, frame, write_whole, written_together
 from rocking.tables.rows import check_columns, readable
 
 if TYPE_CHECKING:
@@ -86,9 +86,11 @@ class Results:
     def write_record(self, record: str, folder: Path | str | None = None) -> list[Path]:
         """Write the tables of one record as CSV into `folder`, else into its folder, and return their paths.
 
-        Raises RockingError where there is no such record.
+        Raises RockingError where there is no such record, and where the folder holds another file by one of the names.
         """
         target = self.folder / record if folder is None else Path(folder)
+        if folder is not None:
+            check_tables(RECORD_TABLES, target)
         summary = self.folder / "summary"
         tables = {
             row_class: list(_lines_of(row_class, summary / row_class.table.file_name, record))

@@ -11,11 +11,12 @@ from rocking.quantities import four_digits
 from rocking.records import Accelerogram, CatalogueRecord, load_catalogue
 from rocking.records.catalogue import COLUMNS, catalogue_text, read_rows
 from rocking.reports.panels import svg_of
+from rocking.reports.style import PICTURE
 from rocking.study.job import Study
 from rocking.study.plan import check_config_file, config_file
 from rocking.study.progress import bar
 from rocking.study.settings import Settings, read_settings
-from rocking.tables import write_whole
+from rocking.tables import Document, check_target, write_whole
 
 
 def pool_of(settings: Settings) -> Path:
@@ -104,11 +105,21 @@ def joined_by_station(pool: Mapping[str, Sequence[Accelerogram]]) -> dict[str, l
     return joined
 
 
+_CHOSEN = "factor set by rocking select"
+"""Ends the note of each row of a selection, by which the file is known as one."""
+SELECTION = Document(
+    "selection",
+    ".csv",
+    lambda content: all(_CHOSEN.encode() in line for line in content.splitlines()[1:]) and bool(content),
+)
+
+
 def write_selection(folder: Path, output: Path | None = None) -> list[str]:
     """Select records for the study in `folder`, write them as a catalogue with factors, and return lines to print.
 
     output: where it goes, in the folder of the pool, whose paths it keeps. A figure of the set against its target
-    stands beside it. Raises as `select_for`.
+    stands beside it. Raises as `select_for`; ConfigurationError before any work where
+    another file exists at either path.
     """
     target = None if output is None else output.absolute()
     with chdir(folder):
@@ -124,9 +135,11 @@ def write_selection(folder: Path, output: Path | None = None) -> list[str]:
             raise ConfigurationError(
                 f"--output is {output}, but must be another file than the catalogue itself."
             )
+        image = target.with_suffix(".svg")
+        check_target(target, SELECTION)
+        check_target(image, PICTURE)
         selection, reasons = select_for(Study({}, settings), load_catalogue(catalogue))
         write_whole(target, _catalogue_of(selection, catalogue).encode())
-        image = target.with_suffix(".svg")
         write_whole(image, svg_of(selection))
     lines = [f"{name}: not used, {reason}" for name, reason in reasons.items()]
     factors = selection.factors[selection.chosen]
@@ -138,13 +151,15 @@ def write_selection(folder: Path, output: Path | None = None) -> list[str]:
 
 
 def _catalogue_of(selection: Selection, catalogue: Path) -> str:
-    """The rows of the chosen set, each with its factor on top of its own."""
+    """The rows of the chosen set, each with its factor on top of its own, and a note that says where it comes from."""
     rows = {row["id"].strip(): row for _, row in read_rows(catalogue)}
     chosen = []
     for place in selection.chosen:
         for name in rows_of_pair(selection.names[place]):
             row = rows[name]
             own = float((row.get("scale_factor") or "").strip() or 1)
-            chosen.append(row | {"scale_factor": repr(float(own * selection.factors[place]))})
+            factor = repr(float(own * selection.factors[place]))
+            note = (row.get("note") or "").removesuffix(_CHOSEN)
+            chosen.append(row | {"scale_factor": factor, "note": f"{note.strip()} {_CHOSEN}".strip()})
     columns = [name for name in COLUMNS if name in chosen[0]]
     return catalogue_text(chosen, columns)

@@ -16,13 +16,24 @@ from rocking.quantities import counted, shown
 from rocking.records import Accelerogram, load_catalogue
 from rocking.records.sample import Sample
 from rocking.reports.panels import svg_of
+from rocking.reports.style import PICTURE
 from rocking.strengthening import Strengthening, Tried, sizes, strengthen_scene
 from rocking.structures.description import article, nearest
 from rocking.structures.fields import Field
 from rocking.study.job import Study
 from rocking.study.plan import check_config_file, config_file, make_plan
 from rocking.study.selection import joined_by_station, opened, pool_of
-from rocking.tables import Columns, RowOf, row, write_rows, write_whole, written_together
+from rocking.tables import (
+    Columns,
+    Document,
+    RowOf,
+    check_target,
+    document_of,
+    row,
+    write_rows,
+    write_whole,
+    written_together,
+)
 
 _RANGE = re.compile(r"\s*([^.\s][^\s]*?)\s*\.\.\s*(\S+)\s*")
 
@@ -126,6 +137,11 @@ class StrengtheningRow(RowOf[_TriedValue]):
     )
 
 
+_CASES = Document(
+    "store of cases", ".cases", lambda content: re.match(rb"\w+ [0-9a-f]{64}\n", content) is not None
+)
+
+
 def write_strengthening(
     folder: Path,
     structure: str,
@@ -150,12 +166,18 @@ def write_strengthening(
         plan = make_plan(check_config_file(path) if path else {})
         scene = _scene(plan.scenes, structure, plan.settings.structures)
         size, ends = _size(scene, key, between)
+        place = target_folder or (Path(plan.settings.results) / "strengthening").absolute()
+        name = re.sub(r"[^A-Za-z0-9._-]+", "_", f"{structure}_{size.key}").strip("._-")[:150]
+        table = place / f"{name}.csv"
+        image = place / f"{name}.svg"
+        cases = place / f"{name}.cases"
+        if target_folder is not None:
+            for file, document in ((table, document_of(StrengtheningRow)), (image, PICTURE), (cases, _CASES)):
+                check_target(file, document)
         study = Study(plan.scenes, plan.settings)
         records, sample, notes = _records(study)
         checks = plan.settings.checks
-        place = target_folder or (Path(plan.settings.results) / "strengthening").absolute()
-        name = re.sub(r"[^A-Za-z0-9._-]+", "_", f"{structure}_{size.key}").strip("._-")[:150]
-        store = RecordStore(place / f"{name}.cases", show_line)
+        store = RecordStore(cases, show_line)
         found = strengthen_scene(
             records,
             scene,
@@ -169,8 +191,6 @@ def write_strengthening(
             store=store,
             show_line=show_line,
         )
-        table = place / f"{name}.csv"
-        image = place / f"{name}.svg"
         with written_together():
             write_rows(StrengtheningRow, _rows(structure, found), table)
             write_whole(image, svg_of(found))

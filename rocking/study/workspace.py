@@ -13,7 +13,7 @@ from rocking.records.listing import listing_text
 from rocking.study.flow import OWN_SNAKEFILE, workflow_folder
 from rocking.study.progress import bar
 from rocking.study.settings import Settings, first_yaml
-from rocking.tables import write_whole
+from rocking.tables import Document, check_target, write_whole
 
 
 def start(folder: Path) -> list[Path]:
@@ -43,6 +43,10 @@ def _with_schema(name: str, content: bytes) -> bytes:
     return f"# yaml-language-server: $schema={schema.as_uri()}\n".encode() + content
 
 
+CATALOGUE = Document("catalogue", ".csv", lambda _: True)
+"""What exists there is read before rows are added: `read_rows` refuses what is no catalogue, and names its columns."""
+
+
 def write_catalogue(folder: Path, target: Path, unit: str | None, time_step: float | None) -> str:
     """Write a catalogue of the accelerograms in `folder` to `target`, or add to the one that stands there; say what.
 
@@ -52,6 +56,7 @@ def write_catalogue(folder: Path, target: Path, unit: str | None, time_step: flo
     layout. Raises RecordError, and writes nothing, when no file could be read, and
     CatalogueError when `target` is no catalogue.
     """
+    check_target(target, CATALOGUE)
     existing = [row for _, row in read_rows(target)] if target.exists() else []
     found = catalogue_of_folder(
         folder,

@@ -17,6 +17,8 @@ takes both back.
 
 from rocking.tables.edited import edited_text as edited_text
 from rocking.tables.edited import read_edited as read_edited
+from rocking.tables.files import Document as Document
+from rocking.tables.files import check_target as check_target
 from rocking.tables.files import read_start as read_start
 from rocking.tables.files import read_whole as read_whole
 from rocking.tables.files import regular_file as regular_file
@@ -28,9 +30,11 @@ from rocking.tables.rows import Row as Row
 from rocking.tables.rows import RowOf as RowOf
 from rocking.tables.rows import Table as Table
 from rocking.tables.rows import cell as cell
+from rocking.tables.rows import check_tables as check_tables
 from rocking.tables.rows import column as column
 from rocking.tables.rows import csv_lines as csv_lines
 from rocking.tables.rows import data_package as data_package
+from rocking.tables.rows import document_of as document_of
 from rocking.tables.rows import frame as frame
 from rocking.tables.rows import read_rows as read_rows
 from rocking.tables.rows import read_table as read_table

@@ -5,14 +5,15 @@ import glob
 import os
 import stat
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from contextvars import ContextVar
+from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
 
-from rocking.errors import RockingError
+from rocking.errors import ConfigurationError, RockingError
 
 
 @contextmanager
@@ -62,6 +63,47 @@ def write_whole(path: Path, content: bytes | Iterable[bytes]) -> None:
     """Write `content`, or its pieces, to `path` through a temporary file in its folder, so that it appears whole."""
     with whole(path) as stream:
         stream.writelines([content] if isinstance(content, bytes) else content)
+
+
+@dataclass(frozen=True)
+class Document:
+    """A kind of file that is written where a user says.
+
+    name: in a message; ending: of the name of the file; is_own: whether the content of a file was written as this kind.
+    """
+
+    name: str
+    ending: str
+    is_own: Callable[[bytes], bool]
+
+
+_LARGEST_REPLACED = 2**28
+"""Bytes of a file that is looked at before it is replaced; a larger one is no document of this package."""
+
+
+def check_target(path: str | Path, document: Document) -> Path:
+    """Return the path at which a user wants a document, before any work is done for it.
+
+    Raises ConfigurationError for a name with another ending, and where a file exists there that was not written as this
+    kind of document: it may be an input, also one that the shell put there for a pattern.
+    """
+    path = Path(path)
+    if os.path.lexists(path):
+        content = b"" if path.is_dir() else read_start(path, _LARGEST_REPLACED)
+        if not document.is_own(content):
+            raise ConfigurationError.naming(
+                "file",
+                path.name,
+                f"{path} exists and is no {document.name} written by rocking, so it is not replaced; name another file "
+                "(the shell puts every file that a pattern like *.smc matches in its place).",
+            )
+    if path.suffix.lower() != document.ending:
+        raise ConfigurationError.naming(
+            "file",
+            path.name,
+            f"{path} is to hold a {document.name}; give a name that ends in {document.ending}.",
+        )
+    return path
 
 
 @contextmanager

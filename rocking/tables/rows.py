@@ -22,7 +22,7 @@ from rocking.described import Described, described, described_values, number_hin
 from rocking.errors import RockingError
 from rocking.quantities import shown
 from rocking.remarks import Kind, every_kind, kind_of
-from rocking.tables.files import regular_file, whole, write_whole
+from rocking.tables.files import Document, check_target, regular_file, whole, write_whole
 
 _UNITS = {
     "n_per_m": "N/m",
@@ -389,6 +389,18 @@ def write_tables(
     if package:
         paths = {kind: kind.table.file_name for kind in tables}
         write_whole(folder / description, data_package(package, paths))
+
+
+def document_of(row_class: type[Row]) -> Document:
+    """Return the table of these rows as a kind of file, which its own names of columns tell from others."""
+    names = next(csv_lines(row_class, ())).encode()
+    return Document(f"table of {row_class.table.name}", ".csv", lambda content: content.startswith(names))
+
+
+def check_tables(row_classes: Iterable[type[Row]], folder: Path) -> None:
+    """Check that the tables of these rows may be written into a folder that a user names, as `check_target` does."""
+    for row_class in row_classes:
+        check_target(folder / row_class.table.file_name, document_of(row_class))
 
 
 def read_table(row_class: type[R], folder: Path) -> list[R]:

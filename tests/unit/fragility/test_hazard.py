@@ -247,6 +247,18 @@ def test_nrml_says_the_range_of_an_average_and_refuses_what_openquake_lacks(tmp_
     assert not (tmp_path / "other.xml").exists()
 
 
+@pytest.mark.parametrize("name", ["pier.xml", "pier.csv"])
+def test_a_curve_replaces_an_earlier_one_and_no_other_file(tmp_path, name):
+    curve = _lognormal()
+    write = curve.to_nrml if name.endswith("xml") else curve.to_csv
+    write(tmp_path / name)
+    write(tmp_path / name)
+    (tmp_path / name).write_text("<nrml><exposureModel/></nrml>")
+    with refused(ConfigurationError, "file", name):
+        write(tmp_path / name)
+    assert "exposureModel" in (tmp_path / name).read_text()
+
+
 def test_the_csv_holds_the_curve(tmp_path):
     curve = _lognormal()
     curve.to_csv(tmp_path / "pier.csv")
