@@ -208,8 +208,11 @@ class CaseResult:
         own = self.ensembles.facts if self.ensembles else Facts()
         return replace(
             own,
-            # A component that is missing may lift, and what slides apart does not have to.
-            rests=rests and not failures and not (body.falls_by_sliding and not math.isnan(self.slides_at)),
+            # What is missing or not followed may lift, and what slides apart does not have to.
+            rests=rests
+            and not failures
+            and not (self.doubt and self.doubt.kind is AssessmentKind.NOT_FOLLOWED)
+            and not (body.falls_by_sliding and not math.isnan(self.slides_at)),
             run_ratio=max(runs, default=math.nan),
             settled=settled,
             never_overturns_because=never_overturns_because(body),

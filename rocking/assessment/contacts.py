@@ -16,6 +16,7 @@ from typing import Protocol
 import numpy as np
 
 from rocking.assessment.cores import in_order
+from rocking.assessment.cracks import weakest_not_followed
 from rocking.assessment.decide import BEYOND, UNANIMOUS
 from rocking.assessment.decide import step as step_of
 from rocking.assessment.fidelity import peak_velocity
@@ -80,12 +81,14 @@ def doubt(
     """Return why a structure may be worse off than as a mechanism; None where nothing speaks for it.
 
     rotation_ratio: the largest of its runs. bounces: whether a contact opens in the run as recorded, where that is
-    known. Of the members those are asked that land fastest: with the crack that statics chooses, in every direction and
-    sign, at the largest amplitude; what cannot be followed there is in doubt, too. Where the balance of momentum keeps
-    less than LEAST_KEPT of the velocity, the impact itself opens contacts. What rests has no contact to open; a single
-    body on the ground lands too slowly below a fall of more than a radian; and the bulge of a wall that is held has row
-    8b of the decision instead, with `ties_give`: what they let stand did not fall as a stack (docs, validation). Of a
-    wall whose leaves may part each of these is asked, too; of_leaves: the largest rotation ratio of each.
+    known. First where the mechanism of least λ cannot be followed, and the motion at its largest amplitude reaches that
+    λ; the doubts that follow are of what rocks. Of the members those are asked that land fastest: with the crack that
+    statics chooses, in every direction and sign, at the largest amplitude; what cannot be followed there is in doubt,
+    too. Where the balance of momentum keeps less than LEAST_KEPT of the velocity, the impact itself opens contacts.
+    What rests has no contact to open; a single body on the ground lands too slowly below a fall of more than a radian;
+    and the bulge of a wall that is held has row 8b of the decision instead, with `ties_give`: what they let stand did
+    not fall as a stack (docs, validation). Of a wall whose leaves may part each of these is asked, too; of_leaves: the
+    largest rotation ratio of each.
     """
     own = _doubt_of_part(structure, motions, rotation_ratio, settings or AssessmentSettings(), bounces)
     ratios = of_leaves or {}
@@ -104,6 +107,10 @@ def _doubt_of_part(
     bounces: bool | None,
 ) -> Remark | None:
     """Return why one part may be worse off than as a mechanism; None where nothing speaks for it."""
+    unknown = weakest_not_followed(structure)
+    reached = motions.excitation * (1 + settings.ensemble.amplitude_range)
+    if unknown is not None and reached > unknown.uplift_multiplier:
+        return Remark(AssessmentKind.NOT_FOLLOWED)
     if not rotation_ratio > 0:
         return None
     if structure.tapers:

@@ -20,7 +20,7 @@ from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.motion.response import lifting_friction
-from rocking.motion.table import forcing_of, table_of
+from rocking.motion.table import table_of
 from rocking.remarks import Remark
 from rocking.structures import Structure
 from rocking.structures.crackable import WEAK_MASONRY
@@ -205,6 +205,16 @@ def counting_cracks(structure: Structure) -> tuple[Candidate, ...]:
     return tuple(candidate for candidate in cracks(structure) if candidate.counts)
 
 
+def weakest_not_followed(structure: Structure) -> Candidate | None:
+    """Return the mechanism of least λ where its motion cannot be followed, and so does not count; None where it can.
+
+    Of a leaf that may part that leaf is asked.
+    """
+    least = min(candidate.uplift_multiplier for candidate in counting_cracks(structure))
+    own = (candidate for candidate in structure.mechanisms() if not candidate.part)
+    return next((listed for listed in own if listed.refusal and listed.uplift_multiplier < least), None)
+
+
 def never_overturns_because(structure: Structure) -> str:
     """Return why no mechanism that counts can overturn, in words; "" where one can, or where that is not known."""
     reasons = [candidate.mechanism.never_overturns_because for candidate in counting_cracks(structure)]
@@ -346,15 +356,13 @@ def sliding_first(
 def slides_first(candidate: Candidate, motions: GroundMotions, settings: AssessmentSettings) -> bool:
     """Whether a mechanism slides before it lifts, under motions that reach so far."""
     level = slides_at(candidate, settings.friction_coefficient)
-    forcings = (forcing_of(motion, motions.vertical) for motion in motions.horizontal.values())
-    return not math.isnan(level) and any(forcing.excitation > level for forcing in forcings)
+    return motions.excitation > level  # not where it is nan
 
 
 def anchors_slide(structure: Structure, motions: GroundMotions) -> bool:
     """Whether the anchor of a tie slides out of the structure, or of a leaf, under motions that reach so far."""
     level = min(part.anchors_slide_at for _, part in parts_of(structure))
-    forcings = (forcing_of(motion, motions.vertical) for motion in motions.horizontal.values())
-    return math.isfinite(level) and any(forcing.excitation > level for forcing in forcings)
+    return math.isfinite(level) and motions.excitation > level
 
 
 def slides_at(candidate: Candidate, friction_coefficient: float) -> float:

@@ -227,7 +227,12 @@ class CrackFacts:
         return self.step(risk).badness, -1.0 if math.isnan(self.share) else self.share, farthest
 
 
-CONTACTS = (AssessmentKind.CONTACTS_OPEN, AssessmentKind.COURSES_THROWN, AssessmentKind.IMPACT_OPENS)
+CONTACTS = (
+    AssessmentKind.CONTACTS_OPEN,
+    AssessmentKind.COURSES_THROWN,
+    AssessmentKind.IMPACT_OPENS,
+    AssessmentKind.NOT_FOLLOWED,
+)
 """Doubts that contact dynamics settles."""
 
 

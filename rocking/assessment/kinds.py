@@ -21,6 +21,11 @@ class AssessmentKind(Kind):
         "i corsi sopra un corpo che oscilla possono essere proiettati",
         brief="courses may be thrown",
     )
+    NOT_FOLLOWED = auto(), Sentence(
+        "the mechanism of least λ cannot be followed",
+        "il meccanismo di λ minimo non può essere simulato",
+        brief="weakest not followed",
+    )
 
     # What else makes a decision doubtful.
     COMPONENT_MISSING = auto(), Sentence("a component gave no result", "una componente non ha dato risultato")

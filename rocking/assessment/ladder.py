@@ -21,7 +21,6 @@ from rocking.assessment.ensemble import CAUSES, Situation, draw, followed_at
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.reserve import SHARES, Reserve
 from rocking.assessment.settings import EnsembleSettings
-from rocking.motion.table import forcing_of
 from rocking.structures import Mechanism
 
 RUNGS = 1024
@@ -73,7 +72,7 @@ def reserve(
     that cannot be followed counts as one that overturns. Raises MotionError as `integrate` does.
     """
     settings = settings or EnsembleSettings()
-    strongest = max(forcing_of(motion, motions.vertical).excitation for motion in motions.horizontal.values())
+    strongest = motions.excitation
     if not strongest > 0:  # still ground
         lowest = math.inf
     elif math.isfinite(strongest):

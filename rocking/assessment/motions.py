@@ -15,6 +15,7 @@ import numpy as np
 from rocking.assessment.settings import PredictingPulse
 from rocking.errors import PulseError, RecordError
 from rocking.hashes import sha256_of
+from rocking.motion.table import forcing_of
 from rocking.pulses import (
     PULSE_METHODS,
     PulseAnalysis,
@@ -153,6 +154,11 @@ class GroundMotions:
         if vertical is not None and len(components) > 1:
             vertical = aligned(vertical, next(iter(horizontal.values())))
         return cls(horizontal, vertical)
+
+    @cached_property
+    def excitation(self) -> float:
+        """The largest acceleration in all of them, over gravity with the vertical motion; inf where nothing presses."""
+        return max(forcing_of(motion, self.vertical).excitation for motion in self.horizontal.values())
 
     @property
     def directions(self) -> tuple[str, ...]:

@@ -80,7 +80,8 @@ class Chain(Linkage):
         if not self._is_held:
             farthest = self._turn * np.inf
         lean = (self._lower.real + across - farthest) / abs(self._lower)
-        lying = np.arccos(np.clip(lean, -_MARGIN, _MARGIN))
+        # The lower one may start as flat as it likes: only where it ends it must not lie flat.
+        lying = np.arccos(np.clip(lean, *((-1.0, _MARGIN) if forwards else (-_MARGIN, 1.0))))
         self.end_rotation = float(min(abs(lying - np.angle(self._lower)), np.pi / 2))
 
     @keeps_last

@@ -631,7 +631,8 @@ class Candidate:
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", StructureWarning)  # nobody asked for its restitution
-                self.structure.mechanism()
+                for side in self.structure.mechanism().sides:
+                    _ = side.arc
         except StructureError as wrong:
             return wrong
         return None

@@ -26,10 +26,11 @@ from rocking.assessment.one_case import compute_case
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.contacts.dynamics import SECONDS_A_STEP, STEP, follow_stack
-from rocking.errors import MotionError
+from rocking.errors import MotionError, StructureError
 from rocking.quantities import GRAVITY
 from rocking.remarks import Remark
 from rocking.structures.stack import COURSES
+from rocking.structures.structure import Candidate
 from rocking.structures.unknown_geometry import as_structure
 
 CONTACT = AssessmentSettings(fidelity="contact")
@@ -355,6 +356,38 @@ def test_what_cannot_be_followed_may_open(monkeypatch):
     assert doubt(wall, motions, 0.05) is None
     monkeypatch.setattr("rocking.assessment.contacts.integrate", lost)
     assert doubt(wall, motions, 0.05) == Remark(AssessmentKind.CONTACTS_OPEN)
+
+
+def test_a_mechanism_that_cannot_be_followed_is_doubted_alone_once_the_motion_reaches_it(monkeypatch):
+    """That of least λ may be the one that forms; what counts is followed all the same, and is weaker no longer."""
+    wall = rocking.Facade(
+        (3.37, 3.04),
+        (0.4, 0.4),
+        18e3,
+        tie_heights=(6.37,),
+        tie_stiffness=6e6,
+        behind="cross_walls",
+        restitution=0.7,
+    )
+    weakest = wall.mechanisms()[0]
+    assert weakest.bulges
+    lost = StructureError("its inertia is not smooth.")
+    monkeypatch.setattr(
+        Candidate, "refused", property(lambda one: lost if one.description == weakest.description else None)
+    )
+    wall = replace(wall)  # nothing that it kept
+    assert wall.candidates()
+    assert all(candidate.description != weakest.description for candidate in wall.candidates())
+    unfollowed = Remark(AssessmentKind.NOT_FOLLOWED)
+    for share, expected in ((0.9, None), (0.97, unfollowed), (1.2, unfollowed)):
+        motion = sine(share * weakest.uplift_multiplier * GRAVITY)
+        case = compute_case(
+            CaseInputs(motion=Motion((motion,)), structure=wall, settings=AssessmentSettings())
+        )
+        assert case.doubt == expected
+        assert (case.contact is not None) == (expected is not None)  # its stack may fall in any mechanism
+        word = decide(replace(case.facts(wall), stacks=None)).word
+        assert (word is Verdict.CANNOT_BE_TOLD) == (expected is not None)
 
 
 # Friction -----------------------------------------------------------------------------------------------------

@@ -575,3 +575,24 @@ def test_facade_that_a_tie_holds_at_the_top_falls_as_it_bulges():
     for wall in (bulge.structure, copied):
         assert rocking.integrate(wall, motion).outcome is rocking.Outcome.OVERTURNS
     assert whole.outcome is rocking.Outcome.ROCKS
+
+
+def test_no_arm_lies_flat_before_the_end_of_the_rotation():
+    """A squat lower body starts flatter than its margin, and its chain may not be followed beyond where it locks."""
+    front = Facade(
+        (3.36, 3.03), (0.6, 0.5), 18e3, floor_loads=(12e3, 6e3), tie_heights=(3.56,), tie_stiffness=6e6
+    )
+    chains = [
+        chain
+        for listed in front.mechanisms()
+        if not listed.refusal
+        for chain in listed.structure.linkages
+        if isinstance(chain, Chain) and chain._is_held
+    ]
+    assert len(chains) > 2
+    for chain in chains:
+        turned = chain._lower * np.exp(1j * chain._turn * chain.end_rotation)
+        across = chain._upper.real + (chain._lower - turned).real
+        assert abs(across) <= 0.9 * abs(chain._upper) * (1 + 1e-9)
+    for listed in front.candidates():
+        _ = listed.side.arc
