@@ -165,8 +165,7 @@ def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
     from rocking.reports.pages import Picture
 
     nothing = Picture(svg='<svg xmlns="http://www.w3.org/2000/svg" width="1" height="1"/>', alt="none")
-    for module in ("record", "summary"):
-        monkeypatch.setattr(f"rocking.reports.{module}.pictures", lambda *_: ())
+    monkeypatch.setattr("rocking.reports.summary.pictures", lambda *_: ())
     monkeypatch.setattr("rocking.reports.record.drawn_by_hand", lambda *_: nothing)
     for figure in ("bars_figure", "basis_figure"):
         monkeypatch.setattr(f"rocking.products.checks.report.{figure}", lambda *_: None)

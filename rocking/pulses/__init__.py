@@ -1,6 +1,5 @@
 """The dominant sine pulse of a record, its rivals, and the evidence to trust or refuse it."""
 
-from rocking.pulses.extraction import energy_map as energy_map
 from rocking.pulses.extraction import extract_pulses as extract_pulses
 from rocking.pulses.methods import DEFAULT_PULSE_METHOD as DEFAULT_PULSE_METHOD
 from rocking.pulses.methods import DEMAND_CANDIDATES as DEMAND_CANDIDATES

@@ -124,24 +124,6 @@ def extract_pulses(accelerogram: Accelerogram, *, settings: PulseSettings | None
     return PulseAnalysis(accelerogram, ranked, sequence, flags, search.band)
 
 
-def energy_map(
-    accelerogram: Accelerogram, *, settings: PulseSettings | None = None
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return (gains, onsets, frequencies): the energy gain (n, m) in m²/s³ of each cycle that the search looks at.
-
-    onsets: (n,) s, ascending. frequencies: (m,) Hz, ascending. Where the cycle does not fit in the record the gain
-    is 0.
-    """
-    from rocking.pulses.scan import energy_gains
-
-    settings = settings or PulseSettings()
-    searched = _thinned(accelerogram, settings)
-    frequencies = PulseSearch.of(searched, settings).frequencies
-    angles = 2 * np.pi * searched.time_step * frequencies
-    gains = energy_gains(searched.acceleration[np.newaxis], searched.time_step, angles)
-    return gains, searched.times, frequencies
-
-
 def _thinned(accelerogram: Accelerogram, settings: PulseSettings) -> Accelerogram:
     """Return every sample that the search needs: itself where that is all of them."""
     enough = 1 / (SAMPLES_ENOUGH * settings.highest_frequency)

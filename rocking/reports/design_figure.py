@@ -9,7 +9,6 @@ import numpy as np
 
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.measures import response_spectrum
-from rocking.reports.drawings import Trace
 from rocking.reports.printing import unit_of
 from rocking.reports.style import PULSE, new_figure, plain_logarithmic, styled
 
@@ -41,23 +40,6 @@ def component_spectra(
         name = component.component or f"component {place}"
         spectra[name] = [float(f"{ordinate:.4g}") for ordinate in spectrum.pseudo_acceleration]
     return spectra
-
-
-@styled
-def design_figure(motions: Sequence[Trace], level: DesignSpectrum) -> Figure:
-    """Draw the spectrum of each component, for the damping of the design level, and that of the level."""
-    figure = new_figure(52.0)
-    axes = figure.subplots()
-    periods = spectrum_periods(level)
-    for place, motion in enumerate(motions):
-        spectrum = response_spectrum(motion.accelerogram, periods, level.damping)
-        line = ("-", "--", ":")[place % 3]
-        name = motion.accelerogram.component or "record"
-        axes.plot(
-            periods, spectrum.pseudo_acceleration / unit_of("m/s²").size, line, color="0.35", label=name
-        )
-    _draw_level(axes, level)
-    return figure
 
 
 @styled

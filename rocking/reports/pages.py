@@ -30,7 +30,6 @@ class PageSettings:
     language: Language = "en"
     date: str | None = None
     display_units: str = "SI"
-    details: bool = False
     tolerance: float = 1e-6
     acceleration_scale: str = "exact_at_rest"
     friction_coefficient: float | None = None
@@ -323,23 +322,6 @@ class Against:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Details:
-    """The figures and tables behind the pages of a record, with the sentences on what they leave out."""
-
-    histories: Part
-    reserve: Part
-    supports: Part
-    design: Part
-    pulse_figures: Part
-    comparison: Part
-    verdicts: Part
-    facts: Part
-    pulses: Part
-    structures: Part
-    methods: Part
-
-
-@dataclass(frozen=True, kw_only=True)
 class RecordPage(Page):
     """The report of one record."""
 
@@ -356,7 +338,6 @@ class RecordPage(Page):
     advice: Part
     known: Part
     assumed: Part
-    details: tuple[Details, ...]
 
 
 # The report over all records -----------------------------------------------------------------------------

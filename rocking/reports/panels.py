@@ -6,7 +6,7 @@ Units stand on every axis. A long trace is drawn as its envelope.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -15,7 +15,6 @@ from rocking.errors import MotionError, RockingError
 from rocking.quantities import percent, shown
 from rocking.reports.drawings import MOST_POINTS, draw_bay, draw_dimensions, draw_structure, thinned
 from rocking.reports.style import (
-    PREDICTED,
     PULSE,
     RECORD,
     new_figure,
@@ -100,56 +99,30 @@ def svg_of(thing: object) -> bytes:
 # What a report and a method draw alike ---------------------------------------------------------------------
 
 
-def draw_motion(
-    axes: Axes,
-    record: Accelerogram,
-    pulse: Pulse | None = None,
-    span: tuple[float, float] = (0.0, math.inf),
-    most: int = MOST_POINTS,
-    unit: float = 1.0,
-) -> None:
-    """Draw the acceleration against time within `span` [s], with its pulse.
-
-    most: points of the trace. unit: size of that of the axis, m/s².
-    """
-    begin, end = span
-    inside = (record.times >= begin) & (record.times <= end)
-    times, samples = thinned(record.times[inside], record.acceleration[inside] / unit, most)
-    axes.plot(times, samples, color=RECORD, linewidth=0.6, label="record")
-    if pulse is not None:
-        cycle = np.linspace(pulse.start_time, pulse.end_time, 121)
-        axes.plot(cycle, pulse.acceleration(cycle) / unit, color=PULSE, linewidth=1.5, label="dominant pulse")
+def draw_motion(axes: Axes, record: Accelerogram, pulse: Pulse) -> None:
+    """Draw the acceleration against time, with its pulse."""
+    axes.plot(
+        *thinned(record.times, record.acceleration, MOST_POINTS), color=RECORD, linewidth=0.6, label="record"
+    )
+    cycle = np.linspace(pulse.start_time, pulse.end_time, 121)
+    axes.plot(cycle, pulse.acceleration(cycle), color=PULSE, linewidth=1.5, label="dominant pulse")
 
 
-def draw_rotation(
-    axes: Axes,
-    history: tuple[np.ndarray, np.ndarray],
-    predicted: float = math.nan,
-    band: tuple[float, float] | None = None,
-    *,
-    place: tuple[float, float] = (0.0, 1.0),
-    most: int = MOST_POINTS,
-) -> None:
+def draw_rotation(axes: Axes, history: tuple[np.ndarray, np.ndarray], band: tuple[float, float]) -> None:
     """Draw a history, times and rotation over critical rotation (k,), with impacts as ticks on the line of rest.
 
-    predicted: the largest of the closed form, drawn on both sides. band: the largest of 5 and of 95 % of the members, a
-    bar at the right. place: where rest stands and what a ratio of 1 measures in the units of the axes, for several in
-    one panel.
+    band: the largest rotation ratio of 5 and of 95 % of the members, drawn as a bar at the right.
     """
     times, ratio = history
-    level, scale = place
-    axes.axhline(level, **ZERO)
-    low, high = (min(value, 1.0) * scale for value in band or (0.0, 0.0))
+    axes.axhline(0, **ZERO)
+    low, high = (min(value, 1.0) for value in band)
     look: dict[str, Any] = {"color": "#E69F00", "alpha": 0.6, "linewidth": 0}
     for sign, label in ((1, "5–95 % of the members"), (-1, None)):
         if high > 0:
-            axes.axhspan(level + sign * low, level + sign * high, xmin=0.97, label=label, **look)
-        if 0 < predicted < math.inf:
-            axes.axhline(level + sign * scale * predicted, color=PREDICTED, linewidth=1.0, linestyle="-.")
-    trace_times, trace = thinned(times, ratio, most)
-    axes.plot(trace_times, level + scale * trace, color="black", linewidth=0.8, label="as given")
+            axes.axhspan(sign * low, sign * high, xmin=0.97, label=label, **look)
+    axes.plot(*thinned(times, ratio), color="black", linewidth=0.8, label="as given")
     impacts = times[1:][ratio[1:] * ratio[:-1] < 0]
-    axes.plot(impacts, np.full(impacts.size, level), "|", color="black", markersize=3, markeredgewidth=0.4)
+    axes.plot(impacts, np.zeros(impacts.size), "|", color="black", markersize=3, markeredgewidth=0.4)
 
 
 def rotation_ratios(response: Response, mechanism: Mechanism) -> tuple[np.ndarray, np.ndarray] | None:
@@ -176,68 +149,6 @@ def moving_span(histories: Iterable[tuple[np.ndarray, np.ndarray]]) -> tuple[flo
     end = float(moving.max())
     margin = 0.05 * (end - begin) + 1e-3
     return max(0.0, begin - margin), end + margin
-
-
-_PERIOD_TICKS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
-"""Periods that a map of energy names, s."""
-
-
-def draw_energy_map(
-    axes: Axes,
-    onsets: np.ndarray,
-    periods: np.ndarray,
-    gains: np.ndarray,
-    pulses: Sequence[Pulse],
-    span: tuple[float, float],
-) -> None:
-    """Draw energy gains (n, m) [m²/s³] over onset (n,) [s] and period (m,) [s], darker for more, with ranked pulses.
-
-    span: the onsets that are shown, s.
-    The periods stand in equal steps of their logarithm, which makes the map a picture of (n, m) pixels.
-    """
-    largest = max(float(gains.max()), np.finfo(float).tiny)
-    darkness = np.sqrt(gains / largest).T  # the root shows the weaker maxima
-    periods_ascend = periods[0] < periods[-1]
-    low, high = np.log10([periods.min(), periods.max()])
-    axes.imshow(
-        darkness if periods_ascend else darkness[::-1],
-        extent=(onsets[0], onsets[-1], low, high),
-        origin="lower",
-        aspect="auto",
-        interpolation="none",
-        cmap="Greys",
-        vmin=0,
-        vmax=1.25,
-    )
-    axes.set_xlim(*span)
-    _draw_ranks(axes, pulses)
-    ticks = [tick for tick in _PERIOD_TICKS if low <= math.log10(tick) <= high]
-    axes.set_yticks([math.log10(tick) for tick in ticks], [f"{tick:g}" for tick in ticks])
-    axes.set(xlabel="onset of the pulse [s]", ylabel="period [s]")
-
-
-def _draw_ranks(axes: Axes, pulses: Sequence[Pulse]) -> None:
-    """Draw a circle and the rank of each pulse; ranks of pulses that lie together stand in one text: "1, 2, 3"."""
-    reach = np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim())
-    together: list[tuple[tuple[float, float], list[int]]] = []
-    for rank, pulse in enumerate(pulses, start=1):
-        place = pulse.start_time, math.log10(pulse.period)
-        axes.plot(*place, "o", color=PULSE, markersize=3.5, fillstyle="none")
-        near = (
-            ranks
-            for (x, y), ranks in together
-            if abs(x - place[0]) < _CLOSE[0] * reach[0] and abs(y - place[1]) < _CLOSE[1] * reach[1]
-        )
-        ranks = next(near, None)
-        if ranks is None:
-            together.append((place, [rank]))
-        else:
-            ranks.append(rank)
-    for place, ranks in together:
-        text = ", ".join(map(str, ranks))
-        look: dict[str, Any] = {"fontsize": 7, "color": PULSE, "bbox": _PAPER}
-        farthest = max(pulses[rank - 1].start_time for rank in ranks)
-        axes.annotate(text, (farthest, place[1]), (4, 3), textcoords="offset points", **look)
 
 
 class CurveBand(NamedTuple):

@@ -135,19 +135,6 @@ def ratio(value: float | None, digits: int = 3) -> str:
     return NOTHING if math.isnan(value) else "rests" if rests(value) else "overturns"
 
 
-def to_spread(value: float, result: Banded) -> str:
-    """Return a rotation ratio of `result` with no more digits, three at most, than the spread of its members has a
-    meaning for: to a tenth of it.
-    """
-    spread = result.rotation_ratio_high - result.rotation_ratio_low
-    if rests(value) or not math.isfinite(value):
-        return ratio(value)
-    if not 0 < spread < math.inf:
-        return number(value, 2)
-    digits = math.floor(math.log10(value)) - math.floor(math.log10(spread)) + 2
-    return number(value, min(max(digits, 1), 3))
-
-
 def chip(verdict: Verdict, share: str = "", text: str = "") -> Chip:
     """Return a verdict on its colour with a share at its right, as the templates set it. text: in another language."""
     _, fill, ink, hatch = LOOKS[verdict]

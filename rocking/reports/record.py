@@ -1,4 +1,4 @@
-"""The report of one record: two pages for a client; with details: true every figure and table behind them."""
+"""The report of one record: two pages for a client."""
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -18,22 +18,17 @@ from rocking.assessment.conclusion import (
     conclusion_in_words,
     conclusions,
     to_check,
-    worst_cases,
 )
 from rocking.assessment.cracks import cracked, crushing_factor, part_cracked
 from rocking.assessment.decide import ORDER, Verdict
 from rocking.assessment.kinds import AssessmentKind
-from rocking.assessment.methods import NEGLIGIBLE, Agreement, agreement
+from rocking.assessment.methods import Agreement, agreement
 from rocking.assessment.rows import (
-    RATIO_COLUMNS,
     ComparisonRow,
     PulseRow,
-    RecordRow,
     RecordRows,
     RemarkRow,
-    StructureRow,
     VerdictRow,
-    structure_rows,
 )
 from rocking.assessment.scene import variants_of
 from rocking.assessment.variants import variants
@@ -44,14 +39,11 @@ from rocking.quantities import GRAVITY, counted, listed, percent, percents
 from rocking.records.formats.text import day_of
 from rocking.remarks import Kind, Remark
 from rocking.reports import printing
-from rocking.reports import record_figures as figures
 from rocking.reports.against import against, comparison_of, sizes_of, traces_of
-from rocking.reports.design_figure import design_figure
 from rocking.reports.drawings import Trace, drawn_by_hand, sine_lines, sketch, svg_path, thinned
 from rocking.reports.kinds import ReportKind
 from rocking.reports.pages import (
     Against,
-    Details,
     Marks,
     Notice,
     Others,
@@ -66,29 +58,20 @@ from rocking.reports.pages import (
     Sine,
     Strip,
     Table,
-    TableCell,
     Topic,
 )
-from rocking.reports.panels import rotation_ratios
 from rocking.reports.printing import (
     MEASURED,
-    Column,
     chip,
-    columns_of,
     compile_document,
     displaying,
     footer_of,
     known_crack,
     number,
     plain,
-    remainder,
-    strong,
-    table_of,
     words,
 )
-from rocking.reports.record_figures import History
-from rocking.reports.style import pictures
-from rocking.reports.supports import SupportPanel, floor_sentences, support_panels, supports_figure
+from rocking.reports.supports import SupportPanel, floor_sentences, support_panels
 from rocking.structures import Structure
 from rocking.structures.crackable import Crackable
 from rocking.structures.kinds import StructureKind
@@ -97,18 +80,14 @@ from rocking.structures.linkage import FRICTION
 if TYPE_CHECKING:
     from rocking.records.design_spectrum import DesignSpectrum
 
-MOST_DRAWN = 10
-"""Structures of the histories and of the reserve, the worst first; the tables hold all."""
+MOST_CARRIED = 10
+"""Structures on supports that page two names, the worst first; supports.csv holds all."""
 MOVED = 0.1
 """Change of a share that is worth telling."""
 MOST_NOTICED = 3
 """Failures that stand above everything; failures.csv holds all."""
 TOLD_FIRST = (StructureKind.RESTITUTION_TYPED, ReportKind.CRUSHING_WOULD_TELL)
 """Remarks on the models that page one says briefly, before their sentences."""
-MOST_PULSES = 3
-"""Ranks of pulses that are printed."""
-MOST_COMPARED = 24
-"""Cases whose comparison is drawn, those with the largest rotations."""
 _TRUST = {
     DOMINATES: "rings and dots agree",
     LEADS: "rings and dots mostly agree",
@@ -191,7 +170,6 @@ class RecordReport:
                 advice=_advice(self),
                 known=_known(self),
                 assumed=Part(heading="What was assumed", topics=tuple(_assumed(self))),
-                details=(_details(self),) if self.settings.details else (),
             )
 
     @cached_property
@@ -244,14 +222,6 @@ class RecordReport:
         """The conclusion on each structure, the worst first."""
         return conclusions(self.tables.verdicts, self.tables.comparison)
 
-    @cached_property
-    def numbers(self) -> dict[str, str]:
-        """The number by which each structure is called, from 1, by name."""
-        names = dict.fromkeys(
-            [*self.structures, *(period_result.structure for period_result in self.result.worst_first)]
-        )
-        return {name: str(place) for place, name in enumerate(names, start=1)}
-
     def called(self, name: str) -> str:
         """Return how a sentence calls a structure: one on a support without its period, as it names many."""
         scene = self.result.scenes.get(name)
@@ -274,31 +244,9 @@ class RecordReport:
         return min(ranked, key=lambda row: row.rank, default=None)
 
     @cached_property
-    def histories(self) -> list[History]:
-        """The rotation of each structure that rocks and whose history was kept, the worst first."""
-        cases = worst_cases(self.tables.comparison)
-        histories = []
-        for period_result in self.result.worst_periods:
-            case = cases.get((self.result.record, period_result.structure, period_result.support_period_s))
-            response = self.result.responses.get(case.case) if case else None
-            if case and response and case.integrated_rotation_ratio > NEGLIGIBLE:
-                crack = (
-                    period_result.cases[case.component].crack if case.component in period_result.cases else ""
-                )
-                mechanism = cracked(self.structures[period_result.structure], crack).mechanism()
-                history = rotation_ratios(response, mechanism)
-                histories += [History(period_result, case, *history)] if history else []
-        return histories
-
-    @cached_property
     def support_panels(self) -> list[SupportPanel]:
         """The supports that carry a structure."""
         return support_panels(self.result)
-
-    @cached_property
-    def labels(self) -> dict[str, str]:
-        """Number and name of each structure, by name."""
-        return {name: f"{number} {name}" for name, number in self.numbers.items()}
 
 
 def _unique(texts: Iterable[str]) -> str:
@@ -692,7 +640,7 @@ def _known(report: RecordReport) -> Part:
         "Dominant sine": _pulse_doubts(report),
         "Closed form": _doubts(report.tables.comparison, several=len(report.motions) > 1),
         "Supports": [
-            *(f"{scene.sentence}." for scene in carried[:MOST_DRAWN]),
+            *(f"{scene.sentence}." for scene in carried[:MOST_CARRIED]),
             *(floor_sentences(report.support_panels) if carried else []),
             *_said(report.remarks, FloorKind.HEAVY_ON_SUPPORT),
         ],
@@ -879,303 +827,3 @@ _BLAME: dict[tuple[bool, ...], str] = {
     ): "neither the block under the whole record nor the mechanism under the pulse gives the right outcome",
 }
 """The cause by whether the block under the record, and the mechanism under the pulse, end as the integration does."""
-
-
-# Pictures and tables ---------------------------------------------------------------------------------------
-
-
-def _details(report: RecordReport) -> Details:
-    """Return the pictures of the worst cases with the sentences that say where the others stand, and the tables."""
-    motions = report.motions
-    labels = report.labels
-    drawable = [
-        period_result
-        for period_result in report.result.worst_periods
-        if period_result.structure in report.structures
-    ]
-    reserves = [period_result for period_result in drawable if period_result.reserve is not None][:MOST_DRAWN]
-    histories = report.histories[:MOST_DRAWN]
-    rotations = (
-        f"Rotation histories of {counted(len(histories), 'structure')} above the acceleration of the ground."
-    )
-    rows = [row for row in report.tables.comparison if row.agreement is not Agreement.UNKNOWN]
-    worst = sorted(rows, key=lambda row: (row.agreement is Agreement.TOO_LOW, row.integrated_rotation_ratio))
-    cases = [row for row in rows if row in worst[-MOST_COMPARED:]]
-    pulses = [motion for motion in motions if motion.pulses]
-    level = report.level
-    tables = report.tables
-    scaled = report.scale_note
-    number_of: Column = ("No.", "auto", "r", lambda row: report.numbers[row.structure])
-    others = remainder(
-        len(report.result.scenes) - len(histories),
-        "structure",
-        "the table of verdicts, at rest or less demanding",
-    )
-    more_cases = remainder(len(rows) - len(cases), "case", "the table of every method")
-    comparison = f"Closed form beside integration of {counted(len(cases), 'case')}."
-    ranked = [row for row in tables.pulses if row.rank <= MOST_PULSES]
-    return Details(
-        histories=_drawn(
-            pictures(figures.histories_figure, histories, rotations, labels, motions),
-            f"{_OF_HISTORIES}{others}{scaled}",
-            heading="What happened",
-        ),
-        reserve=_drawn(
-            pictures(
-                figures.reserve_figure,
-                reserves,
-                "Factors on the record at which 5, 50 and 95 % of the members overturn, by structure.",
-                labels,
-            ),
-            f"{_OF_RESERVE}{_reserve_note(reserves)}",
-        ),
-        supports=_drawn(
-            pictures(
-                supports_figure,
-                report.support_panels,
-                "Share that overturns against the period of the support, and spectra of ground and support.",
-            ),
-            f"{_OF_SUPPORTS}{scaled}",
-            heading="On supports",
-        ),
-        design=_drawn(
-            pictures(design_figure, motions, "Spectra of the components beside the design spectrum.", level)
-            if level
-            else (),
-            f"The spectra of the components, as they acted, beside that of the design level: {level.words}."
-            if level
-            else "",
-        ),
-        pulse_figures=_drawn(
-            pictures(figures.pulses_figure, pulses, "The dominant pulse and its evidence."),
-            f"{_OF_PULSES}{scaled}",
-            heading="How the closed form did",
-            text=_CLOSED_FORM,
-        ),
-        comparison=_drawn(
-            pictures(figures.comparison_figure, cases, comparison, labels, len(motions) > 1),
-            f"{_OF_COMPARISON}{more_cases}{scaled}",
-        ),
-        verdicts=Part(
-            heading="Tables",
-            table=table_of(report.result.worst_first, number_of, *verdict_columns(bool(tables.supports))),
-            caption=f"{_VERDICT_TABLE}{scaled}",
-            size=_LETTERS,
-        ),
-        facts=Part(table=facts_table(tables.record), caption=f"{_FACTS_TABLE}{scaled}", size=_LETTERS),
-        pulses=Part(
-            table=table_of(ranked, *columns_of(PulseRow, PULSE_FIELDS)),
-            caption=f"{_PULSE_TABLE}{scaled}",
-            size=_LETTERS,
-        ),
-        structures=Part(
-            table=table_of(list(structure_rows(report.structures)), number_of, *STRUCTURE_COLUMNS),
-            caption=_STRUCTURE_TABLE,
-        ),
-        methods=Part(
-            table=table_of(
-                tables.comparison,
-                number_of,
-                *_period_column(bool(tables.supports)),
-                *_method_columns(tables.comparison),
-            ),
-            caption=f"{_METHOD_TABLE}{scaled}",
-        ),
-    )
-
-
-def _drawn(drawn: tuple[Picture, ...], caption: str, heading: str = "", text: str = "") -> Part:
-    """The part of some pictures; without heading and text where there are none."""
-    return Part(heading=heading if drawn else "", text=text if drawn else "", pictures=drawn, caption=caption)
-
-
-_OF_HISTORIES = (
-    "Rotation over critical rotation of the mechanism as given, each under the component that turns it farthest, the "
-    "worst first, with the scale of each row beside it, and the ground beneath. Ticks on the line of rest: impacts. "
-    "Bars at the right: largest rotation of 5 to 95 % of the members. Dash-dot: largest rotation by the closed form. "
-    "Orange, on the ground: the dominant pulse."
-)
-_OF_RESERVE = (
-    "By how much the record may be stronger: the factors on it at which 5, 50 and 95 % of the members overturn with "
-    "the crack that governs, the worst structure first. At 1 the record is as it is."
-)
-_OF_SUPPORTS = (
-    "Left: share of the members that overturn against the period of the support, each mark in the colour of its "
-    "verdict; between two periods that were tried nothing is said. Blue: the factor on the record at which half of the "
-    "members would overturn, where there is one. Right: spectra for a damping of 5 % of the ground and of the motion "
-    "on the support at its first, middle and last period (black), and what the formula of the Circolare 7/2019, C7.2.5 "
-    "to C7.2.10, makes of the ground’s own spectrum at the same periods (blue). The support is linear and does not "
-    "feel what stands on it."
-)
-_CLOSED_FORM = (
-    "The closed form knows the record by one full sine cycle of acceleration, the one that explains most of the "
-    "energy, and the structure by its equivalent block."
-)
-_OF_PULSES = (
-    "Left: the dominant pulse in the record. Right: energy of a pulse over its onset and period, darker for more, with "
-    "the ranked pulses of the appendix."
-)
-_OF_COMPARISON = (
-    "Closed form under the pulse, equivalent block under the whole record and mechanism under the whole record. Rests: "
-    "at most a thousandth of the critical rotation. A bold orange line: less is predicted than happens, the unsafe "
-    "side."
-)
-_VERDICT_TABLE = (
-    "What becomes of each structure over all components, the worst first: verdict, share of the members that overturn "
-    "(two numbers: of the crack that statics chooses and of the worst), and the largest rotation over the critical "
-    "rotation as given and as 5, 50 and 95 % of the members have it. Overturns at 95 %: more than 5 % of the members "
-    "do. Rests: at most a thousandth of the critical rotation. Digits follow the spread."
-)
-_FACTS_TABLE = (
-    "What was read, done and measured. Velocity and displacement are integrals of the acceleration from rest; the "
-    "velocity pulse is that of Shahi and Baker (2014), its orientation counted from the first component towards the "
-    "second; pulse period ratio: dominant sine pulse over velocity pulse."
-)
-_PULSE_TABLE = (
-    "Pulses ranked on the record (alternative) and pursued on the residual (sequence). The first three of each; "
-    "pulses.csv holds all. Gain ratio: energy over that of the dominant pulse; close to 1, two pulses compete. "
-    "Explained energy: share of the acceleration energy."
-)
-_STRUCTURE_TABLE = (
-    "The structures and their equivalent blocks. Frequency parameter: of the source paper’s block, linearised "
-    "about the critical rotation, and of ours, which is exact at rest and predicts unless the settings name the other. "
-    "Scales of acceleration: linearised about the critical rotation, and set to keep the true uplift acceleration. "
-    "Defects: by how much the block that is exact at rest misses the restoring acceleration up to the critical "
-    "rotation, at most (from 1 on it is no block), and by how much the forcing grows, which it leaves out (above 0: "
-    "unsafe)."
-)
-_METHOD_TABLE = (
-    "Largest rotation over critical rotation by each method, from the closed form of the equivalent block under the "
-    "pulse to the mechanism under the whole record; the block is the one of the settings, followed exactly; in front "
-    "of them pulse amplitude over uplift acceleration and pulse frequency over frequency parameter, behind them when "
-    "the mechanism turns farthest, its impacts, the friction coefficient that its contacts need, and whether one of "
-    "them slides or bounces. Dash: the method gave nothing."
-)
-
-
-def _reserve_note(period_results: Sequence[PeriodResult]) -> str:
-    """Say of which structures the reserve is that of a mechanism which knows less than may happen; "" of none."""
-    doubtful = [period_result.structure for period_result in period_results if period_result.reserve_doubts]
-    if not doubtful:
-        return ""
-    return (
-        f" It is that of the mechanism and may be too high for {listed(doubtful)}, whose contacts open or "
-        "whose courses may be thrown."
-    )
-
-
-FACTS = (
-    "event station file format unit licence scale_factor samples time_step_s duration_s high_pass_frequency_hz "
-    "processing peak_acceleration_m_s2 rotd50_peak_acceleration_m_s2 rotd100_peak_acceleration_m_s2 peak_velocity_m_s "
-    "peak_displacement_m arias_intensity_m_s significant_duration_s velocity_pulse_period_s velocity_pulse_azimuth_deg "
-    "velocity_pulse_orientation_rad velocity_pulse_peak_velocity_m_s velocity_pulse_indicator pulse_period_ratio "
-    "vertical_component vertical_peak_acceleration_m_s2"
-)
-"""Fields of the record table that a report shows."""
-
-
-def facts_table(rows: Sequence[RecordRow]) -> Table:
-    """Return what was read, done and measured: one column per component, or two columns of facts for a single one."""
-    facts = [[head, *map(show, rows)] for head, _, _, show in columns_of(RecordRow, FACTS)]
-    facts = [texts for texts in facts if set(texts[1:]) != {printing.NOTHING}]
-    if len(rows) == 1:
-        facts += [["", ""]] * (len(facts) % 2)
-        half = len(facts) // 2
-        columns = [("", "auto", "l"), ("", "1", "l")] * 2
-        return printing.table(
-            columns, [left + right for left, right in zip(facts[:half], facts[half:], strict=True)]
-        )
-    components = [(f"Component {words(row.component)}", "1", "l") for row in rows]
-    return printing.table([("", "auto", "l"), *components], facts)
-
-
-def _period_column(has_supports: bool) -> list[Column]:
-    """The column of the period of the support, where a structure stands on one."""
-    return [("T_b [s]", "auto", "r", lambda row: number(row.support_period_s))] if has_supports else []
-
-
-def verdict_columns(has_supports: bool) -> list[Column]:
-    """Return the columns of the table of verdicts, with the period of the support where a structure stands on one."""
-    structure, *others = VERDICT_COLUMNS
-    return [structure, *_period_column(has_supports), *others]
-
-
-VERDICT_COLUMNS: list[Column] = [
-    *columns_of(VerdictRow, "structure=1.4"),
-    (
-        "Verdict",
-        "0.8",
-        "l",
-        lambda period_result: strong(
-            str(period_result.decision.word), not period_result.decision.word.stays_up
-        ),
-    ),
-    ("Share that overturns", "0.75", "l", lambda period_result: words(period_result.decision.share_in_words)),
-    (
-        "As given",
-        "0.7",
-        "l",
-        lambda period_result: printing.to_spread(period_result.rotation_ratio, period_result.ensemble),
-    ),
-    (
-        "5 %",
-        "0.65",
-        "r",
-        lambda period_result: printing.to_spread(
-            period_result.ensemble.rotation_ratio_low, period_result.ensemble
-        ),
-    ),
-    (
-        "50 %",
-        "0.65",
-        "r",
-        lambda period_result: printing.to_spread(
-            period_result.ensemble.rotation_ratio_median, period_result.ensemble
-        ),
-    ),
-    (
-        "95 %",
-        "0.65",
-        "r",
-        lambda period_result: printing.to_spread(
-            period_result.ensemble.rotation_ratio_high, period_result.ensemble
-        ),
-    ),
-    *columns_of(VerdictRow, "direction=1.1 polarity=0.75"),
-]
-STRUCTURE_COLUMNS: list[Column] = [
-    (
-        "Structure, type and geometry",
-        "2.5",
-        "l",
-        lambda row: TableCell(row.structure, True, f"{words(row.type)}: {row.geometry}"),
-    ),
-    *columns_of(
-        StructureRow,
-        "frequency_parameter_rad_s=1.05 frequency_parameter_at_rest_rad_s=1.05 critical_rotation_rad=0.95 "
-        "uplift_multiplier=1.05 "
-        "acceleration_scale_linearised=1.2 acceleration_scale_uplift=1.2 restitution=1.15 restoring_defect=1 "
-        "forcing_defect=0.9",
-    ),
-]
-PULSE_FIELDS = (
-    "component=auto kind=auto rank=auto amplitude_m_s2 period_s start_time_s gain_ratio explained_energy "
-    "effective_length_m"
-)
-"""Fields of the table of pulses that a report shows."""
-
-
-def _method_columns(rows: Sequence[ComparisonRow]) -> list[Column]:
-    """Every method that gave anything, and the columns behind them."""
-    heads = {RATIO_COLUMNS[method]: head for method, head in printing.METHODS.items()}
-    names = [name for name in heads if not all(math.isnan(getattr(row, name)) for row in rows)]
-    of_methods = columns_of(ComparisonRow, " ".join(names), "0.92")
-    return [
-        ("Comp.", "0.55", "l", lambda row: words(row.component)),
-        ("a [-]", "0.45", "r", lambda row: number(row.amplitude_ratio)),
-        ("ω/p [-]", "0.45", "r", lambda row: number(row.frequency_ratio)),
-        *((heads[name], *column[1:]) for name, column in zip(names, of_methods, strict=True)),
-        *columns_of(
-            ComparisonRow, "peak_time_s=0.45 impacts=0.7 required_friction slides=0.5 bounces=0.75", "0.65"
-        ),
-    ]

@@ -61,7 +61,7 @@ _PLAIN = " ./,+=()[]'_-"
 
 TABLE: Mapping[str, Line] = {
     "record": Line(
-        (*TOLD, "reports", "details", "figures", "histories", "design_spectrum"),
+        (*TOLD, "reports", "figures", "histories", "design_spectrum"),
         files=("design_spectrum.points",),
         documents=False,
     ),

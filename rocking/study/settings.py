@@ -292,12 +292,6 @@ class Settings(AssessmentSettings):
         heading=Heading.OUTPUT,
         changes_numbers=False,
     )
-    details: bool = described(
-        False,
-        "whether the report of each record continues after its two pages with every figure and table",
-        heading=Heading.OUTPUT,
-        changes_numbers=False,
-    )
     display_units: Literal["SI", "g and cm"] = described(
         "SI",
         "how reports show accelerations, velocities and displacements: in SI units as the tables do, or in g and cm",

@@ -166,7 +166,6 @@ EDITS: list[Edit] = [
     ("author", _setting(author="Somebody"), "a b S C M"),
     ("date", _setting(date="1 May"), "a b S C M"),
     ("display_units", _setting(display_units="g and cm"), "a b S C M"),
-    ("details", _setting(details=True), "a b S C M"),
     ("figures", _setting(figures="svg"), "a b S C F T M"),
     ("language", _setting(language="it"), "S C"),
     # Where files lie changes nothing; what lies there does.

@@ -200,7 +200,6 @@ RUNS: dict[str, tuple[Callable[[SmallStudy], object], ...]] = {
     "content of a record": (_other_content,),
     "order of the records": (_order,),
     "tolerance": (_settings(tolerance=1e-7),),
-    "details": (_settings(details=True),),
     "two edits before one run": (_both(_settings(study="A town", tolerance=1e-7), _record_less),),
 }  # fmt: skip
 

@@ -129,11 +129,6 @@ def example() -> RecordReport:
     return assessed("one", [shaken(station="STA", event="An event")], structures)
 
 
-def detailed(report: RecordReport) -> RecordReport:
-    """The report of a study that asks for the details."""
-    return replace(report, settings=replace(report.settings, details=True))
-
-
 @pytest.fixture(scope="package")
 def hostile() -> RecordReport:
     """Hostile names everywhere, two components, a declared scale factor."""

@@ -1,6 +1,5 @@
-"""Drawings of structures and the figures of a record, read back from what was drawn."""
+"""Drawings of structures and of the ground, read back from what was drawn."""
 
-import itertools
 import math
 import re
 from dataclasses import replace
@@ -9,25 +8,12 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from rocking.assessment.decide import Verdict
-from rocking.assessment.methods import Agreement
-from rocking.pulses import Pulse
-from rocking.records import Accelerogram
 from rocking.records.measures import record_measures
-from rocking.reports.drawings import MOST_POINTS, Trace, draw_structure, fallen_rotation, thinned
+from rocking.reports.drawings import MOST_POINTS, draw_structure, fallen_rotation, thinned
 from rocking.reports.explore import drawings
 from rocking.reports.record import ground_strip, structure_row
-from rocking.reports.record_figures import (
-    History,
-    comparison_figure,
-    histories_figure,
-    pulses_figure,
-)
-from rocking.reports.style import COMMON, TEXT_WIDTH, glyphs
+from rocking.reports.style import COMMON, glyphs
 from rocking.structures import Arch, Block, Facade, LoadedWall, Wall
-from tests.unit.assessment.made_rows import compared
-
-from .conftest import judged
 
 STRUCTURES = [Block.of_size(1.0, 4.0), Wall(1.6, 1.4, 0.4), Arch(10, 1.5, 2.75)]
 
@@ -113,72 +99,12 @@ def test_a_wall_is_drawn_as_fallen_by_the_rotation_of_the_side_it_falls_to():
     assert fallen_rotation(wall, -1) == pytest.approx(-share * back.critical_rotation, rel=1e-12)
 
 
-def test_the_map_of_energy_is_darkest_where_the_pulse_begins_and_marks_it_there():
-    pulse = Pulse(amplitude=4.0, circular_frequency=2 * np.pi / 0.9, start_time=5.0)
-    record = Accelerogram(pulse.acceleration(np.arange(3000) * 0.01), 0.01)
-    energy = pulses_figure([Trace(record, [pulse])]).axes[1]
-    (picture,) = energy.images
-    gains, (left, right, low, high) = picture.get_array(), picture.get_extent()
-    row, column = np.unravel_index(gains.argmax(), gains.shape)
-    rows, columns = gains.shape
-    across, up = left + (column + 0.5) / columns * (right - left), low + (row + 0.5) / rows * (high - low)
-    # two columns, of 0.12 s, and a row
-    assert (across, up) == pytest.approx((5.0, np.log10(0.9)), abs=0.24)
-    assert up == pytest.approx(np.log10(0.9), abs=(high - low) / rows)
-    assert energy.lines[0].get_xydata()[0] == pytest.approx((5.0, np.log10(0.9)))
-
-
-def test_each_history_fills_its_row_in_the_order_of_the_names(example):
-    times, ratios = np.arange(4.0), np.array([0.0, 0.4, -0.2, 0.0])
-    rows = [
-        History(
-            judged(Verdict.STANDS, 0.4, structure=name),
-            compared("EW", 0.4, predicted_rotation_ratio=0.2),
-            times,
-            ratios,
-        )
-        for name in "abc"
-    ]
-    panel = histories_figure(rows, {name: name for name in "abc"}, example.motions).axes[0]
-    traces = [line.get_ydata() for line in panel.lines if line.get_label() == "as given"]
-    for level, trace, name in zip((0, -1, -2), traces, "abc", strict=True):
-        assert level + 0.3 < trace.max() < level + 0.5 and trace.min() > level - 0.5
-        assert any(text.get_position()[1] == level and text.get_text()[0] == name for text in panel.texts)
-        assert panel.get_ylim()[0] < level < panel.get_ylim()[1]
-
-
-def test_a_prediction_that_misses_the_overturning_is_bold_and_overturning_in_the_picture():
-    cases = [
-        compared("EW", 0.3, predicted_rotation_ratio=0.4, agreement=Agreement.SAME),
-        compared("NS", math.inf, predicted_rotation_ratio=0.1, agreement=Agreement.TOO_LOW),
-    ]
-    panel = comparison_figure(cases, {"pier": "pier"}, several=True).axes[0]
-    bold = max(panel.collections, key=lambda each: each.get_linewidth()[0])
-    (ends,) = bold.get_segments()
-    assert ends[:, 1].tolist() == [1, 1] and ends[0, 0] == pytest.approx(0.1)
-    assert ends[1, 0] < panel.get_xlim()[1]
-
-
-def test_every_panel_stands_in_its_figure_and_shows_all_of_what_it_draws(example):
-    """No panel on another or over the edge; no point of a trace beyond its limits."""
+def test_a_trace_spans_the_shaking_and_its_pulse_with_a_margin(example):
     (motion,) = example.motions
     measured = record_measures(motion.accelerogram).significant_times
     begin, end = min(measured[0], motion.pulses[0].start_time), max(measured[1], motion.pulses[0].end_time)
     margin = 0.15 * (end - begin)
     assert motion.span == pytest.approx((max(0.0, begin - margin), end + margin))
-    figure = pulses_figure([motion, motion])
-    assert figure.get_figwidth() * 25.4 == pytest.approx(TEXT_WIDTH)
-    boxes = [axes.get_position() for axes in figure.axes]
-    assert all(0 <= box.xmin < box.xmax <= 1 and 0 <= box.ymin < box.ymax <= 1 for box in boxes)
-    assert not any(one.overlaps(other) for one, other in itertools.combinations(boxes, 2))
-    for axes in figure.axes:
-        (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
-        heights = np.concatenate(
-            [line.get_ydata() for line in axes.lines if line.get_transform() == axes.transData] or [[low]]
-        )
-        assert low <= heights.min() and heights.max() <= high
-        places = [text.get_position()[0] for text in axes.texts if text.get_transform() == axes.transData]
-        assert all(left <= place <= right for place in places)
 
 
 def test_a_front_is_drawn_on_its_way_down_to_three_times_the_critical_rotation_of_each_side():

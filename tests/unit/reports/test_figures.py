@@ -13,12 +13,10 @@ from rocking.reports.pages import PlainPage
 from rocking.reports.printing import figures_archive, write_document
 from tests.unit.assessment.made_rows import filled
 
-from .conftest import detailed
-
 
 @pytest.fixture(scope="module")
 def data(example):
-    return detailed(example).page()
+    return example.page()
 
 
 def opened(content):

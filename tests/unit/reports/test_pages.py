@@ -140,7 +140,6 @@ def test_a_template_reads_each_field_of_its_page_and_no_other(page: type[Page]) 
         ("for picture in page_one.trace", "for row in page_one.trace"),
         ("page_one.rows.map(row =>", "page_one.others.map(row =>"),
         ("page_one.legend", "page_one.legends"),
-        ("details.facts", "details.fact"),
     ],
 )
 def test_a_mistake_in_a_template_is_found(before: str, after: str) -> None:

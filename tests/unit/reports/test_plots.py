@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 import rocking
 from rocking.assessment.rows import ComparisonRow, PulseRow
-from rocking.reports.panels import draw_energy_map, draw_rotation, rotation_ratios
+from rocking.reports.panels import draw_rotation, rotation_ratios
 from rocking.reports.scatter import prediction_scatter
 from rocking.reports.style import (
     elided,
@@ -119,16 +119,15 @@ def test_a_rotation_is_drawn_over_the_critical_one_of_its_side(left, right):
     assert 0 < np.abs(ratios).max() == pytest.approx(response.rotation_ratio, rel=1e-3)
 
 
-def test_rotations_of_several_records_in_one_panel_stand_at_their_level_in_their_scale():
-    """Rest at 3, a ratio of 1 two units high: prediction on both sides, band up to a ratio of 1, an impact at 2 s."""
+def test_a_history_is_drawn_with_its_impacts_and_the_band_of_its_members_up_to_a_ratio_of_1():
     axes = Figure().subplots()
     times, ratio = np.arange(5.0), np.array([0.0, 0.5, -0.25, -0.5, -0.1])
-    draw_rotation(axes, (times, ratio), predicted=0.4, band=(0.2, 1.7), place=(3.0, 2.0))
-    drawn = [np.unique(line.get_ydata()).tolist() for line in axes.lines]
-    assert drawn[:3] == [[3.0], [3.8], [2.2]] and drawn[3] == sorted(3.0 + 2.0 * ratio)
-    assert (axes.lines[-1].get_xdata().tolist(), drawn[-1]) == ([2.0], [3.0])
+    draw_rotation(axes, (times, ratio), band=(0.2, 1.7))
+    _, history, impacts = axes.lines
+    assert np.array_equal(history.get_ydata(), ratio)
+    assert (impacts.get_xdata().tolist(), impacts.get_ydata().tolist()) == ([2.0], [0.0])
     bars = [each.get_window_extent().transformed(axes.transData.inverted()) for each in axes.patches]
-    assert [[bar.ymin, bar.ymax] for bar in bars] == [pytest.approx([3.4, 5.0]), pytest.approx([1.0, 2.6])]
+    assert [[bar.ymin, bar.ymax] for bar in bars] == [pytest.approx([0.2, 1.0]), pytest.approx([-1.0, -0.2])]
 
 
 def test_each_case_stands_in_the_quadrant_of_who_says_that_it_falls():
@@ -233,34 +232,6 @@ def test_frames_hold_the_numbers_under_names_with_units():
     pulses = PLOTTED["analysis"].frame()
     assert len(pulses) == len(PLOTTED["analysis"].ranked)
     assert pulses.period_s[0] == pytest.approx(0.9, rel=1e-6)
-
-
-def test_the_map_of_energy_spans_the_onsets_and_periods_that_it_shows():
-    """In seconds from left to right, and in the logarithm of the period from below."""
-    axes = Figure().subplots()
-    onsets, periods = np.linspace(2.0, 9.0, 8), np.geomspace(5.0, 0.2, 6)
-    gains = np.outer(np.arange(8.0), np.ones(6))
-    draw_energy_map(axes, onsets, periods, gains, [PULSE], (2.0, 9.0))
-    (image,) = axes.images
-    assert image.get_extent() == pytest.approx([2.0, 9.0, np.log10(0.2), np.log10(5.0)])
-    (mark,) = axes.lines
-    assert [float(each[0]) for each in mark.get_data()] == pytest.approx(
-        [PULSE.start_time, np.log10(PULSE.period)]
-    )
-
-
-def test_ranks_of_pulses_that_lie_together_stand_in_one_text():
-    axes = Figure().subplots()
-    together = [
-        rocking.Pulse(amplitude=4.0, circular_frequency=2 * np.pi / 0.9, start_time=start)
-        for start in (3.0, 3.1)
-    ]
-    apart = rocking.Pulse(amplitude=4.0, circular_frequency=2 * np.pi / 0.9, start_time=7.0)
-    onsets, periods = np.linspace(2.0, 9.0, 8), np.geomspace(5.0, 0.2, 6)
-    pulses = [together[0], apart, together[1]]
-    draw_energy_map(axes, onsets, periods, np.ones((8, 6)), pulses, (2.0, 9.0))
-    assert [each.get_text() for each in axes.texts] == ["1, 3", "2"]
-    assert len(axes.lines) == 3
 
 
 def test_a_name_is_cut_by_its_width_and_not_by_its_letters():

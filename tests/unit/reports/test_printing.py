@@ -1,7 +1,6 @@
 """How cells are printed."""
 
 import math
-from types import SimpleNamespace
 
 import pytest
 
@@ -45,18 +44,6 @@ def test_a_column_has_the_heading_unit_and_digits_of_its_field():
     assert [column[0] for column in columns] == heads
     assert [column[1] for column in columns] == ["auto", "0.8", "0.8", "0.8", "0.8"]
     assert "".join(side for *_, side, _ in columns) == "lrrrr"
-
-
-@pytest.mark.parametrize(
-    ("value", "spread", "printed"),
-    [
-        (0.123456, 0.2, "0.12"), (0.123456, 0.02, "0.123"), (0.123456, 0.0002, "0.123"), (0.0512, 0.5, "0.05"),
-        (0.0512, 5.0, "0.05"), (0.2345, 0.0, "0.23"), (0.2345, math.inf, "0.23"),
-    ],
-)  # fmt: skip
-def test_a_ratio_has_no_more_digits_than_a_tenth_of_its_spread(value, spread, printed):
-    judgement = SimpleNamespace(rotation_ratio_low=0.1, rotation_ratio_high=0.1 + spread)
-    assert printing.to_spread(value, judgement) == printed
 
 
 def crack(falls: int) -> CrackFacts:

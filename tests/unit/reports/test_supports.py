@@ -1,6 +1,5 @@
-"""What a report says of structures on supports: the first lines, the share by period, the spectra."""
+"""What a report says of structures on supports: the first lines and the share by period."""
 
-import math
 from dataclasses import replace
 
 import matplotlib.pyplot as plt
@@ -8,7 +7,6 @@ import numpy as np
 import pytest
 
 from rocking.assessment.assessor import Assessor
-from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import rows_of_record
 from rocking.assessment.scene import Scene, on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
@@ -16,8 +14,7 @@ from rocking.floors.place import place_from_config
 from rocking.records import Accelerogram
 from rocking.reports.pages import PageSettings
 from rocking.reports.record import RecordReport
-from rocking.reports.style import PREDICTED
-from rocking.reports.supports import shares_by_period_figure, support_panels, supports_figure
+from rocking.reports.supports import shares_by_period_figure
 from rocking.structures import Block
 
 STEP = 0.01
@@ -53,42 +50,6 @@ def test_the_page_after_the_first_says_it_once_for_all_periods_and_page_one_name
     assert row.below.endswith(f"; T_b {worst.support_period_s:.3g}\u00a0s")
 
 
-def test_the_reserve_stands_on_a_scale_of_its_own_for_each_period(report):
-    """A factor that is not reached leaves a gap."""
-    (panel,) = support_panels(report.result)
-    (structure,) = panel.structures
-    factors = [math.nan, *np.linspace(0.4, 2.0, len(structure.periods) - 1)]
-    stations = [
-        each.with_reserve(Reserve(low=0.3, median=factor, high=math.nan, limit=3.0))
-        for each, factor in zip(structure.periods, factors, strict=True)
-    ]
-    factors = [each.reserve.median for each in stations]  # held to the share at the record itself
-    figure = supports_figure([replace(panel, structures=[replace(structure, periods=tuple(stations))])])
-    (line,) = [line for axes in figure.axes for line in axes.get_lines() if line.get_marker() == "x"]
-    assert list(line.get_xdata()) == list(structure.first_periods)
-    np.testing.assert_array_equal(line.get_ydata(), factors)
-    assert line.axes.get_ylim() == (0.0, 3.0)
-    plt.close(figure)
-
-
-def test_the_figure_draws_the_cells_of_the_table(report):
-    panels = support_panels(report.result)
-    figure = supports_figure(panels)
-    shares, spectra, *_ = figure.axes
-    (line,) = [each for each in shares.get_lines() if len(each.get_xdata()) > 1]
-    rows = report.tables.supports
-    assert list(line.get_xdata()) == [row.support_period_s for row in rows]
-    assert list(line.get_ydata()) == [row.overturning_share for row in rows]
-    assert len(rows) > 3
-    ground, first, *_ = spectra.get_lines()
-    # ground, three floors, the code's spectrum of each, and the entry of the legend
-    code = [line for line in spectra.get_lines() if line.get_color() == PREDICTED and len(line.get_xdata())]
-    assert len(code) == 3 and len(spectra.get_lines()) == 1 + 3 + 3 + 1
-    # at long periods a floor moves as the ground does
-    assert first.get_ydata()[-1] == pytest.approx(ground.get_ydata()[-1], rel=0.1)
-    plt.close(figure)
-
-
 def test_amplification_is_that_of_the_peaks(report):
     ground = report.result.components[0].accelerogram.peak_acceleration
     rows = report.tables.supports
@@ -117,9 +78,7 @@ def test_a_support_without_damping_has_no_spectrum_of_the_code():
     rows = rows_of_record(result)
     assert np.isnan(rows.supports[-1].code_spectral_acceleration_m_s2)
     assert rows.supports[-1].floor_spectral_acceleration_m_s2 > 0
-    settings = PageSettings(details=True)
-    (rest,) = RecordReport(result, rows, structures, settings).page().details
-    assert rest.supports.pictures
+    assert RecordReport(result, rows, structures, PageSettings()).page().known.topics
 
 
 def test_the_mean_share_over_the_records_stands_over_the_period_from_zero_on(report):

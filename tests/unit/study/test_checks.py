@@ -5,7 +5,6 @@ import math
 import zipfile
 from dataclasses import replace
 from io import BytesIO
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -477,18 +476,6 @@ def test_the_page_to_sign_carries_the_caveat_of_page_one(study, monkeypatch):
     assert caveat
     assert signed["parapet"].endswith(f"{caveat}.")
     assert caveat not in signed["front"]
-
-
-def test_the_report_of_a_record_draws_the_design_level_beside_its_spectra(study):
-    from rocking.reports.design_figure import design_figure
-
-    settings, _ = study
-    level = read_settings(settings | DESIGN).design_spectrum.spectrum()
-    record = next(iter(made_pool(1).values()))[0]
-    (axes,) = design_figure([SimpleNamespace(accelerogram=record)], level).axes
-    target = next(line for line in axes.lines if line.get_label() == "design level")
-    assert target.get_ydata() == pytest.approx(level.acceleration(target.get_xdata()))
-    assert read_settings(settings).design_spectrum.spectrum() is None
 
 
 def test_a_ratio_of_what_hardly_moves_says_that_it_is_large():
