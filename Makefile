@@ -18,7 +18,7 @@ ENGINE := openquake-engine==3.26.2
 # Tests start many processes, and each would compile the whole package again to bytecode.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: all run setup slurm openquake test test-runs test-all bench trace check check-research schema measured paper documentation wheel release lock clean
+.PHONY: all run setup slurm openquake test test-runs test-all bench trace check near check-research schema measured paper documentation wheel release lock clean
 
 all: run
 
@@ -76,8 +76,11 @@ check: $(TOOLS)
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy rocking
 	$(BIN)/snakefmt --check Snakefile workflow
-	$(BIN)/python -m pytest -q -n 0 tests/contracts/test_columns.py tests/contracts/test_docstrings.py \
-	  tests/unit/reports/test_pages.py
+
+# The tests that import what has changed since the commit SINCE.
+SINCE ?= HEAD
+near: $(TOOLS)
+	tests=$$($(BIN)/python -m tests.near $(SINCE)) && { [ -z "$$tests" ] || $(BIN)/python -m pytest -q -n 0 $$tests; }
 
 # The scripts of the research, which are no part of the package.
 check-research: $(TOOLS)

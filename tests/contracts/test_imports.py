@@ -80,14 +80,20 @@ HOMES = homes()
 @cache
 def imported(module: str) -> frozenset[str]:
     """Names of everything that a module imports, of the package's own the modules, through its root or not."""
+    return frozenset(map(owner, names_in(MODULES[module]))) - set(DRAWN)
+
+
+@cache
+def names_in(path: Path) -> frozenset[str]:
+    """What a file imports, each name with that of its module."""
     names = set()
-    for node in ast.walk(ast.parse(MODULES[module].read_text(encoding="utf-8"))):
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
             names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
-            assert not node.level, f"{module}: relative import"
+            assert not node.level or not path.is_relative_to(PACKAGE), f"{path}: relative import"
             names |= {f"{node.module}.{alias.name}" for alias in node.names}
-    return frozenset(map(owner, names)) - set(DRAWN)
+    return frozenset(names)
 
 
 def owner(name: str) -> str:
