@@ -1,4 +1,4 @@
-"""What each template is given: one frozen dataclass a page, of which it reads every field and no other (a test).
+"""What each template is given: one frozen dataclass a page, of which it reads every field and no other.
 
 A class of a page names the variable of the template that holds it: a `Row` is `row` there, a `TableCell` `table_cell`.
 """
