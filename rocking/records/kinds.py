@@ -108,6 +108,8 @@ class RecordKind(Kind):
     DIRECTION_CONTRADICTED = auto(), """The header of {about} gives the direction {direction}, which the
         channel code contradicts; the header is followed: check which of the two is right, and name the
         horizontal ones in the column component."""
+    ORIENTATION_UNKNOWN = auto(), """The StationXML says that the orientation of {about} is not known: its azimuth
+        is not used."""
     SOME_MAY_BE_VERTICAL = auto(), """Of the {channels} channels {names} may be vertical, because nothing says
         which one is: name the horizontal ones in the column component of the catalogue, or as --component."""
     LONE_MAY_BE_VERTICAL = auto(), """The direction of the component {about} is unknown, because its name is

@@ -108,7 +108,10 @@ def _from_trace(
     source = Source(format="obspy", unit=declared or "m/s2")
     # A step of single precision is stored as 0.0199999996, and that of a rate as 0.0100000000001.
     step = float(f"{stats.delta:.{6 if form == 'SAC' else 9}g}")
-    return Accelerogram(samples, step, source=source, **directed(fields))
+    fields = directed(fields)
+    if RecordKind.ORIENTATION_UNKNOWN in {doubt.kind for doubt in doubts}:
+        fields["azimuth"] = None  # nor does the code of the channel say it
+    return Accelerogram(samples, step, source=source, **fields)
 
 
 @dataclass(frozen=True, eq=False)

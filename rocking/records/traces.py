@@ -27,6 +27,9 @@ def joined(result: Any) -> Any:
     Raises RecordError at a gap, naming where it is.
     """
     order = list(dict.fromkeys(trace.id for trace in result))
+    numeric = [trace for trace in result if trace.data.dtype.kind in "iuf"]
+    result.traces = numeric or result.traces  # a recorder may log text next to its channels
+    _level_rates(result)
     try:
         result = result.merge(method=0)
     except Exception as error:
@@ -46,6 +49,20 @@ def joined(result: Any) -> Any:
         trace.data = np.ma.getdata(trace.data)
     result.traces.sort(key=lambda trace: order.index(trace.id))  # which joining sorts by name
     return result
+
+
+_DRIFT = 0.1
+"""Samples by which the pieces of a channel whose rates are rounded otherwise may drift apart."""
+
+
+def _level_rates(result: Any) -> None:
+    """Give the pieces of each channel one rate where theirs differ by less than any of them could show."""
+    first: dict[str, Any] = {}
+    for trace in result:
+        rate = first.setdefault(trace.id, trace).stats.sampling_rate
+        drift = abs(trace.stats.sampling_rate / rate - 1) * trace.stats.npts
+        if 0 < drift < _DRIFT:
+            trace.stats.sampling_rate = rate
 
 
 _PREFIXES = {"N": 1e-9, "NANO": 1e-9, "U": 1e-6, "MICRO": 1e-6, "M": 1e-3, "C": 1e-2, "K": 1e3, "": 1.0}
@@ -88,6 +105,8 @@ def calibrated(trace: Any, inventory: Any, response: str) -> Calibrated:
     inventory: obspy's; None where the trace holds its response itself. Raises RecordError where none can be removed.
     """
     stats = trace.stats
+    if inventory is not None:
+        _check_epochs(trace, inventory)
     try:
         of = stats.response if inventory is None else inventory.get_response(trace.id, stats.starttime)
         units = str(of.instrument_sensitivity.input_units)
@@ -121,6 +140,39 @@ def calibrated(trace: Any, inventory: Any, response: str) -> Calibrated:
             "M/S or M/S**2, or take response: sensitivity.",
         )
     return _by_response(trace, inventory)
+
+
+def _channels_at(trace: Any, inventory: Any) -> Any:
+    """Return the descriptions of a trace that hold at its start."""
+    network, station, location, channel = trace.id.split(".")
+    stations = (each for net in inventory if net.code == network for each in net if each.code == station)
+    return [
+        each
+        for of_station in stations
+        for each in of_station
+        if (each.code, each.location_code) == (channel, location)
+        and each.is_active(time=trace.stats.starttime)
+    ]
+
+
+def _check_epochs(trace: Any, inventory: Any) -> None:
+    """Raise RecordError where a StationXML gives a channel two sensitivities or directions at one time."""
+    said = {}
+    for each in _channels_at(trace, inventory):
+        if each.response and (of := each.response.instrument_sensitivity):
+            points = f"azimuth {each.azimuth:g}°" if each.azimuth is not None else "no azimuth"
+            words = f"{of.value:g} counts per {of.input_units}, {points}"
+            said.setdefault(words, f"{words} (from {each.start_date})")
+    if len(said) > 1:
+        raise RecordError.naming(
+            "inventory",
+            trace.id,
+            f"the StationXML describes {trace.id} at {trace.stats.starttime} twice, as {' and as '.join(said.values())};"
+            " take out the epoch that does not hold.",
+        )
+
+
+_NO_ORIENTATION = re.compile(r"(?i)orientation[^.;]*\b(not known|unknown|uncertain)|unknown orientation")
 
 
 def _by_sensitivity(trace: Any, per_unit: float, order: int) -> Calibrated:
@@ -216,18 +268,25 @@ def site(trace: Any, inventory: Any) -> dict[str, Any]:
     """Return where a trace was recorded, as far as the inventory says it, as fields of an Accelerogram.
 
     Azimuth, latitude and longitude [degrees], elevation [m], whether it is vertical (by its dip) and down-hole; as its
-    warnings whether it is tilted.
+    warnings whether it is tilted, and whether nobody knows its orientation: then the azimuth is left out.
     """
     facts: dict[str, Any] = {}
     with suppress(Exception):  # obspy raises what it likes for what is not there
+        said = " ".join(note.value for each in _channels_at(trace, inventory) for note in each.comments)
+        is_unknown = bool(_NO_ORIENTATION.search(said))
         orientation = inventory.get_orientation(trace.id, trace.stats.starttime)
-        if orientation.get("azimuth") is not None:
+        dip = float(orientation.get("dip") or 0.0)
+        warnings: tuple[Remark, ...] = ()
+        if is_unknown and abs(dip) <= STEEP:
+            warnings = (Remark(RecordKind.ORIENTATION_UNKNOWN, trace.id),)
+        elif orientation.get("azimuth") is not None:
             facts["azimuth"] = float(orientation["azimuth"]) % 360
         if orientation.get("dip") is not None:
-            dip = float(orientation["dip"])
             facts["vertical"] = abs(dip) > STEEP
             if min(abs(dip), abs(90 - abs(dip))) > _TILTED:
-                facts["warnings"] = (Remark.of(RecordKind.TILTED, trace.id, dip_deg=dip),)
+                warnings = (*warnings, Remark.of(RecordKind.TILTED, trace.id, dip_deg=dip))
+        if warnings:
+            facts["warnings"] = warnings
     with suppress(Exception):
         place = inventory.get_coordinates(trace.id, trace.stats.starttime)
         facts |= {name: float(place[name]) for name in ("latitude", "longitude", "elevation")}

@@ -4,7 +4,8 @@ import io
 
 import numpy as np
 import pytest
-from obspy import Stream, Trace, read_inventory
+from obspy import Stream, Trace, UTCDateTime, read_inventory
+from obspy.core.inventory import Comment, Inventory, Network
 
 from rocking.errors import RecordError
 from rocking.records import Accelerogram
@@ -82,3 +83,63 @@ def test_a_tilted_sensor_is_told(dip: float, is_told: bool, vertical: bool) -> N
 def test_a_response_without_stages_is_not_removed_in_full() -> None:
     with refused(RecordError, "response", "stages"):
         Accelerogram.from_obspy(trace(), inventory(), response="full")
+
+
+def described_twice(change: str, new: str, ends: str = "") -> Inventory:
+    """The StationXML with a second epoch of the channel since 1990, of which one word is another."""
+    station = inventory()[0][0]
+    later = inventory()[0][0].channels[0]
+    later.start_date = UTCDateTime(1965, 1, 1)
+    if change == "gain":
+        later.response.instrument_sensitivity.value = float(new)
+    else:
+        later.azimuth = float(new)
+    if ends:
+        station.channels[0].end_date = UTCDateTime(ends)
+    station.channels.append(later)
+    return Inventory([Network("XX", [station])])
+
+
+@pytest.mark.filterwarnings("ignore:Found more than one matching response")
+@pytest.mark.parametrize(("change", "new"), [("gain", "500000"), ("azimuth", "0")])
+def test_epochs_that_overlap_and_differ_are_refused_with_both(change: str, new: str) -> None:
+    """The first one was taken, unsaid: by a gain 2.5 times the true one."""
+    with refused(RecordError, "inventory") as caught:
+        Accelerogram.from_obspy(trace(), described_twice(change, new))
+    assert all(words in str(caught.value) for words in ("200000 counts", "(from 1960", "(from 1965"))
+    (record,) = Accelerogram.from_obspy(trace(), described_twice(change, new, ends="1964-12-31"))
+    (same,) = Accelerogram.from_obspy(trace(), described_twice("gain", "200000"))
+    per_unit = 500000 if change == "gain" else 200000
+    assert np.allclose(record.acceleration, (COUNTS - COUNTS.mean()) / per_unit, rtol=0, atol=1e-12)
+    assert (record.azimuth, same.azimuth) == (0 if change == "azimuth" else 90, 90)
+
+
+@pytest.mark.parametrize(("note", "dip", "azimuth"), [
+    ("Sensor orientation not known", 0.0, None), ("Unknown orientation", 0.0, None),
+    ("Orientation checked in 1999", 0.0, 90.0), ("Sensor orientation not known", -90.0, 90.0),
+])  # fmt: skip
+def test_an_orientation_that_nobody_knows_is_no_azimuth(note: str, dip: float, azimuth: float | None) -> None:
+    described = inventory(dip=dip)
+    described[0][0][0].comments = [Comment(note)]
+    (record,) = Accelerogram.from_obspy(trace(), described)
+    assert record.azimuth == (None if record.vertical else azimuth) and record.vertical == (dip != 0)
+    is_told = RecordKind.ORIENTATION_UNKNOWN in {remark.kind for remark in record.warnings}
+    assert is_told == (azimuth is None)
+
+
+def test_pieces_whose_rates_differ_by_their_rounding_are_one_channel() -> None:
+    first, second = trace(), trace()
+    second.stats.starttime += 30
+    second.stats.sampling_rate = 99.9999
+    (record,) = Accelerogram.from_obspy(Stream([first, second]), unit="nm/s2")
+    assert record.acceleration.size == 6000 and record.time_step == 0.01
+    assert second.stats.sampling_rate == 99.9999  # that of the caller
+
+
+def test_a_log_of_text_next_to_the_channels_is_passed_over() -> None:
+    header = {"network": "XX", "station": "MADE", "channel": "LOG"}
+    log = Trace(np.frombuffer(b"clock locked", dtype="S1").copy(), header)
+    (record,) = Accelerogram.from_obspy(Stream([log, trace()]), unit="nm/s2")
+    assert record.component == "HNE"
+    with refused(RecordError, "channel", log.id):
+        Accelerogram.from_obspy(Stream([log]), unit="nm/s2")
