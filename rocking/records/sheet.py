@@ -63,17 +63,34 @@ def table_of_workbook(raw: bytes) -> bytes:
 
 def _table(rows: Iterator[tuple[Any, ...]]) -> bytes:
     """Return the text of a sheet from the names of its columns on, empty where they name no times or no unit."""
+    over: tuple[Any, ...] = ()
     above: tuple[Any, ...] = ()
     for _, row in zip(range(_HEADS), rows, strict=False):
         if above and any(isinstance(cell, int | float) and not isinstance(cell, bool) for cell in row):
-            names = [str(cell or "").strip() for cell in above]
+            names = _with_units(over, above)
             labels = [ColumnLabel(name) for name in names if name]
             if any(label.is_time for label in labels) and any(label.unit for label in labels):
-                places = [place for place, name in enumerate(names) if name]
+                first = next(place for place, name in enumerate(names) if name)
+                beside = next((place for place in range(first, len(names)) if not names[place]), len(names))
+                places = list(range(first, beside))  # what stands behind an empty column is another table
                 return _written(names, places, [row, *rows])
             return b""
-        above = row
+        over, above = above, row
     return b""
+
+
+def _with_units(over: tuple[Any, ...], above: tuple[Any, ...]) -> list[str]:
+    """Return the names of columns in the row `above` the numbers, or in the one `over` it where that holds units."""
+    names = [str(cell or "").strip() for cell in above]
+    units = [ColumnLabel(f"({name.strip('()[]')})") if name else None for name in names]
+    are_units = all(unit is None or unit.unit or unit.is_time or unit.other for unit in units)
+    if not (over and are_units and any(unit and unit.unit for unit in units)):
+        return names
+    heads = [str(cell or "").strip() for cell in over]
+    return [
+        f"{head} ({name.strip('()[]')})" if head and name else head
+        for head, name in zip(heads, names, strict=False)
+    ]
 
 
 def _written(names: list[str], places: list[int], rows: list[tuple[Any, ...]]) -> bytes:
