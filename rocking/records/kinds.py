@@ -110,6 +110,8 @@ class RecordKind(Kind):
         horizontal ones in the column component."""
     ORIENTATION_UNKNOWN = auto(), """The StationXML says that the orientation of {about} is not known: its azimuth
         is not used."""
+    SAME_MOTION = auto(), """The samples of {about} are those of {other}, sample by sample, or their negative: one
+        of the two is a copy, and a study counts them once."""
     SOME_MAY_BE_VERTICAL = auto(), """Of the {channels} channels {names} may be vertical, because nothing says
         which one is: name the horizontal ones in the column component of the catalogue, or as --component."""
     LONE_MAY_BE_VERTICAL = auto(), """The direction of the component {about} is unknown, because its name is

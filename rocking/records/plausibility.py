@@ -382,6 +382,14 @@ def repeated_rows(records: Sequence[Accelerogram]) -> Remark | None:
     return Remark.of(RecordKind.ROW_REPEATED, time_s=float(unlikely[0] + 1) * records[0].time_step)
 
 
+def same_motion(first: Accelerogram, second: Accelerogram) -> bool:
+    """Whether two channels are one, or one the other turned round; a look at one sample tells most apart."""
+    one, other = first.acceleration, second.acceleration
+    if one.size != other.size or abs(one[one.size // 2]) != abs(other[other.size // 2]):
+        return False
+    return np.array_equal(one, other) or np.array_equal(one, -other)
+
+
 _STRUCTURE = re.compile(
     r"(?i)\b(roof|floor|fl|flr|storey|story|penthouse|mezzanine|attic|deck|bent|column|girder|abutment|pier|crest|tower|"
     r"dam|gallery|basement|bsmt|bldg|building|bridge)\b"

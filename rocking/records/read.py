@@ -38,6 +38,7 @@ from rocking.records.plausibility import (
     pass_limits,
     refuse_spectrum,
     repeated_rows,
+    same_motion,
     site_warnings,
 )
 from rocking.records.sheet import is_workbook, table_of_workbook
@@ -364,6 +365,7 @@ def distinct_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
     One without a name is called after its place, "channel 1"; those that share a name get their place as well.
     Raises RecordError when one channel stands in the file twice: it was appended to itself.
     """
+    copies: dict[int, Remark] = {}
     for (i, a), (k, b) in combinations(enumerate(records, 1), 2):
         same = a.component == b.component and a.peak_acceleration > 0
         if same and np.array_equal(a.acceleration, b.acceleration):
@@ -371,6 +373,9 @@ def distinct_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
             raise RecordError.naming(
                 "channel", k, f"{name} repeats channel {i}: the file is appended to itself; fetch it again."
             )
+        if a.peak_acceleration > 0 and same_motion(a, b):
+            other = a.component or f"channel {i}"
+            copies[k] = Remark.of(RecordKind.SAME_MOTION, b.component or f"channel {k}", other=other)
     shared = Counter(record.component for record in records if record.component)
     named = [
         record if record.component else replace(record, component=f"channel {place}")
@@ -386,6 +391,7 @@ def distinct_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
             *record.warnings,
             *channel_warnings(record.component),
             *([contradicted] if contradicted else []),
+            *([copies[place]] if place in copies else []),
             *site_warnings(record.station),
             *site_warnings(record.component),
             *([upwards] if upwards else doubts_of_channel(record)),

@@ -26,7 +26,7 @@ from rocking.records.formats.text import day_of, iso_date
 from rocking.records.joining import joined
 from rocking.records.kinds import RecordKind
 from rocking.records.place import Place, place_of
-from rocking.records.plausibility import scaled
+from rocking.records.plausibility import same_motion, scaled
 from rocking.records.read import bytes_of, read_raw
 from rocking.records.scaling import ScalingTarget, scaled_to
 from rocking.remarks import Remark
@@ -93,6 +93,7 @@ def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sta
         named = record.vertical_component
         vertical = _called(named, channels) if named else next(upwards, None)
         horizontal = _horizontal(channels, record, vertical)
+        horizontal, vertical = _counted_once(horizontal, vertical)
         if record.components:
             horizontal = [
                 replace(channel, warnings=tuple(w for w in channel.warnings if w.kind not in _ANSWERED))
@@ -152,6 +153,25 @@ def _horizontal(
             "component", names, f"the file holds no horizontal component, only {names}; name one."
         )
     return horizontal
+
+
+def _counted_once(
+    horizontal: Sequence[Accelerogram], vertical: Accelerogram | None
+) -> tuple[list[Accelerogram], Accelerogram | None]:
+    """Return the components without those that are copies of an earlier one, which says so."""
+    distinct: list[Accelerogram] = []
+    upwards = [vertical] if vertical is not None else []
+    for channel in (*horizontal, *upwards):
+        place = next((at for at, other in enumerate(distinct) if same_motion(channel, other)), None)
+        if place is None:
+            distinct.append(channel)
+        else:
+            kept = distinct[place]
+            copy = Remark.of(RecordKind.SAME_MOTION, channel.component, other=kept.component)
+            distinct[place] = kept.warned(copy)
+    if upwards and distinct[-1] is vertical:
+        return distinct[:-1], vertical
+    return distinct, None
 
 
 def _called(name: str, channels: Sequence[Accelerogram]) -> Accelerogram:

@@ -157,7 +157,7 @@ def _channels_at(trace: Any, inventory: Any) -> Any:
 
 def _check_epochs(trace: Any, inventory: Any) -> None:
     """Raise RecordError where a StationXML gives a channel two sensitivities or directions at one time."""
-    said = {}
+    said: dict[str, str] = {}
     for each in _channels_at(trace, inventory):
         if each.response and (of := each.response.instrument_sensitivity):
             points = f"azimuth {each.azimuth:g}°" if each.azimuth is not None else "no azimuth"
@@ -167,8 +167,8 @@ def _check_epochs(trace: Any, inventory: Any) -> None:
         raise RecordError.naming(
             "inventory",
             trace.id,
-            f"the StationXML describes {trace.id} at {trace.stats.starttime} twice, as {' and as '.join(said.values())};"
-            " take out the epoch that does not hold.",
+            f"the StationXML describes {trace.id} at {trace.stats.starttime} twice, as "
+            f"{' and as '.join(said.values())}; take out the epoch that does not hold.",
         )
 
 

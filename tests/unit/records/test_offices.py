@@ -82,7 +82,9 @@ def test_a_workbook_with_times_and_units_is_read(tmp_path: Path) -> None:
     assert [file.refusal for file in listed] == [""]
 
 
-def test_a_workbook_may_have_its_units_below_the_names_and_a_spectrum_in_further_columns(tmp_path: Path) -> None:
+def test_a_workbook_may_have_its_units_below_the_names_and_a_spectrum_in_further_columns(
+    tmp_path: Path,
+) -> None:
     series = list(zip(TIMES.round(6).tolist(), MOTION.tolist(), strict=True))
     spectrum = [[0.1, 0.5], [0.2, 0.7]]
     numbers = [[t, a, None, *(spectrum[at] if at < 2 else [])] for at, (t, a) in enumerate(series)]

@@ -239,3 +239,25 @@ def test_components_more_than_five_degrees_off_a_right_angle_are_told(tmp_path, 
     _, (row,) = list_folder(tmp_path)
     apart = Remark.of(RecordKind.NOT_SQUARE, first="000", second=second, angle_deg=84.0)
     assert (str(apart) in row["note"]) is told
+
+
+@pytest.mark.parametrize(("east", "upward", "horizontal", "has_vertical"), [
+    (1.0, 0.5, ["NS"], True), (-1.0, 0.5, ["NS"], True), (0.7, 1.0, ["NS", "EW"], False),
+    (0.7, 0.5, ["NS", "EW"], True),
+])  # fmt: skip
+def test_a_component_that_is_a_copy_of_another_is_told_and_counted_once(
+    tmp_path: Path, east: float, upward: float, horizontal: list[str], has_vertical: bool
+) -> None:
+    times = np.arange(400) * 0.01
+    motion = np.sin(9 * times) * np.exp(-((times - 2) ** 2)) * 0.3
+    rows = np.transpose([times, motion, east * motion, upward * motion])
+    lines = "\n".join(" ".join(f"{value:.7f}" for value in row) for row in rows)
+    (tmp_path / "made.txt").write_text(f"Time(s) NS(g) EW(g) UD(g)\n{lines}\n")
+    record = CatalogueRecord("r", "made.txt", folder=tmp_path)
+    station = open_station(record)
+    assert [channel.component for channel in station.horizontal] == horizontal
+    assert (station.vertical is not None) == has_vertical
+    is_told = RecordKind.SAME_MOTION in {warning.kind for warning in station.horizontal[0].warnings}
+    assert is_told == (len(horizontal) + has_vertical < 3)
+    named = open_station(replace(record, component="NS;EW"))
+    assert [channel.component for channel in named.horizontal] == horizontal
