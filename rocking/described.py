@@ -34,7 +34,8 @@ class Described:
 
     name: of the attribute. kind: its type. unit: of the value in a file, in which its key ends. one_of: gives the names
     that are allowed, where a registry holds them. bounds: any of gt, ge, lt, le, of a text the pattern that it matches
-    and examples. default: ... where there is none. more: what some kinds of values say besides.
+    and examples. default: ... where there is none. more: what some kinds of values say besides; of a choice, formerly:
+    today's names by those of earlier versions.
     """
 
     name: str
@@ -137,6 +138,8 @@ class Described:
         """Return the end of the sentence on a `value` that is not allowed: " m, but must be a number above 0."."""
         unit = f" {self.unit}" if self.unit and type(value) in (int, float) else ""
         hint = number_hint(value) if "number" in self.must else ""
+        if isinstance(value, str) and value in self.more.get("formerly", {}):
+            hint = f"; write {self.more['formerly'][value]}"
         if self.must.startswith("a list") and type(value) in (int, float):
             hint = f"; write [{shown(value)}]"
         return f"{unit}, but must be {self.must}{hint}."

@@ -450,9 +450,9 @@ def strengthen_scene(
 ) -> Strengthening:
     """Return what `strengthen` does, for a scene: on a support its worst period counts.
 
-    size: one of its `sizes`. between: in SI. sample: of the records. settings: of the ensemble, friction and tolerance;
-    no estimate settles a case. spectrum, terms: at which a tie is sized by the code; without a spectrum, the mean peak
-    of the records. store: keeps the outcome of each value under each record. show_line: takes what it will cost.
+    size: one of its `sizes`. between: in SI. sample: of the records. settings: of the ensemble, friction and tolerance.
+    spectrum, terms: at which a tie is sized by the code; without a spectrum, the mean peak of the records. store: keeps
+    the outcome of each value under each record. show_line: takes what it will cost.
     """
     if not (isinstance(between, tuple | list) and len(between) == 2):
         raise ConfigurationError(f"between is {shown(between)}, but must be two values, the lower one first.")
@@ -473,8 +473,7 @@ def strengthen_scene(
         )
     settings = settings or AssessmentSettings()
     if settings.fidelity != "contact":
-        settings = replace(settings, fidelity="auto")
-    settings = replace(settings, fidelity_risk=0.0)
+        settings = replace(settings, fidelity="quick")
 
     values = np.geomspace(low, high, GRID).tolist()
     changed = {f"{value!r}": with_value(scene.structure, size, value) for value in values}

@@ -125,7 +125,7 @@ def leaves_trial(component: SiteRecord, kind: str, place: int) -> LeavesTrial:
     """Return one trial: wall and scale drawn."""
     record = component.accelerogram
     draw = draw_of(component.identifier, 13, list(TRIALS).index(kind), place)
-    settings = AssessmentSettings(fidelity="auto", friction_coefficient=FRICTION)
+    settings = AssessmentSettings(fidelity="quick", friction_coefficient=FRICTION)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", StructureWarning)
         wall = drawn(kind, draw)

@@ -1,10 +1,9 @@
-"""What was measured once for this package: the estimate, ensembles, a shake table, other codes. Run each by its name."""
+"""What was measured once for this package: ensembles, a shake table, other codes. Run each by its name."""
 
 RESEARCH = HOME / "docs" / "research"
 REAL_RECORDS = [f"{HOME}/records/{name}.csv" for name in ("near_fault", "fema_p695")]
 # Each target: what it says it does, the catalogues that it reads, and what it writes beside its scores and its report.
 TARGETS_OF_RESEARCH = {
-    "calibrate": ("Calibrate the estimate on real records", REAL_RECORDS, ["estimate.json"]),
     "calibrate_ensemble": (
         "Draw thousands of members for each real record",
         REAL_RECORDS,

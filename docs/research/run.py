@@ -25,7 +25,6 @@ def targets() -> "dict[str, Callable[[Target], None]]":
         diaphragms,
         earthquakes,
         ensembles,
-        estimates,
         floors,
         fragilities,
         fronts,
@@ -44,7 +43,6 @@ def targets() -> "dict[str, Callable[[Target], None]]":
     from docs.research.comparison import table
 
     return {
-        "calibrate": estimates.calibrate,
         "calibrate_ensemble": ensembles.calibrate_ensemble,
         "trade_fragility": fragilities.trade_fragility,
         "cover": fragilities.cover,

@@ -5,12 +5,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 
 import numpy as np
-from scipy.optimize import minimize_scalar
 
 from rocking.records.sample import REPLICATES, Sample
 from rocking.tables import Row, column, row
 
-LARGEST_LAPSE = 0.1
 STATED, HAPPENED = "stated", "happened"
 """Measures of one class of a reliability diagram: its mean probability, and the share of its cases that overturned."""
 Labels = Sequence[object] | np.ndarray
@@ -153,39 +151,22 @@ def share_of(part: Sequence[float] | np.ndarray, whole: Sequence[float] | np.nda
     return lambda rows: float(parts[rows].sum() / wholes[rows].sum()) if wholes[rows].any() else math.nan
 
 
-def brier_skill(probability: np.ndarray, shares: np.ndarray) -> Measure:
-    """1 − Brier score over that of the mean share of the cases; nan where nothing or everything overturns.
-
-    The Brier score is the mean of (P − outcome)², over all the outcomes that a share (n,) sums up.
-    """
-    missed_by = (probability - shares) ** 2 + shares * (1 - shares)
-
-    def measure(rows: np.ndarray) -> float:
-        base = shares[rows].mean()
-        return 1 - float(np.mean(missed_by[rows])) / float(base * (1 - base)) if 0 < base < 1 else math.nan
-
-    return measure
-
-
 def logit_slope(odds: np.ndarray, outcomes: np.ndarray) -> Measure:
     """Slope of the logistic regression of the outcomes, or shares, on the log odds stated (Cox 1958); 1 is right."""
     design = np.column_stack([np.ones(odds.size), np.clip(odds, -12, 12)])
 
     def measure(rows: np.ndarray) -> float:
-        return float(logistic(design[rows], outcomes[rows], np.arange(rows.size))[0][1])
+        return float(logistic(design[rows], outcomes[rows])[1])
 
     return measure
 
 
-def logistic(
-    design: np.ndarray, outcomes: np.ndarray, groups: np.ndarray, ridge: float = 1e-5
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return the coefficients (k,) of a logistic regression by Newton's method, and their covariance (k, k).
+def logistic(design: np.ndarray, outcomes: np.ndarray, ridge: float = 1e-5) -> np.ndarray:
+    """Return the coefficients (k,) of a logistic regression by Newton's method.
 
     design: (n, k), its first column ones. outcomes: (n,) in [0, 1]; a share counts as that much of a case that
-    overturned beside the rest of one that did not. groups: (n,), what is independent: the covariance is the sandwich of
-    their scores (Liang & Zeger 1986). ridge: penalty on the coefficients after the first, per case; it keeps those
-    finite that no case contradicts.
+    overturned beside the rest of one that did not. ridge: penalty on the coefficients after the first, per case; it
+    keeps those finite that no case contradicts.
     """
     penalty = ridge * len(design) * np.r_[0.0, np.ones(design.shape[1] - 1)]
     coefficients = np.zeros(design.shape[1])
@@ -197,19 +178,4 @@ def logistic(
         coefficients = coefficients + step * (4.0 / max(4.0, np.abs(step).max()))
         if np.abs(step).max() < 1e-10:
             break
-    inverse = np.linalg.inv(curvature)
-    _, places = np.unique(groups, return_inverse=True)
-    summed = np.zeros((places.max() + 1, design.shape[1]))
-    np.add.at(summed, places, design * (outcomes - shares)[:, None])
-    many = len(summed)
-    return coefficients, inverse @ (summed.T @ summed * many / max(many - 1, 1)) @ inverse
-
-
-def lapse(probability: np.ndarray, shares: np.ndarray) -> float:
-    """Return the share l that stands whatever was stated, for which (1 − l) P makes the shares (n,) likeliest."""
-
-    def unlikeliness(share: float) -> float:
-        stated = np.clip((1 - share) * probability, 1e-12, 1 - 1e-12)
-        return -float(np.mean(shares * np.log(stated) + (1 - shares) * np.log1p(-stated)))
-
-    return float(minimize_scalar(unlikeliness, bounds=(0.0, LARGEST_LAPSE), method="bounded").x)
+    return coefficients

@@ -32,11 +32,11 @@ from docs.research.sites import (
 )
 from rocking import Accelerogram, Facade, LoadedWall, Spire, Verdict, assess
 from rocking.assessment.decide import Facts, decide
-from rocking.assessment.fidelity import peak_velocity
 from rocking.assessment.settings import AssessmentSettings
 from rocking.contacts.dynamics import follow_stack
 from rocking.errors import StructureWarning
 from rocking.quantities import GRAVITY
+from rocking.records.measures import peak_velocity
 from rocking.structures import Structure
 from rocking.structures.building_parts import building_part
 from rocking.structures.crackable import Crackable

@@ -190,7 +190,7 @@ def logistic(values: np.ndarray, outcomes: np.ndarray, unseen: np.ndarray) -> np
     logs, centre = np.log(values), np.log(values).mean()
     design = np.column_stack([np.ones(logs.size), logs - centre])
     ridge = 2e-4 / logs.size  # keeps the fit finite where the outcomes separate
-    (offset, slope), _ = scores.logistic(design, outcomes, np.arange(logs.size), ridge)
+    offset, slope = scores.logistic(design, outcomes, ridge)
     probability: np.ndarray = expit(offset + slope * (np.log(unseen) - centre))
     return probability
 

@@ -198,7 +198,7 @@ def stones_trial(component: SiteRecord, kind: str, place: int) -> StonesTrial:
     motion = record.scaled(lifting_factor(record, multiplier, (least, min(most, MOST / multiplier)), draw))
     motion = strong_part(motion, multiplier)
     # An arch alone is followed as stones where its mechanism does not stand; of the others only these say it.
-    fidelity: Literal["full", "contact"] = "full" if kind == "arch" else "contact"
+    fidelity: Literal["standard", "contact"] = "standard" if kind == "arch" else "contact"
     settings = AssessmentSettings(fidelity=fidelity, ensemble=EnsembleSettings(reserve=0))
     assessed, spent = timed(lambda: assess(motion, structure, settings=settings))
     (case,) = assessed.cases.values()

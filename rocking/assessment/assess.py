@@ -220,7 +220,7 @@ def assess(
             raise ConfigurationError.naming(name, value, f"{name} is {kind_of(value)}, but must be {words}.")
     number = settings.ensemble.members if members is None else members
     varied = replace(settings.ensemble, members=number or EnsembleSettings().members)
-    fidelity: Literal["full", "contact"] = "contact" if settings.fidelity == "contact" else "full"
+    fidelity: Literal["standard", "contact"] = "contact" if settings.fidelity == "contact" else "standard"
     settings = replace(settings, fidelity=fidelity, ensemble=varied)
     result = Assessor(settings).assess("", records, on_the_ground({"structure": structure}), vertical)
     (period_result,) = result.periods

@@ -230,9 +230,9 @@ class Assessor:
     def compare(self, result: RecordResult) -> RecordResult:
         """Return the result with the methods compared on the crack that governs each case.
 
-        So a row of a table speaks of one crack. With fidelity: auto nothing is compared.
+        So a row of a table speaks of one crack. With fidelity: quick nothing is compared.
         """
-        if self.settings.fidelity == "auto":
+        if self.settings.fidelity == "quick":
             return result
         scenes = {}
         for name, of_scene in result.scenes.items():
@@ -294,7 +294,7 @@ class Assessor:
             cases[name] = replace(case, component=name, failures=(*failed, *case.failures))
         directions = None
         pair = shaking.pair
-        if pair is not None and any(case.answer is not None for case in cases.values()):
+        if pair is not None and any(case.response is not None for case in cases.values()):
             bounces = any(case.check.bounces for case in cases.values())
             inputs = CaseInputs(
                 motion=pair, structure=scene.structure, settings=self.settings, bounces=bounces
@@ -309,7 +309,7 @@ class Assessor:
 
         It keeps the case itself, which is of the structure's own crack.
         """
-        if case.answer is None:
+        if case.response is None:
             return case
         ensembles = case.ensembles or period_result.ensembles
         crack = ensembles.governing.description if ensembles else ""
@@ -330,14 +330,13 @@ class Assessor:
                 alone=False,
             )
         )
-        if governing.answer is None:
+        if governing.response is None:
             return replace(case, failures=(*case.failures, *governing.failures))
         return replace(
             case,
             prediction=prediction,
             responses=governing.responses,
             check=governing.check,
-            answer=governing.answer,
             crack=crack,
             statics=case,
         )
@@ -359,7 +358,9 @@ class Assessor:
                 processing_variants=self.processing_variants,
             )
         )
-        return replace(case, structure=scene.name, prediction=prediction if case.answer is not None else None)
+        return replace(
+            case, structure=scene.name, prediction=prediction if case.response is not None else None
+        )
 
     def _case(self, inputs: CaseInputs) -> CaseResult:
         return self._remembered(CaseResult, inputs, compute_case, lambda case: case.kept)
@@ -369,7 +370,7 @@ class Assessor:
     ) -> PeriodResult:
         """The result with the reserve of the crack that governs the case that decides.
 
-        With fidelity: auto, which needs the verdict alone, no reserve is computed, nor where nothing can overturn the
+        With fidelity: quick, which needs the verdict alone, no reserve is computed, nor where nothing can overturn the
         structure, nor where it slides first. Why there is none is added to the failures.
         """
         try:
@@ -384,7 +385,12 @@ class Assessor:
         """The result with its reserve, where it has one. Raises RockingError where it cannot be found."""
         case = period_result.decisive
         ensemble = self.settings.ensemble
-        if case is None or case.ensembles is None or self.settings.fidelity == "auto" or not ensemble.reserve:
+        if (
+            case is None
+            or case.ensembles is None
+            or self.settings.fidelity == "quick"
+            or not ensemble.reserve
+        ):
             return period_result
         # The factors of a mechanism would say nothing of what slides first, or falls in contact dynamics alone.
         if not isnan(case.slides_at) or period_result.falls_in_stacks_alone:

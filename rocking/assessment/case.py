@@ -20,7 +20,6 @@ from rocking.assessment.cracks import (
 )
 from rocking.assessment.decide import BEYOND, Decision, Facts, Severity, Verdict, decide, severity
 from rocking.assessment.ensemble import NO_MEMBERS, Ensemble
-from rocking.assessment.fidelity import Estimate, MethodAnswer
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
 from rocking.assessment.motions import Component, ComponentPulses, MovingSupport, by_name, on_support
@@ -102,17 +101,15 @@ class CaseResult:
     """The result of one structure under one motion.
 
     component: name of the motion. structure: "" of a case that nobody named. prediction: None without a pulse.
-    responses: by method. check: whether the model held along the response of the mechanism to the record. answer: of
-    the mechanism on the record, or of the cheapest method that settles the case; None of a pair, and where the case
-    failed. ensembles: of the cracks that were followed; None where none ran. reserve: of the crack that governs; None
-    where it was not computed; a store keeps it apart, as only what is printed has one. overturning_estimate: from the
-    peak velocity, where no ensemble ran; None of a structure unlike those behind the estimate. slides_at: acceleration
-    [g] at which its joints slide before they lift, where the motion reaches it; else nan. friction_needed: the
-    coefficient that a contact needs while it rocks, where it has less, of what (probably) stands but for that; else
-    nan. crack: to which prediction, responses, check and answer belong; "" where it is that of the structure. statics:
-    the case of that one, where another crack governs. ties_give: whether its ties let so much through that it turns
-    beyond BEYOND; not computed where that changes no word. anchors_slide: whether a motion reaches the acceleration at
-    which what an anchor grips slides out. variations: other cracks, then other processings.
+    responses: by method. check: whether the model held along the response of the mechanism to the record. ensembles: of
+    the cracks that were followed; None where none ran. reserve: of the crack that governs; None where it was not
+    computed; a store keeps it apart, as only what is printed has one. slides_at: acceleration [g] at which its joints
+    slide before they lift, where the motion reaches it; else nan. friction_needed: the coefficient that a contact needs
+    while it rocks, where it has less, of what (probably) stands but for that; else nan. crack: to which prediction,
+    responses and check belong; "" where it is that of the structure. statics: the case of that one, where another crack
+    governs. ties_give: whether its ties let so much through that it turns beyond BEYOND; not computed where that
+    changes no word. anchors_slide: whether a motion reaches the acceleration at which what an anchor grips slides out.
+    variations: other cracks, then other processings.
     """
 
     component: str
@@ -120,10 +117,8 @@ class CaseResult:
     prediction: Prediction | None = None
     responses: Mapping[Method, Response] = field(default_factory=dict)
     check: ModelCheck = UNKNOWN
-    answer: MethodAnswer | None = None
     ensembles: CrackEnsembles | None = None
     reserve: Reserve | None = None
-    overturning_estimate: Estimate | None = None
     slides_at: float = math.nan
     friction_needed: float = math.nan
     crack: str = ""
@@ -142,10 +137,7 @@ class CaseResult:
         Without the histories, without the prediction, which a pulse gives at once, and without the times it took.
         """
         responses = {method: _without_history(response) for method, response in self.responses.items()}
-        answer = self.answer
-        if answer is not None and answer.response is not None:
-            answer = replace(answer, response=_without_history(answer.response))
-        return replace(self, prediction=None, responses=responses, answer=answer, reserve=None)
+        return replace(self, prediction=None, responses=responses, reserve=None)
 
     @property
     def predicted_rotation_ratio(self) -> float:
@@ -154,12 +146,12 @@ class CaseResult:
 
     @property
     def response(self) -> Response | None:
-        """The integration of the mechanism under the record; None where a cheaper method settled the case."""
+        """The integration of the mechanism under the record; None of a pair, and where the case failed."""
         return self.responses.get(Method.MECHANISM_ON_RECORD)
 
     @property
     def integrated_rotation_ratio(self) -> float:
-        """Rotation ratio of the mechanism on the record; nan where a cheaper method settled the case."""
+        """Rotation ratio of the mechanism on the record; nan of a pair, and where the case failed."""
         return self.response.rotation_ratio if self.response else math.nan
 
     @property
@@ -174,9 +166,7 @@ class CaseResult:
             of_each = [crack.ensemble.rotation_ratios for crack in of_part]
             ratios = [ratio for ratios_of_crack in of_each for ratio in ratios_of_crack.tolist()]
             return max((ratio for ratio in ratios if not math.isnan(ratio)), default=math.nan)
-        if self.answer is None or self.answer.outcome is Outcome.NO_UPLIFT:
-            return 0.0
-        return self.response.rotation_ratio if self.response else math.inf
+        return self.response.rotation_ratio if self.response else 0.0
 
     def facts(self, body: Structure, failures: tuple[str, ...] = ()) -> Facts:
         """Return the facts of this case from which the decision follows.
@@ -187,7 +177,6 @@ class CaseResult:
         held_parts = {
             name for name, part in parts_of(body) if isinstance(part, Tied) and part.held_wall.holds
         }
-        settled = None
         beyond = AssessmentKind.TIES_GIVE if self.ties_give else None
         other_runs = [
             variation.integrated_rotation_ratio
@@ -195,14 +184,14 @@ class CaseResult:
             if variation.crack and variation.counts
         ]
         runs = [ratio for ratio in (self.integrated_rotation_ratio, *other_runs) if not math.isnan(ratio)]
-        rests = self.answer is not None and self.answer.outcome is Outcome.NO_UPLIFT and not any(other_runs)
+        rests = (
+            self.response is not None and self.response.outcome is Outcome.NO_UPLIFT and not any(other_runs)
+        )
         if self.ensembles is not None:
             followed = [crack for crack in self.ensembles.followed if crack.counts]
             rests = all(bool((crack.ensemble.rotation_ratios == 0).all()) for crack in followed)
             if any(crack.facts.farthest > BEYOND and crack.part in held_parts for crack in followed):
                 beyond = AssessmentKind.HELD_BEYOND
-        elif self.answer is not None and self.answer.response is None:
-            settled = Verdict.OVERTURNS if self.overturns else Verdict.STANDS
         typed = several[0].mechanism.restitution_range is not None
         stacks = (self.contact.falls, self.contact.runs) if self.contact and self.contact.runs else None
         own = self.ensembles.facts if self.ensembles else Facts()
@@ -214,7 +203,6 @@ class CaseResult:
             and not (self.doubt and self.doubt.kind is AssessmentKind.NOT_FOLLOWED)
             and not (body.falls_by_sliding and not math.isnan(self.slides_at)),
             run_ratio=max(runs, default=math.nan),
-            settled=settled,
             never_overturns_because=never_overturns_because(body),
             slides_at=own.slides_at if math.isnan(self.slides_at) else self.slides_at,
             friction_needed=self.friction_needed,
@@ -240,8 +228,8 @@ class CaseResult:
 
     @property
     def overturns(self) -> bool:
-        """Whether the single run, or what settles it more cheaply, overturns."""
-        return self.answer is not None and self.answer.outcome is Outcome.OVERTURNS
+        """Whether the single run overturns."""
+        return self.response is not None and self.response.outcome is Outcome.OVERTURNS
 
     @property
     def failure(self) -> Failure | None:
@@ -287,7 +275,7 @@ class PeriodResult:
     @cached_property
     def worst(self) -> CaseResult | None:
         """The case of the component that overturns, then rotates, most; None where no component gave a result."""
-        answered = [case for case in self.cases.values() if case.answer is not None]
+        answered = [case for case in self.cases.values() if case.response is not None]
         return max(answered, key=lambda case: case.severity, default=None)
 
     @cached_property
@@ -296,7 +284,7 @@ class PeriodResult:
         if self.directions is not None and self.directions.ensembles is not None:
             # All directions are one: what a component lacks takes nothing away.
             return self.directions, decide(self.directions.facts(self.scene.structure))
-        answered = [case for case in self.cases.values() if case.answer is not None]
+        answered = [case for case in self.cases.values() if case.response is not None]
         if not answered:
             first = [case.failure.message for case in self.cases.values() if case.failure][:1]
             return None, decide(Facts(failures=tuple(first)))
@@ -480,7 +468,7 @@ class PeriodResult:
         of_members = self.ensemble.worst("direction")
         if of_members or self.worst is None:
             return of_members
-        answered = [case for case in self.cases.values() if case.answer is not None]
+        answered = [case for case in self.cases.values() if case.response is not None]
         return self.worst.component if len(answered) > 1 else ""
 
     @property

@@ -19,7 +19,6 @@ from rocking.assessment.cores import in_order
 from rocking.assessment.cracks import weakest_not_followed
 from rocking.assessment.decide import BEYOND, UNANIMOUS
 from rocking.assessment.decide import step as step_of
-from rocking.assessment.fidelity import peak_velocity
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.methods import NEGLIGIBLE
 from rocking.assessment.motions import GroundMotions
@@ -31,6 +30,7 @@ from rocking.floors.place import swinging
 from rocking.motion.integration import Members, integrate, integrate_members, strict
 from rocking.motion.response import check_model
 from rocking.records import Accelerogram
+from rocking.records.measures import peak_velocity
 from rocking.remarks import Remark
 from rocking.structures import Structure
 from rocking.structures.linkage import Turning
@@ -339,7 +339,7 @@ def expected_seconds(
 
     components: the horizontal ones of a record, in place of the directions between them.
     """
-    if settings.fidelity == "auto" or not stackable(structure):
+    if settings.fidelity == "quick" or not stackable(structure):
         return 0.0
     runs = MOST_RUNS if settings.fidelity == "contact" else RUNS
     once = [

@@ -256,7 +256,7 @@ def ensemble_over_cracks(
     full, and every crack that `screened` leaves in doubt, and the one that then governs with as many members as its
     word needs. A crack other than a bulge that slides before it lifts is left out where one that counts is left.
     exhaustive: every crack is followed, whatever the screen says; docs/pages/validation.md counts what it misses. With
-    fidelity: auto only as many members are followed as the verdict needs. Raises MotionError as `integrate` does.
+    fidelity: quick only as many members are followed as the verdict needs. Raises MotionError as `integrate` does.
     """
     every = cracks(structure)
     parts: list[CrackEnsembles] = []
@@ -296,7 +296,7 @@ def _of_part(
         motions,
         settings.ensemble,
         tolerance=settings.tolerance,
-        verdict_only=settings.fidelity == "auto",
+        verdict_only=settings.fidelity == "quick",
     )
     named = first if is_named or first.bulges else replace(first, description="")
     statics = FollowedCrack.of(named, of_statics, slides=first in sliding)

@@ -17,8 +17,7 @@ from rocking.remarks import Kind, Language, Remark
 UNANIMOUS = 64
 """Members of which none overturns, or none stands, that settle a verdict."""
 FAR = 0.3
-"""Rotation ratio that fewer members must all stay below to settle that the structure stands. The target `calibrate`
-measures how many verdicts this changes, on sites that took no part in any fit."""
+"""Rotation ratio that fewer members must all stay below to settle that the structure stands."""
 LATTICE_ERROR = 4.0
 """Members times the error of a probability that all but few cases stay below; `calibrate_ensemble` counts them."""
 BEYOND = 0.4
@@ -241,16 +240,15 @@ class Facts:
     """The facts that are known of one structure under one motion.
 
     cracks: those that were followed, first the one that is known or that statics chooses. rests: whether nothing can
-    lift. run_ratio: largest rotation ratio of single runs, where no members were followed; nan without one. settled:
-    the word of a cheaper method that settled it. never_overturns_because: why no motion can overturn it with a crack
-    that counts; "" where one can. slides_at: the least acceleration [g] at which the joints of a crack that counts
-    slide before it lifts, where the motion reaches it; else nan. friction_needed: the coefficient that a contact needs
-    while it rocks, where it has less; else nan. doubts: what one degree of freedom does not follow. held: whether it is
-    a wall that is held above its foot, and beyond: HELD_BEYOND where some chain of it goes beyond BEYOND of its
-    critical rotation in any member, TIES_GIVE where only one that its ties hold does, under the motion that these let
-    through. anchors_slide: whether the motion reaches the acceleration at which what the anchor of a tie grips slides
-    out, which neither mechanisms nor stacks follow. top: what its top needs and does not get, so that it slips; None
-    where it holds, or there is none. stacks:
+    lift. run_ratio: largest rotation ratio of single runs, where no members were followed; nan without one.
+    never_overturns_because: why no motion can overturn it with a crack that counts; "" where one can. slides_at: the
+    least acceleration [g] at which the joints of a crack that counts slide before it lifts, where the motion reaches
+    it; else nan. friction_needed: the coefficient that a contact needs while it rocks, where it has less; else nan.
+    doubts: what one degree of freedom does not follow. held: whether it is a wall that is held above its foot, and
+    beyond: HELD_BEYOND where some chain of it goes beyond BEYOND of its critical rotation in any member, TIES_GIVE
+    where only one that its ties hold does, under the motion that these let through. anchors_slide: whether the motion
+    reaches the acceleration at which what the anchor of a tie grips slides out, which neither mechanisms nor stacks
+    follow. top: what its top needs and does not get, so that it slips; None where it holds, or there is none. stacks:
     stacks of courses that fall in contact dynamics, of how many; None where none was followed. as_stones: as what chain
     of stones it is followed then, "as voussoirs"; "" where as a stack of courses. needs_stones: whether only its stones
     may say that it stands. stackable: whether contact dynamics can follow it and has not done so yet. remarks: what
@@ -261,7 +259,6 @@ class Facts:
     cracks: tuple[CrackFacts, ...] = ()
     rests: bool = False
     run_ratio: float = math.nan
-    settled: Verdict | None = None
     never_overturns_because: str = ""
     slides_at: float = math.nan
     friction_needed: float = math.nan
@@ -281,8 +278,6 @@ class Facts:
     def __post_init__(self) -> None:
         if self.stacks is not None and not 0 <= self.stacks[0] <= self.stacks[1] != 0:
             raise ValueError(f"stacks {self.stacks}, but must be those that fall, of at least one.")
-        if self.settled not in (None, Verdict.STANDS, Verdict.OVERTURNS):
-            raise ValueError(f"settled {self.settled}, but an estimate settles that it stands or overturns.")
         if odd := [str(doubt.kind) for doubt in self.doubts if doubt.kind not in CONTACTS]:
             raise ValueError(f"doubts {odd}, but must be of {[str(kind) for kind in CONTACTS]}.")
         if not 0 < self.risk < 0.5:
@@ -423,7 +418,7 @@ def decide(facts: Facts) -> Decision:
     3    every crack that counts slides before it lifts, and the motion    cannot be told
          reaches so far, and no stones were followed
     4    no result at all                                                  cannot be told
-    5    one run: settled by an estimate / stands up to FAR / else         as settled / probably stands / uncertain
+    5    one run: stands up to FAR / else                                  probably stands / uncertain
     6    cracks that count                                                 step of the worst one, but no worse than
                                                                            uncertain where the first (probably) stands,
                                                                            no worse than probably overturns where the
@@ -492,7 +487,7 @@ def decide(facts: Facts) -> Decision:
         return Decision(Verdict.CANNOT_BE_TOLD, math.nan, (math.nan, math.nan), sliding, doubts, would_settle)
 
     # 4
-    if governing is None and math.isnan(facts.run_ratio) and facts.settled is None:
+    if governing is None and math.isnan(facts.run_ratio):
         why = "; ".join(facts.failures) or "no component gave a result"
         would_settle = (Remark(AssessmentKind.INPUT),)
         return Decision(Verdict.CANNOT_BE_TOLD, math.nan, (math.nan, math.nan), why, doubts, would_settle)
@@ -504,12 +499,6 @@ def decide(facts: Facts) -> Decision:
         would_settle = (Remark(AssessmentKind.ENSEMBLE),)
         share = float(facts.run_ratio == math.inf)
         interval = share, share
-        if facts.settled is not None:
-            word = facts.settled
-            why = "settled by an estimate"
-            would_settle = ()
-            share = float(word is Verdict.OVERTURNS)
-            interval = share, share
     else:
         # 6: the worst crack; statics' own keeps a word in it.
         word = _envelope((crack, crack.step(risk)) for crack in followed)

@@ -24,7 +24,6 @@ from rocking.assessment.cracks import (
     sliding_first,
 )
 from rocking.assessment.decide import Verdict, decide
-from rocking.assessment.fidelity import MethodAnswer, cheapest_answer, estimated
 from rocking.assessment.inputs import CaseInputs, PairInputs, PulseInputs, ReserveInputs
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.ladder import reserve
@@ -44,11 +43,12 @@ from rocking.assessment.reserve import Reserve
 from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import RockingError
 from rocking.motion.integration import Members, integrate, integrate_members, strict
-from rocking.motion.response import UNKNOWN, Response, check_model
+from rocking.motion.response import Response, check_model
+from rocking.motion.table import forcing_of
 from rocking.pulses import Pulse, PulseEvidence, predicting_pulse
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_as_printed, predict_maximum
-from rocking.structures import Mechanism, Structure
+from rocking.structures import Mechanism, Outcome, Structure
 from rocking.structures.leaves import parts_of
 from rocking.structures.structure import Candidate
 
@@ -122,30 +122,30 @@ def _under_component(inputs: CaseInputs, clock: Clock) -> CaseResult:
     vertical = inputs.vertical
     try:
         mechanism = structure.mechanism()
-        responses = _integrated(mechanism, inputs, clock)
-        members = settings.ensemble.members if inputs.alone else 0
-        if settings.fidelity == "auto":
-            answer = _cheapest(inputs)
-            if answer.response is not None:
-                responses[Method.MECHANISM_ON_RECORD] = answer.response
-        else:
-            whole = responses[Method.MECHANISM_ON_RECORD]
-            answer = MethodAnswer(Method.MECHANISM_ON_RECORD, whole.outcome, "", whole)
-        check = UNKNOWN
-        if answer.response is not None:
-            check = check_model(structure, answer.response, record, vertical)
-        case = CaseResult(component=record.component, responses=responses, check=check, answer=answer)
+        first = counting_cracks(structure)[0].mechanism
+        at_rest = settings.fidelity == "quick" and stays_at_rest(first, record, vertical)
+        responses = {Method.MECHANISM_ON_RECORD: _STILL} if at_rest else _integrated(mechanism, inputs, clock)
+        check = check_model(structure, responses[Method.MECHANISM_ON_RECORD], record, vertical)
+        case = CaseResult(component=record.component, responses=responses, check=check)
         if not inputs.alone:
             return case
         motions = ground_motions(inputs.motion, settings.ensemble.processing)
-        if members and answer.method is Method.MECHANISM_ON_RECORD:
+        if settings.ensemble.members and not at_rest:
             case = replace(case, ensembles=ensemble_over_cracks(structure, motions, settings))
-            return with_contacts(case, structure, motions, settings, check.bounces)
-        if vertical is None and inputs.motion.support is None:
-            case = replace(case, overturning_estimate=estimated(mechanism, record))
         return with_contacts(case, structure, motions, settings, check.bounces)
     except RockingError as error:
         return CaseResult(component=record.component, failures=(Failure("responses", str(error)),))
+
+
+_STILL = Response(rotation_ratio=0.0, outcome=Outcome.NO_UPLIFT)
+"""Of a structure that the ground never lifts, exactly."""
+
+
+def stays_at_rest(
+    mechanism: Mechanism, accelerogram: Accelerogram, vertical: Accelerogram | None = None
+) -> bool:
+    """Whether the ground never reaches the uplift acceleration, whatever its phase with the vertical component."""
+    return forcing_of(accelerogram, vertical).excitation <= mechanism.uplift_multiplier
 
 
 def _over_directions(inputs: CaseInputs) -> CaseResult:
@@ -171,7 +171,7 @@ def with_contacts(
 
     Doubts are looked for with every word below "probably overturns"; of what stands whether its ties hold it still
     enough; and of what (probably) stands whether its contacts have the friction that they need. Contact dynamics runs,
-    except with fidelity: auto, where nothing else decides, and where contacts have less; with fidelity: contact by
+    except with fidelity: quick, where nothing else decides, and where contacts have less; with fidelity: contact by
     MOST_RUNS runs, and also where a held wall turns so far that it only probably stands. What is a chain of stones is
     followed where `_asks_for_stones` says so, and these then say what its contacts do. bounces: whether a contact opens
     in a run as recorded; None where that is not known.
@@ -203,11 +203,11 @@ def with_contacts(
     decision = decide(case.facts(structure))
     advised = any(remark.kind is AssessmentKind.CONTACT_DYNAMICS for remark in decision.would_settle)
     asking = {
-        "auto": (),
-        "full": (Verdict.CANNOT_BE_TOLD,),
+        "quick": (),
+        "standard": (Verdict.CANNOT_BE_TOLD,),
         "contact": (Verdict.CANNOT_BE_TOLD, Verdict.PROBABLY_STANDS),
     }
-    lacks_friction = settings.fidelity != "auto" and not math.isnan(case.friction_needed)
+    lacks_friction = settings.fidelity != "quick" and not math.isnan(case.friction_needed)
     if not advised or not (lacks_friction or decision.word in asking[settings.fidelity]):
         return case
     contact = contact_share(structure, motions, settings, runs)
@@ -219,10 +219,10 @@ def with_contacts(
 def _asks_for_stones(case: CaseResult, structure: Structure, settings: AssessmentSettings) -> bool:
     """Whether a case is followed as stones, than which its mechanism may be better off or worse.
 
-    Never with fidelity: auto, nor what rests or overturns by its mechanism; with fidelity: contact always else, and
+    Never with fidelity: quick, nor what rests or overturns by its mechanism; with fidelity: contact always else, and
     otherwise where the mechanism does not stand, or only stones may say that it does.
     """
-    if settings.fidelity == "auto" or not structure.as_stones:
+    if settings.fidelity == "quick" or not structure.as_stones:
         return False
     facts = case.facts(structure)
     word = decide(facts).word
@@ -232,12 +232,9 @@ def _asks_for_stones(case: CaseResult, structure: Structure, settings: Assessmen
 
 
 def _integrated(mechanism: Mechanism, inputs: CaseInputs, clock: Clock) -> dict[Method, Response]:
-    """Every integration that the closed form is compared with; with fidelity: auto none."""
+    """The response to the record; unless fidelity is quick, also what the closed form is compared with besides."""
     responses: dict[Method, Response] = {}
     settings = inputs.settings
-    if settings.fidelity == "auto":
-        return responses
-    block = mechanism.equivalent_block(settings.acceleration_scale)
     record = inputs.accelerogram
     vertical = inputs.vertical
     follow_as_recorded = partial(
@@ -251,56 +248,16 @@ def _integrated(mechanism: Mechanism, inputs: CaseInputs, clock: Clock) -> dict[
     )
     runs = {Method.MECHANISM_ON_RECORD: follow_as_recorded}
     follow_simpler = partial(integrate, tolerance=strict(settings.tolerance))
-    if mechanism.can_overturn:
+    compares = settings.fidelity != "quick"
+    if compares and mechanism.can_overturn:
+        block = mechanism.equivalent_block(settings.acceleration_scale)
         runs[Method.BLOCK_ON_RECORD] = partial(follow_simpler, block, record, vertical=vertical)
-    if inputs.pulse is not None:
+    if compares and inputs.pulse is not None:
         runs[Method.MECHANISM_ON_PULSE] = partial(follow_simpler, mechanism, inputs.pulse)
     for method, run in runs.items():
         with clock.stage(method):
             responses[method] = run()
     return responses
-
-
-def _cheapest(inputs: CaseInputs) -> MethodAnswer:
-    """Return what settles the verdict with the least work, at the settings' risk of the opposite outcome.
-
-    Where other cracks may form, nothing cheaper than the mechanism settles it unless all of them rest, or stand by
-    their peak velocities.
-    """
-    structure = inputs.structure
-    settings = inputs.settings
-    record = inputs.accelerogram
-    vertical = inputs.vertical
-    mechanism = structure.mechanism()
-    # Peak velocities were calibrated on the ground, not on supports that ring.
-    risk = settings.fidelity_risk if inputs.motion.support is None else 0.0
-    several = counting_cracks(structure)
-    mechanisms = [candidate.mechanism for candidate in several]
-    alone = len(several) == 1 and not several[0].bulges
-    of_statics = mechanism if alone else mechanisms[0]
-    if not alone:
-        estimates = (estimated(mechanism, record) for mechanism in mechanisms)
-        if not all(estimate is not None and estimate.high <= risk for estimate in estimates):
-            risk = 0.0
-    answer = cheapest_answer(
-        of_statics,
-        record,
-        risk=risk,
-        tolerance=settings.tolerance,
-        vertical=vertical,
-        history=True,
-    )
-    if answer.method is not Method.MECHANISM_ON_RECORD or of_statics is mechanism:
-        return answer
-    whole = integrate(
-        mechanism,
-        record,
-        tolerance=settings.tolerance,
-        vertical=vertical,
-        history=True,
-        repeat_fragile=True,
-    )
-    return replace(answer, outcome=whole.outcome, response=whole)
 
 
 def other_cracks(
@@ -383,7 +340,7 @@ def _with_variations(case: CaseResult, inputs: CaseInputs) -> CaseResult:
 
     For a crack that cannot be followed, the reason is kept as a failure.
     """
-    if case.answer is None:
+    if case.response is None:
         return case
     structure = inputs.structure
     settings = inputs.settings

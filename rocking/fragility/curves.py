@@ -19,7 +19,6 @@ from scipy.special import erfcx, ndtr, stdtr, stdtrit
 
 from rocking.assessment.cracks import counting_cracks, never_overturns_because
 from rocking.assessment.ensemble import drawn, lattice
-from rocking.assessment.fidelity import peak_velocity, per_velocity
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import EnsembleSettings
 from rocking.drawn import Drawn
@@ -27,12 +26,13 @@ from rocking.errors import ConfigurationError, StructureError
 from rocking.floors.support import Support
 from rocking.fragility.exchange import CURVE, NRML, fragility_csv, nrml
 from rocking.fragility.hazard import AnnualRate, Hazard, annual_rate
-from rocking.fragility.measures import IntensityMeasure, check_name
+from rocking.fragility.measures import IntensityMeasure, check_name, per_velocity
 from rocking.fragility.measures import intensity_measure as measure_named
 from rocking.motion.batch import integrate_batch
 from rocking.motion.integration import Rocking, reduce
 from rocking.quantities import GRAVITY, counted
 from rocking.records import Accelerogram
+from rocking.records.measures import peak_velocity
 from rocking.records.sample import Sample
 from rocking.structures import EquivalentBlock, Mechanism, Structure
 from rocking.structures.unknown_geometry import as_structure

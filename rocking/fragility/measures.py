@@ -12,13 +12,12 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from rocking.assessment.fidelity import peak_velocity, per_velocity
 from rocking.errors import ConfigurationError, RecordError, RockingError
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
-from rocking.records.measures import record_measures, response_spectrum
+from rocking.records.measures import peak_velocity, record_measures, response_spectrum
 from rocking.records.processing import integral
-from rocking.structures import Mechanism, Structure
+from rocking.structures import EquivalentBlock, Mechanism, Structure
 
 LONGEST_PERIOD = 20.0
 """s; beyond it no accelerograph says what the ground did."""
@@ -41,6 +40,11 @@ every swing starts nearly from rest. One that rocks to one side alone is thrown 
 swings up. What decides is the strongest single pulse of the ground, of any period, which PGV measures."""
 FIV3_BY_PERIOD = 0.30
 """Period of FIV3 over 2π/p."""
+
+
+def per_velocity(block: EquivalentBlock) -> float:
+    """Return p/(gλ) of the side that lifts first, s/m."""
+    return block.frequency_parameter / (GRAVITY * min(side.uplift_multiplier for side in block.sides))
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ Of the libraries made for spectra, pyrotd 0.6.1 wraps the end of a record round 
 
 import math
 from dataclasses import dataclass
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -94,6 +95,16 @@ def record_measures(accelerogram: Accelerogram) -> RecordMeasures:
         husid=husid,
         significant_times=(begin, end),
     )
+
+
+_PEAK_VELOCITIES: WeakKeyDictionary[Accelerogram, float] = WeakKeyDictionary()
+
+
+def peak_velocity(accelerogram: Accelerogram) -> float:
+    """Return PGV by the trapezoidal rule from rest, m/s; measured once, as every structure asks for it."""
+    if accelerogram not in _PEAK_VELOCITIES:
+        _PEAK_VELOCITIES[accelerogram] = record_measures(accelerogram).peak_velocity
+    return _PEAK_VELOCITIES[accelerogram]
 
 
 PERIODS = np.geomspace(0.04, 8.0, 70)

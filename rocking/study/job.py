@@ -91,8 +91,8 @@ class Study:
         """The settings of the assessment: in full where a report or histories are made, which show every case."""
         settings = self.settings
         own = {setting.name: getattr(settings, setting.name) for setting in fields(AssessmentSettings)}
-        if settings.fidelity == "auto" and (settings.reports or settings.histories):
-            own["fidelity"] = "full"
+        if settings.fidelity == "quick" and (settings.reports or settings.histories):
+            own["fidelity"] = "standard"
         return AssessmentSettings(**own)
 
     def assessor(self, store: Store | None, clock: Clock) -> Assessor:

@@ -302,11 +302,9 @@ def _lines_of(station: "PeriodResult", scale_factor: float) -> Iterator[str]:
     share = f" ({decision.share_in_words})" if decision.share_in_words else ""
     yield f"{placed(station.structure, station.support_period_s)}: {decision.word}{share}; {decision.why}"
     for component, case in station.cases.items():
-        if case.answer is None:
+        if case.response is None:
             continue
-        facts = [f"  {component or 'component not named'}: {case.answer.outcome}"]
-        if case.answer.reason:
-            facts.append(case.answer.reason)
+        facts = [f"  {component or 'component not named'}: {case.response.outcome}"]
         if math.isfinite(case.integrated_rotation_ratio):  # overturning stands in the outcome
             facts.append(f"largest rotation {case.integrated_rotation_ratio:.4g} of the critical one")
         predicted = case.predicted_rotation_ratio

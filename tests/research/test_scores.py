@@ -11,17 +11,17 @@ from rocking.records import Accelerogram
 from rocking.records.sample import Sample
 
 
-def planted(many: int, sites: int = 20) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """A design, outcomes of log odds 2 x − 1, and groups."""
+def planted(many: int) -> tuple[np.ndarray, np.ndarray]:
+    """A design, and outcomes of log odds 2 x − 1."""
     rng = np.random.default_rng(7)
     x = rng.normal(size=many)
     fallen = rng.random(many) < 1 / (1 + np.exp(1 - 2 * x))
-    return np.column_stack([np.ones(many), x]), fallen, rng.integers(sites, size=many)
+    return np.column_stack([np.ones(many), x]), fallen
 
 
 def test_the_fit_is_the_maximum_of_the_likelihood():
     """Of scipy's simplex, which knows no derivative; the penalty moves it by less than its tolerance."""
-    design, fallen, groups = planted(2000)
+    design, fallen = planted(2000)
     signs = np.where(fallen, -1, 1)
     oracle = minimize(
         lambda b: np.logaddexp(0, signs * (design @ b)).sum(),
@@ -29,64 +29,16 @@ def test_the_fit_is_the_maximum_of_the_likelihood():
         method="Nelder-Mead",
         options={"xatol": 1e-7, "fatol": 1e-9},
     )
-    assert logistic(design, fallen, groups)[0] == pytest.approx(oracle.x, abs=1e-3)
-
-
-def test_the_covariance_is_that_of_the_coefficients():
-    """Of independent cases, each its own group: the spread over many samples, within what 300 of them tell (±8 %)."""
-    rng = np.random.default_rng(3)
-    x = rng.normal(size=400)
-    design = np.column_stack([np.ones(400), x])
-    odds = 1 / (1 + np.exp(-x))
-    fits = [logistic(design, rng.random(400) < odds, np.arange(400)) for _ in range(300)]
-    spread = np.cov(np.array([coefficients for coefficients, _ in fits]).T)
-    said = np.mean([covariance for _, covariance in fits], axis=0)
-    assert np.diag(said) == pytest.approx(np.diag(spread), rel=0.25)
-
-
-def test_the_covariance_of_a_coin_is_known():
-    """Of n tosses with shares p and q: 1/(p q (n − 1)), each toss a group."""
-    heads = np.arange(10) < 3
-    (odds,), ((variance,),) = logistic(np.ones((10, 1)), heads, np.arange(10))
-    assert odds == pytest.approx(np.log(3 / 7)) and variance == pytest.approx(1 / (0.3 * 0.7 * 9))
+    assert logistic(design, fallen) == pytest.approx(oracle.x, abs=1e-3)
 
 
 def test_what_is_said_as_it_is_has_slope_one():
-    design, fallen, _ = planted(20_000)
+    design, fallen = planted(20_000)
     odds = 2 * design[:, 1] - 1
     every = np.arange(20_000)
     # the standard error of the slope is 0.02 here
     assert logit_slope(odds, fallen.astype(float))(every) == pytest.approx(1.0, abs=0.06)
     assert logit_slope(2 * odds, fallen.astype(float))(every) == pytest.approx(0.5, abs=0.03)
-
-
-def test_what_stands_whatever_is_said_is_found_again():
-    """The standard error of a share of 3 % among the strong half of 40 000 is 0.1 %."""
-    draw = np.random.default_rng(4)
-    probability = 1 / (1 + np.exp(-3 * draw.normal(size=40_000)))
-    outcomes = (draw.random(40_000) < 0.97 * probability).astype(float)
-    assert scores.lapse(probability, outcomes) == pytest.approx(0.03, abs=0.004)
-    assert scores.lapse(probability, 0.7 * probability) <= 0.1, "a fit that is worse than that is no lapse"
-
-
-def test_the_skill_is_that_over_the_base_rate():
-    outcomes, every = np.array([1.0, 0.0, 0.0, 0.0]), np.arange(4)
-    for stated, skill in ((outcomes, 1), ([0.25] * 4, 0), ([0.7, 0.1, 0.1, 0.1], 1 - 0.03 / 0.1875)):
-        assert scores.brier_skill(np.array(stated), outcomes)(every) == pytest.approx(skill)
-
-
-def test_the_skill_on_shares_is_that_on_the_outcomes_they_sum_up_of_the_cases_drawn():
-    """Each share is of four outcomes. Cases of which all overturn, or none, have no skill."""
-    shares = np.array([0.25, 0.75, 0.5, 1.0, 0.0, 0.0])
-    stated = np.array([0.3, 0.6, 0.1, 0.9, 0.2, 0.1])
-    fours = np.concatenate([np.arange(4) < 4 * share for share in shares]).astype(float)
-    skill = scores.brier_skill(stated, shares)
-    of_fours = scores.brier_skill(np.repeat(stated, 4), fours)
-    for rows in ([0, 1], [2, 3, 3], [5, 0]):
-        assert skill(np.array(rows)) == pytest.approx(
-            of_fours(np.concatenate([4 * k + np.arange(4) for k in rows]))
-        )
-    assert np.isnan([skill(np.array([3, 3])), skill(np.array([4, 5]))]).all()
 
 
 def test_intervals_draw_whole_sites():

@@ -1,7 +1,6 @@
 """The targets beside a study, each at its smallest: what it writes is complete, and its figures can be true."""
 
 import json
-import math
 import shutil
 from collections import Counter
 from pathlib import Path
@@ -14,7 +13,6 @@ from docs.research.code_checks import WallRow
 from docs.research.ensembles import EnsembleTrial
 from docs.research.scores import Score
 from docs.research.validation import PredictionRow
-from rocking.assessment.fidelity import STRUCTURE, TERMS, read_fit
 from rocking.quantities import GRAVITY
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.tables import read_table
@@ -24,7 +22,6 @@ pytestmark = pytest.mark.slow
 
 TESTS = 16
 TARGETS = {
-    "calibrate": {"scores.csv"},
     "calibrate_ensemble": {"scores.csv", "ensemble_trials.csv"},
     "validate": {"scores.csv", "predictions.csv"},
     "code_check": {"scores.csv", "walls.csv"},
@@ -86,22 +83,6 @@ def test_a_target_writes_its_tables_and_its_report(asked, target):
     for score in scores:
         assert score.sites <= score.cases
         assert not score.value_low > score.value_high
-
-
-def test_calibrate_fits_and_judges_the_estimate(asked):
-    scores = {(row.subject, row.measure): row for row in read_table(Score, asked.results / "calibrate")}
-    subject = "peak velocity"
-    skill, best = scores[subject, "Brier skill"], scores[subject, "Brier skill of the shares themselves"]
-    assert 0 < skill.value < best.value < 1
-    # Made records name no earthquake: all are of one, which says nothing of others.
-    assert (skill.earthquakes, skill.value_low, skill.value_high) == (1, 0, math.inf)
-    assert skill.sites == 4, "three of the near-fault catalogue and one of the other"
-    assert ("fidelity: auto", "wrong verdicts among those settled") in scores
-    path = asked.results / "calibrate" / "estimate.json"
-    fit = read_fit(path)
-    assert json.loads(path.read_text())["about"]["sites"] == 4
-    assert fit.coefficients.shape == (len(TERMS) + 1,) and set(fit.ranges) > set(STRUCTURE)
-    assert "1 of 1: far_4" in (asked.folder / LOG / "calibrate.log").read_text()
 
 
 def test_calibrate_ensemble_tries_every_record(asked):

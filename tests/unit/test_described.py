@@ -86,7 +86,7 @@ def test_usual_values_need_no_pydantic() -> None:
         "members": 256,
         "amplitude_range": 0.1,
         "polarity": False,
-        "fidelity": "auto",
+        "fidelity": "quick",
         "study": "A tower",
     }
     found = described_values(EnsembleSettings) | described_values(Settings)

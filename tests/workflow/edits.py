@@ -184,8 +184,7 @@ EDITS: list[Edit] = [
     # Numbers.
     ("tolerance", _setting(tolerance=1e-7), NUMBERS),
     ("acceleration_scale", _setting(acceleration_scale="uplift"), NUMBERS),
-    ("fidelity", _setting(fidelity="auto"), NUMBERS),
-    ("fidelity_risk", _setting(fidelity_risk=0.02), NUMBERS),
+    ("fidelity", _setting(fidelity="quick"), NUMBERS),
     ("friction_coefficient", _setting(friction_coefficient=0.5), NUMBERS),
     ("scale_to", _setting(scale_to="pga 0.3 g"), NUMBERS),
     ("vertical", _setting(vertical=True), NUMBERS),

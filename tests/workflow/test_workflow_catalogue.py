@@ -56,7 +56,7 @@ def test_no_record_can_take_the_name_of_a_folder_of_the_results():
     folders |= {path.partition("/")[0] for path in outputs if "/" in path and not path.startswith(("{", "."))}
     # A target of the research names its folder.
     folders |= set(re.findall(r'^    "(\w+)": \(', research, re.M))
-    assert {"calibrate", "compare", "fragility", "govern", "summary", "validate"} <= folders
+    assert {"compare", "fragility", "govern", "summary", "validate"} <= folders
     for folder in folders:
         with pytest.raises(CatalogueError, match=f"id is '{folder}'"):
             CatalogueRecord(folder, "record.txt", "0" * 64, unit="g")

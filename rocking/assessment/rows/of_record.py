@@ -123,7 +123,6 @@ of_block_response = of_case.optional(lambda of: of.case.responses.get(Method.BLO
 of_pulse_response = of_case.optional(lambda of: of.case.responses.get(Method.MECHANISM_ON_PULSE))
 of_own_crack = of_case.optional(lambda of: of.case.statics)
 of_check = of_case.part(lambda of: of.case.check)
-of_estimate = of_case.optional(lambda of: of.case.overturning_estimate)
 
 
 _FIRST = (
@@ -255,19 +254,6 @@ class ComparisonRow(DecidedRow[ComparedCase]):
     )
     ties: str = of_check(
         "Which ties yield or break on the way to the largest rotation", lambda check: check.ties
-    )
-    answer_reason: str = of_case(
-        "Reason why that method sufficed, with fidelity: auto",
-        lambda of: of.case.answer.reason if of.case.answer else "",
-    )
-    overturning_estimate: float = of_estimate(
-        "Overturning share by p PGV/(gλ), where no ensemble ran", lambda estimate: estimate.share
-    )
-    overturning_estimate_low: float = of_estimate(
-        "Lower end of the 90 % interval of the estimate", lambda estimate: estimate.low
-    )
-    overturning_estimate_high: float = of_estimate(
-        "Upper end of the 90 % interval of the estimate", lambda estimate: estimate.high
     )
 
 
@@ -892,7 +878,7 @@ def rows_of_record(
     for component, identity in by_component.items():
         for period_result, case in result.cases(component):
             with _as_failures(failures, identity, period_result):
-                if case.answer is not None:
+                if case.response is not None:
                     compared = ComparedCase(identity, period_result, case, friction_coefficient)
                     comparison.append(ComparisonRow.of(compared))
                 variations += [

@@ -9,7 +9,6 @@ from typing import TypeVar
 import numpy as np
 from scipy.special import ndtri
 
-from rocking.assessment.fidelity import peak_velocity
 from rocking.assessment.rows import RECORD, Placed, PlacedRow
 from rocking.errors import ConfigurationError
 from rocking.fragility.curves import (
@@ -26,6 +25,7 @@ from rocking.fragility.measures import (
     compared,
 )
 from rocking.records import Accelerogram
+from rocking.records.measures import peak_velocity
 from rocking.records.sample import Sample
 from rocking.structures import Mechanism
 from rocking.tables import Columns, Row, row

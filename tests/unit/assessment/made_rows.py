@@ -15,7 +15,6 @@ from rocking.assessment.case import CaseResult, Failure, PeriodResult
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.decide import Decision
 from rocking.assessment.ensemble import Ensemble
-from rocking.assessment.fidelity import MethodAnswer
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import (
@@ -68,7 +67,6 @@ def case(component: str, ratio: float, structure: str = "pier", side: int = 0, f
         structure=structure,
         component=component,
         responses={Method.MECHANISM_ON_RECORD: response},
-        answer=MethodAnswer(Method.MECHANISM_ON_RECORD, outcome, "", response),
         ensembles=None if falls is None else of_one_crack(members(falls)),
     )
 

@@ -72,13 +72,6 @@ def test_a_record_that_is_one_pulse_is_predicted_by_its_pulse(case):
     assert case.prediction.maximum.rotation_ratio == pytest.approx(block, rel=1e-2)
 
 
-def test_a_case_without_an_ensemble_alone_has_an_estimate_in_its_row(case):
-    settings = AssessmentSettings(ensemble=EnsembleSettings(members=0))
-    alone = assessed(RECORD, settings)
-    assert compared(alone).overturning_estimate == alone.overturning_estimate.share
-    assert math.isnan(compared(case).overturning_estimate)
-
-
 def test_the_ranked_rows_of_pulses_are_the_alternatives_in_their_order():
     component = component_of(RECORD, SETTINGS.pulse)
     rows = [PulseRow.of(found) for found in pulses_found(IDENTITY, component)]

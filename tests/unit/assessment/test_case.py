@@ -6,13 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rocking.assessment.case import CaseResult, Variation
+from rocking.assessment.case import Variation
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
-from rocking.assessment.fidelity import MethodAnswer
 from rocking.assessment.kinds import AssessmentKind
-from rocking.assessment.methods import Method
 from rocking.assessment.motions import Motion
-from rocking.motion.response import Outcome
 from rocking.records import Accelerogram
 from rocking.remarks import Remark
 from rocking.reports.printing import cell_text
@@ -67,14 +64,6 @@ def test_a_component_that_failed_cannot_be_told_unless_another_overturns():
     assert result.decision.why == "the component NS gave no result: No.; 0 of 64 members overturn"
     assert station(case("EW", math.inf, falls=64), broken("NS")).verdict == "overturns"
     assert station(case("EW", 0.0), broken("NS")).verdict == "cannot be told", "though the other one rests"
-
-
-def test_what_an_estimate_says_does_not_lift_has_not_turned_and_what_it_says_falls_is_not_known_to_stand():
-    """Without an integration: such a case has no rotation of its own."""
-    for outcome, expected in ((Outcome.NO_UPLIFT, 0.0), (Outcome.OVERTURNS, math.inf)):
-        answer = MethodAnswer(Method.MECHANISM_ON_RECORD, outcome, "", None)
-        assert CaseResult(component="EW", answer=answer).largest_rotation_ratio == expected
-    assert CaseResult(component="EW").largest_rotation_ratio == 0.0
 
 
 def test_a_crack_that_overturns_in_one_run_is_the_worse_of_the_two():

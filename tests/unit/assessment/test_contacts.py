@@ -125,7 +125,7 @@ def test_few_runs_of_contact_dynamics_let_a_spire_probably_stand_and_many_let_it
 
 
 def test_contact_dynamics_is_asked_where_it_cannot_be_told_and_of_a_held_wall_that_turns_far(monkeypatch):
-    """Not where the members are uncertain, and with fidelity: auto never; with contact by all runs.
+    """Not where the members are uncertain, and with fidelity: quick never; with contact by all runs.
 
     Whether it is asked, and by how many runs, is all that counts here, of joints that nothing lets slide.
     """
@@ -163,9 +163,9 @@ def test_contact_dynamics_is_asked_where_it_cannot_be_told_and_of_a_held_wall_th
         Verdict.UNCERTAIN,
         Verdict.PROBABLY_OVERTURNS,
     ]
-    auto = AssessmentSettings(fidelity="auto")
+    quick = AssessmentSettings(fidelity="quick")
     lifts = Motion((sine(1.3 * SPIRE.static_multiplier * GRAVITY, 0.1),))
-    assert compute_case(CaseInputs(motion=lifts, structure=SPIRE, settings=auto)).contact is None
+    assert compute_case(CaseInputs(motion=lifts, structure=SPIRE, settings=quick)).contact is None
 
 
 @pytest.mark.parametrize("runs", [RUNS, MOST_RUNS])
@@ -304,16 +304,20 @@ def test_a_tie_that_is_too_stiff_for_the_usual_step_is_followed_at_a_shorter_one
 def test_the_cost_that_is_told_beforehand_is_that_of_its_bodies_and_steps():
     """Of still ground none, of twice the runs twice, of what is no stack or is not asked none."""
     motion = sine(2.0)
-    full, contact, auto = (AssessmentSettings(fidelity=each) for each in ("full", "contact", "auto"))
-    cost = expected_seconds(SPIRE, [motion], full)
+    standard, contact, quick = (
+        AssessmentSettings(fidelity=each) for each in ("standard", "contact", "quick")
+    )
+    cost = expected_seconds(SPIRE, [motion], standard)
     steps = round(np.ptp(np.flatnonzero(motion.acceleration)) * motion.time_step / STEP)
     mean = (COURSES + MANY_COURSES) / 2 * (7 + 2) / 8  # courses; every eighth run has twice the steps
     assert cost == pytest.approx(
         RUNS * SECONDS_A_STEP * mean * steps, rel=0.1
     )  # weak ends of the motion count as still
     assert expected_seconds(SPIRE, [motion], contact) == pytest.approx(cost * MOST_RUNS / RUNS)
-    assert expected_seconds(SPIRE, [motion.scaled(1e-6)], full) == 0
-    assert expected_seconds(SPIRE, [motion], auto) == expected_seconds(Block(2.0, 0.2), [motion], full) == 0
+    assert expected_seconds(SPIRE, [motion.scaled(1e-6)], standard) == 0
+    assert (
+        expected_seconds(SPIRE, [motion], quick) == expected_seconds(Block(2.0, 0.2), [motion], standard) == 0
+    )
 
 
 def test_one_rigid_body_is_left_to_its_members():
@@ -437,8 +441,8 @@ def test_a_block_whose_corner_needs_more_friction_than_it_has_only_probably_stan
     firm = rocking.assess(record, block, settings=replace(settings, friction_coefficient=1.1 * needed))
     assert firm.verdict is Verdict.STANDS
     assert np.isnan(firm.friction_needed)
-    auto = replace(settings, fidelity="auto", fidelity_risk=0.0)
-    case = compute_case(CaseInputs(motion=Motion((record,)), structure=block, settings=auto))
+    quick = replace(settings, fidelity="quick")
+    case = compute_case(CaseInputs(motion=Motion((record,)), structure=block, settings=quick))
     assert decide(case.facts(block)).word is Verdict.PROBABLY_STANDS, "as every path to a word has it"
 
 
@@ -469,13 +473,13 @@ def test_an_arch_that_needs_more_friction_stands_as_its_voussoirs_do():
 
 
 def test_a_stack_is_followed_on_the_friction_that_its_courses_have():
-    """With fidelity: full by 24 runs, which may find that it slides apart; with contact by 64, which may clear it."""
+    """With fidelity: standard by 24 runs, which may find that it slides apart; contact by 64, which may clear it."""
     wall = Wall(lower_height=2.0, upper_height=1.0, thickness=0.5, crack="known")
     motion = Accelerogram(sine(7.0, 0.3).acceleration[:130], 0.005)
     slippery = AssessmentSettings(friction_coefficient=0.35, ensemble=EnsembleSettings(reserve=0))
     few, many = (
         rocking.assess(motion, wall, settings=replace(slippery, fidelity=each))
-        for each in ("full", "contact")
+        for each in ("standard", "contact")
     )
     assert few.friction_needed == many.friction_needed > 0.35
     assert few.verdict is Verdict.PROBABLY_STANDS
@@ -503,8 +507,8 @@ def test_an_arch_on_piers_stands_by_its_stones_alone():
     motion = sine(1.2 * piers.static_multiplier * GRAVITY, 0.2)
     assert words_of(piers, motion) == ("probably stands", ContactShare(falls=0, runs=18))
     assert words_of(piers, motion, fidelity="contact") == ("stands", ContactShare(falls=0, runs=64))
-    auto = AssessmentSettings(fidelity="auto")
-    case = compute_case(CaseInputs(motion=Motion((motion,)), structure=piers, settings=auto))
+    quick = AssessmentSettings(fidelity="quick")
+    case = compute_case(CaseInputs(motion=Motion((motion,)), structure=piers, settings=quick))
     assert case.contact is None
     assert decide(case.facts(piers)).word is Verdict.PROBABLY_STANDS
     rests = sine(0.9 * piers.static_multiplier * GRAVITY, 0.2)

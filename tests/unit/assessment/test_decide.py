@@ -138,7 +138,6 @@ def test_8b_only_its_stones_let_an_arch_on_piers_stand():
     assert str(alone.word) == "probably stands"
     assert AssessmentKind.STONES_TELL in kinds(alone.doubts)
     assert AssessmentKind.CONTACT_DYNAMICS in kinds(alone.would_settle)
-    assert word(settled=Verdict.STANDS, needs_stones=True) == "probably stands"
     assert word(cracks=(crack(0, farthest=0.0),), rests=True, needs_stones=True) == "stands"
     for runs, expected in ((24, "probably stands"), (64, "stands")):
         told = decide(replace(piers, stacks=(0, runs)))
@@ -176,11 +175,6 @@ def test_5_one_run_is_never_sure(ratio, expected):
     assert str(decision.word) == expected
     assert decision.share_in_words == "one run"
     assert kinds(decision.would_settle) == [AssessmentKind.ENSEMBLE]
-
-
-@pytest.mark.parametrize("settled", [Verdict.STANDS, Verdict.OVERTURNS])
-def test_5_an_estimate_settles(settled):
-    assert decide(Facts(settled=settled, run_ratio=0.2)).word is settled
 
 
 @pytest.mark.parametrize(
@@ -276,8 +270,6 @@ def test_8b_a_contact_that_needs_more_friction_than_it_has_limits_the_word(runs,
     limited = expected != "stands"
     assert (AssessmentKind.FRICTION_SHORT in kinds(decision.doubts)) is limited
     assert (AssessmentKind.FRICTION in kinds(decision.would_settle)) is limited
-    settled = decide(Facts(settled=Verdict.STANDS, friction_needed=math.inf))
-    assert str(settled.word) == "probably stands"
 
 
 @pytest.mark.parametrize("far", [{"doubts": (OPEN,)}, {"held": True, "beyond": AssessmentKind.TIES_GIVE}])
@@ -404,7 +396,6 @@ def test_11_tells_what_decides():
         (lambda: CrackFacts("a", 0, 2), "farthest nan"),
         (lambda: Facts(stacks=(3, 2)), "stacks"),
         (lambda: Facts(stacks=(0, 0)), "stacks"),
-        (lambda: Facts(settled=Verdict.UNCERTAIN), "settled"),
         (lambda: Facts(doubts=(Remark(AssessmentKind.FRICTION),)), "doubts"),
         (lambda: Facts(risk=0.5), "risk"),
     ],
@@ -448,7 +439,6 @@ def drawn(chance):
         cracks=tuple(cracks),
         rests=chance() < 0.03,
         run_ratio=one_of(math.nan, 0.1, 0.5, math.inf),
-        settled=one_of(Verdict.STANDS, Verdict.OVERTURNS) if chance() < 0.1 else None,
         never_overturns_because="stays tied" if chance() < 0.05 else "",
         slides_at=0.6 if chance() < 0.1 else math.nan,
         friction_needed=one_of(0.7, math.inf) if chance() < 0.1 else math.nan,
@@ -512,8 +502,6 @@ def oracle(facts):
         place = of_all(with_failed)
         if borne_out < 5 and (place >= 5 or any(each.followed == 0 for each in count)):
             place = 4
-    elif facts.settled is not None:
-        place = {"stands": 1, "overturns": 6}[facts.settled]
     elif math.isnan(facts.run_ratio):
         return SAFEST_FIRST[4]
     else:

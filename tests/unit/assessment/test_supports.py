@@ -25,7 +25,7 @@ from tests.unit.assessment.made_rows import case, verdicts
 
 STEP = 0.01
 BODY = Block(semi_diagonal=0.5, slenderness=0.25)
-FULL = Assessor(AssessmentSettings(fidelity="full", ensemble=EnsembleSettings(members=16, reserve=0.0)))
+FULL = Assessor(AssessmentSettings(fidelity="standard", ensemble=EnsembleSettings(members=16, reserve=0.0)))
 ROOF = {"name": "roof", "damping_ratio": 0.05, "participation": 1.3}
 
 

@@ -74,7 +74,7 @@ def shaken(component: str = "EW", scale_factor: float = 1.0, **identity) -> Acce
 
 
 def assessed(
-    record: str, accelerograms: list[Accelerogram], structures: dict[str, object], fidelity: str = "full"
+    record: str, accelerograms: list[Accelerogram], structures: dict[str, object], fidelity: str = "standard"
 ) -> RecordReport:
     """Compute every table of `record`, each component for itself, and return its report."""
     assessor = Assessor(

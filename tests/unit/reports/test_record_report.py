@@ -410,7 +410,7 @@ def test_the_report_says_what_to_do_and_by_how_much_the_record_may_be_stronger()
     spire = Spire(3.0, 15.0, 0.25, crack_height=5.0, crack="known")
     structures = {"spire": spire, "block": Block.of_size(1.0, 4.0)}
     shaking = [shaken("NS", scale_factor=3.0), shaken("EW", scale_factor=2.0)]
-    unasked = assessed("two", shaking, structures, fidelity="auto")
+    unasked = assessed("two", shaking, structures, fidelity="quick")
     data = unasked.page()
     assert data.advice.sentences == (f"To learn more of spire: {Remark(AssessmentKind.CONTACT_DYNAMICS)}.",)
     remarks = {row.name: row.remark for row in data.page_one.rows}

@@ -31,7 +31,7 @@ def report():
     pier = Block(semi_diagonal=4.0, slenderness=0.25)
     scenes = {"parapet": Scene("parapet", body, place_from_config(roof)), **on_the_ground({"pier": pier})}
     structures = {"parapet": body, "pier": pier}
-    settings = AssessmentSettings(fidelity="full", ensemble=EnsembleSettings(members=16))
+    settings = AssessmentSettings(fidelity="standard", ensemble=EnsembleSettings(members=16))
     result = Assessor(settings).assess("made", [record], scenes)
     settings = PageSettings(acceleration_scale="linearised", friction_coefficient=0.6)
     return RecordReport(result, rows_of_record(result), structures, settings)

@@ -186,7 +186,7 @@ def test_its_word_is_that_of_the_worst_part():
     times = np.arange(0, 5, 0.005)
     push = 3 * wall.static_multiplier * G
     motion = rocking.Accelerogram(push * np.sin(2 * np.pi * times / 2.5) * (times < 2.5), 0.005)
-    settings = AssessmentSettings(fidelity="auto")
+    settings = AssessmentSettings(fidelity="quick")
     told = rocking.assess(motion, wall, settings=settings)
     by_itself = rocking.assess(motion, outer, settings=settings)
     as_one = rocking.assess(motion, replace(wall, **wall._as_one_leaf), settings=settings)
@@ -398,7 +398,7 @@ def limits_of(wall):
     }
 
 
-AUTO = AssessmentSettings(fidelity="auto")
+AUTO = AssessmentSettings(fidelity="quick")
 
 
 @pytest.mark.filterwarnings("ignore::rocking.errors.StructureWarning")

@@ -163,14 +163,14 @@ def test_hinges_that_are_typed_slide_as_all_joints_do():
 
 
 def test_what_slides_before_it_lifts_cannot_be_told_by_its_mechanism():
-    """Though the motion stays below the acceleration at which that lifts; fidelity: auto follows no stones."""
+    """Though the motion stays below the acceleration at which that lifts; fidelity: quick follows no stones."""
     slides_at = SLIDES.slides_at(0.4)
     assert slides_at < 0.9 * SLIDES.static_multiplier
     times = np.arange(0, 3, 0.005)
     shape = np.sin(2 * np.pi * times / 0.5)
 
     def told(peak: float, friction: float) -> Decision:
-        settings = AssessmentSettings(friction_coefficient=friction, fidelity="auto")
+        settings = AssessmentSettings(friction_coefficient=friction, fidelity="quick")
         motion = Motion((Accelerogram(peak * GRAVITY * shape, 0.005),))
         case = compute_case(CaseInputs(motion=motion, structure=SLIDES, settings=settings))
         return decide(case.facts(SLIDES))

@@ -245,7 +245,7 @@ def test_a_fault_of_this_package_costs_no_other_record_and_asks_to_be_reported(t
     assert not second[FailureRow] and second[ComparisonRow]
 
 
-@pytest.mark.parametrize("fidelity", ["full", "auto"])
+@pytest.mark.parametrize("fidelity", ["standard", "quick"])
 def test_a_pair_has_the_ensemble_over_its_directions_that_assess_has(tmp_path: Path, fidelity: str) -> None:
     times = np.arange(0, 4, 0.01)
     waves = [a * np.sin(7 * times) * np.exp(-((times - 1.5) ** 2)) for a in (3.0, 4.0)]
@@ -256,7 +256,7 @@ def test_a_pair_has_the_ensemble_over_its_directions_that_assess_has(tmp_path: P
     (both,) = _rows(_record(tmp_path), study, (pair, None)).verdicts
     joined = assess(pair, block)
     assert both.component == "both" and both.verdict is joined.verdict
-    if fidelity == "full":
+    if fidelity == "standard":
         same = ("members", "overturning_members", "rotation_ratio_low", "rotation_ratio_high")
         assert all(getattr(both, name) == getattr(joined, name) for name in same)
 
