@@ -119,13 +119,24 @@ def velocity_unit(text: str) -> str | None:
 
 
 def acceleration_factor(unit: str) -> float:
-    """Return the factor from `unit` to m/s². Raises RecordError when the unit is not known."""
-    name = acceleration_unit(unit)
-    if name is None:
+    """Return the factor from `unit` to m/s²: of "4.71e-6 m/s2", the unit of one count, 4.71e-6.
+
+    Raises RecordError when the unit is not known.
+    """
+    of_count = _OF_COUNT.fullmatch(str(unit).strip())
+    count = float(of_count["number"]) if of_count else 1.0
+    name = acceleration_unit(of_count["unit"] if of_count else unit)
+    if name is None or not 0 < count < math.inf:
         raise RecordError.naming(
-            "unit", unit, f"unit is {shown(unit)}, but must be one of {', '.join(ACCELERATION_UNITS)}."
+            "unit",
+            unit,
+            f"unit is {shown(unit)}, but must be one of {', '.join(ACCELERATION_UNITS)}, for counts behind the "
+            "acceleration of one, as in 4.71e-6 m/s2.",
         )
-    return ACCELERATION_UNITS[name]
+    return count * ACCELERATION_UNITS[name]
+
+
+_OF_COUNT = re.compile(r"(?P<number>\d*\.?\d+(?:[eE][-+]?\d+)?)\s+(?P<unit>\D.*)")
 
 
 def finite(error: type[RockingError], field: str, value: float, unit: str = "") -> float:

@@ -408,16 +408,21 @@ def strengthen(
             "structure is one of the mechanisms of a wall, but must be the wall itself, which may open elsewhere once "
             "its sizes change."
         )
-    fields = {size.name: size for size in sizes(structure)}
-    if key not in fields:
-        raise ConfigurationError(
-            f"key is {shown(key)}, but {article(structure.type_name)} has no such size{nearest(key, fields)}; it has "
-            f"{', '.join(fields)}."
-        )
+    size = size_named(structure, key, {size.name: size for size in sizes(structure)})
     sample = Sample.of(records, stations, events)
     return strengthen_scene(
-        records, Scene("structure", structure), fields[key], between, target, sample, early=early
+        records, Scene("structure", structure), size, between, target, sample, early=early
     )
+
+
+def size_named(structure: Structure, name: str, allowed: Mapping[str, Field]) -> Field:
+    """Return the size of a structure of that name. Raises ConfigurationError with those that are `allowed`."""
+    if name not in allowed:
+        kind = article(structure.described.type_name)
+        raise ConfigurationError(
+            f"key is {shown(name)}, but {kind} has no such size{nearest(name, allowed)}; it has {', '.join(allowed)}."
+        )
+    return allowed[name]
 
 
 def sizes(structure: Structure) -> list[Field]:

@@ -235,13 +235,13 @@ def load_scenes(path: str | Path, content: bytes | None = None) -> dict[str, Sce
     """Return the scenes that a file lists, by name, in its order; content: of a list in YAML that lies in no file.
 
     A YAML file is a list of mappings, each with a `name` of its own; those of type support carry others, which name
-    them by `stands_on`. The variants of a structure follow it, each as "structure: variant". A CSV file has an entry a
-    row, without variants; see `_rows`. What there is to say of one is its `Scene.remarks`. Raises ConfigurationError
-    with every defect at once, one a line.
+    them by `stands_on`. The variants of a structure follow it, each as "structure: variant". A CSV file, or
+    the first sheet of an XLSX file, has an entry a row, without variants; see `_rows`. What there is to say of one is
+    its `Scene.remarks`. Raises ConfigurationError with every defect at once, one a line.
     """
     defects: list[str] = []
     path = Path(path)
-    is_table = content is None and path.suffix.lower() == ".csv"
+    is_table = content is None and path.suffix.lower() in (".csv", ".xlsx")
     entries = _rows(path, defects) if is_table else _entries(path, defects, content)
     places: dict[str, Place | None] = {}
     scenes: dict[str, Scene] = {}
@@ -265,8 +265,11 @@ def load_scenes(path: str | Path, content: bytes | None = None) -> dict[str, Sce
             defects.append(
                 f"{where}: name has {len(name)} characters, but may have {_LONGEST_NAME}; shorten it."
             )
-        elif name in names:
-            defects.append(f"{where}: the name is already taken by another structure; give each its own.")
+        elif taken := [other for other in names if isinstance(other, str) and _alike(other) == _alike(name)]:
+            unlike = "" if name in taken else f", {shown(taken[0])}, but for blanks and capitals"
+            defects.append(
+                f"{where}: the name is already taken by another structure{unlike}; give each its own."
+            )
         names.append(name)
         try:
             if _is_support(entry):
@@ -294,14 +297,14 @@ def load_scenes(path: str | Path, content: bytes | None = None) -> dict[str, Sce
 
 
 def read_structures(path: str | Path) -> dict[str, Structure]:
-    """Return the structures that a file lists in YAML or CSV, by name, in its order, each as it stands on the ground.
+    """Return the structures that a file lists in YAML, CSV or XLSX, by name, each as it stands on the ground.
 
     Those that stand on a support, whose motion they would lose, are left out with a StructureWarning.
 
     Parameters
     ----------
     path : str or Path
-        List of structures, YAML or CSV, in the units of a study.
+        List of structures, YAML, CSV or XLSX, in the units of a study.
 
     Returns
     -------
@@ -331,6 +334,11 @@ def read_structures(path: str | Path) -> dict[str, Structure]:
             stacklevel=2,
         )
     return {name: scene.structure for name, scene in scenes.items() if scene.place == GROUND}
+
+
+def _alike(name: str) -> str:
+    """A name as a reader tells it from others: whatever its blanks and capitals."""
+    return " ".join(name.split()).casefold()
 
 
 def _repeated(name: object) -> str:
@@ -400,10 +408,12 @@ def _entries(path: Path, defects: list[str], content: bytes | None) -> list[_Ent
 
 _NOTE = "note"
 """The column of a structure list in CSV for what its writer wants to remember, as # is in YAML."""
+_NOTHING = ("", "-", "–", "—")
+"""What stands in a cell that holds nothing."""
 
 
 def _rows(path: Path, defects: list[str]) -> list[_Entry]:
-    """The entries of a structure list in CSV: a row each, keys as columns; an empty cell is not given.
+    """The entries of a structure list in CSV: a row each, keys as columns; an empty cell, or a dash, is not given.
 
     A cell means what it would in YAML. A list is parted by semicolons. Where semicolons part the cells, as in
     spreadsheets of countries of decimal commas, lists stand in quotation marks, which these write themselves.
@@ -418,7 +428,9 @@ def _rows(path: Path, defects: list[str]) -> list[_Entry]:
     numbers = [key for key in columns if key not in texts]
     found = []
     for line, row in read_edited(path, ConfigurationError, columns, ("name", "type"), numbers):
-        cells = {key: cell.strip() for key, cell in row.items() if cell.strip() and key != _NOTE}
+        cells = {
+            key: cell.strip() for key, cell in row.items() if cell.strip() not in _NOTHING and key != _NOTE
+        }
         if not cells:
             continue
         name = cells.get("name")

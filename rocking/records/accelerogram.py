@@ -26,6 +26,8 @@ SHORTEST_STEP = 1e-4
 """s; no accelerograph has a shorter one."""
 LONGEST_STEP = 0.1
 """s; a longer one leaves out what makes a structure rock."""
+_AT_BIRTH = (RecordKind.STEP_UNUSUAL, RecordKind.PEAK_IMPOSSIBLE)
+"""The doubts that an accelerogram has by its own step and peak."""
 
 Calibration = Literal["apply", "done"]
 """Whether the samples of a trace are still to be multiplied by its calibration, or are: obspy never resets it."""
@@ -191,8 +193,10 @@ class Accelerogram(Drawn):
             doubts.append(Remark.of(RecordKind.STEP_UNUSUAL, "", time_step_s=self.time_step, **limits))
         if self.peak_acceleration > LARGEST_PEAK:
             doubts.append(Remark(RecordKind.PEAK_IMPOSSIBLE))
-        new = (doubt for doubt in doubts if doubt not in self.warnings)
-        object.__setattr__(self, "warnings", (*self.warnings, *new))
+        # A copy with another factor or step keeps no doubt of the first one's.
+        still = [warning for warning in self.warnings if warning.kind not in _AT_BIRTH or warning in doubts]
+        new = (doubt for doubt in doubts if doubt not in still)
+        object.__setattr__(self, "warnings", (*still, *new))
 
     def __repr__(self) -> str:
         names = [name for name in (self.component, self.station, self.event) if name]

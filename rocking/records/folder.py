@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from rocking.errors import CatalogueError, RecordError
-from rocking.quantities import acceleration_unit
+from rocking.quantities import acceleration_factor
 from rocking.records.archive import is_archive, members
 from rocking.records.catalogue import is_safe_id, read_rows
 from rocking.records.direction import angle_between, names_no_direction, pair_doubt, without_ending
@@ -139,8 +139,11 @@ def _bare(name: str) -> str:
 def _declared_in(row: Row | None, declared: Mapping[str, Any]) -> dict[str, Any]:
     """Return unit and time step [s] that the row of a file declares, else those of the whole folder."""
     unit, step = (((row or {}).get(cell) or "").strip() for cell in CELLS.values())
+    with suppress(RecordError):
+        acceleration_factor(unit)
+        declared = {**declared, "unit": unit}
     return {
-        "unit": unit if acceleration_unit(unit) else declared["unit"],
+        "unit": declared["unit"],
         "time_step": float(step) if is_number(step) and float(step) > 0 else declared["time_step"],
     }
 

@@ -174,7 +174,8 @@ def _refuse_peak(record: Accelerogram, found: str, limit: str, form: str) -> NoR
             "peak",
             found,
             f"{beyond}: the samples may be counts of the recorder; {advice('inventory')} "
-            f"and no unit{f'; divided {fits} they would be plausible as acceleration' if fits else ''}.",
+            f"and no unit, or as the unit the acceleration of one count, as in 4.71e-6 m/s2"
+            f"{f'; divided {fits} they would be plausible as acceleration' if fits else ''}.",
         )
     if fits:
         raise RecordError.naming(
@@ -183,8 +184,8 @@ def _refuse_peak(record: Accelerogram, found: str, limit: str, form: str) -> NoR
     raise RecordError.naming(
         "peak",
         found,
-        f"{beyond}, and no factor between units explains it: counts of the recorder, perhaps; multiply them by their "
-        "calibration, or use the calibrated file of the record.",
+        f"{beyond}, and no factor between units explains it: counts of the recorder, perhaps; give as the unit the "
+        "acceleration of one count, as in 4.71e-6 m/s2, or use the calibrated file of the record.",
     )
 
 

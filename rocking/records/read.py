@@ -9,8 +9,9 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 from io import BytesIO
-from itertools import combinations
+from itertools import combinations, islice
 from pathlib import Path
+from pickletools import genops
 
 import numpy as np
 
@@ -18,7 +19,7 @@ from rocking.errors import RecordError, UndeclaredError, UnknownFormatError, abo
 from rocking.hashes import sha256_of_bytes
 from rocking.quantities import shown
 from rocking.records.accelerogram import Accelerogram, Source
-from rocking.records.archive import ZIPPED, archive_of, is_archive, member_bytes, members
+from rocking.records.archive import archive_of, is_archive, member_bytes, members
 from rocking.records.direction import (
     contradiction,
     doubts_of_channel,
@@ -41,15 +42,13 @@ from rocking.records.plausibility import (
     same_motion,
     site_warnings,
 )
-from rocking.records.sheet import is_workbook, table_of_workbook
+from rocking.records.sheet import table_of_workbook
 from rocking.remarks import Remark
 from rocking.tables import read_whole
+from rocking.tables.sheets import is_workbook
 
 LARGEST_FILE = 8 * 2**20
 """Bytes, unpacked: three channels of ten minutes at 100 Hz as text; the worst content of that size reads in seconds."""
-
-_PICKLE = tuple(b"\x80%c" % n for n in range(2, 6))
-_PICKLED = (b"ccopy_reg", b"(iobspy", b"cobspy", b"c__builtin__")
 
 
 def read(
@@ -178,7 +177,8 @@ def read_content(
         repeated = [of_rows] if of_rows is not None else []
         for i, record in enumerate(records):
             own = replace(record.source, path=source.path, sha256=source.sha256, format=reader.name)
-            doubts = (*record.warnings, *notes, *pass_limits(record, reader.name))
+            limited = record if abs(options.scale_factor) >= 1 else record.scaled(options.scale_factor)
+            doubts = (*record.warnings, *notes, *pass_limits(limited, reader.name))
             damage = (*damage_warnings(record), *repeated)
             records[i] = replace(record, source=own, warnings=tuple(dict.fromkeys((*doubts, *damage))))
         return records
@@ -270,7 +270,7 @@ def recognise(content: bytes) -> Format:
     """Return the one format that recognises `content`. Raises UnknownFormatError when none or several do."""
     if not content.strip(b"\0 \n"):
         raise RecordError.naming("size", 0, "the file is empty; fetch it again.")
-    if content.startswith(_PICKLE + _PICKLED):
+    if _is_pickle(content):
         raise UnknownFormatError.naming(
             "format", "pickle", "this is a pickled Python object, which could run code; it is never opened."
         )
@@ -298,12 +298,27 @@ def recognise(content: bytes) -> Format:
     )
 
 
+def _is_pickle(content: bytes) -> bool:
+    """Whether `content` begins with the opcodes of a pickle of any protocol, of which none is run, and ends as one."""
+    try:
+        first = [opcode.name for opcode, _, _ in islice(genops(content), _OPCODES)]
+    except ValueError:
+        return False
+    return content.endswith((b".", b".\n")) and (
+        len(first) == _OPCODES or (first[-1] == "STOP" and len(first) > 2)
+    )
+
+
+_OPCODES = 12
+"""Opcodes by which a pickle is known; no text begins with so many by chance."""
+
+
 def unpack(raw: bytes, name: str) -> bytes:
     """Return `raw`, all of it unpacked if it is gzip, and the table of a workbook as text.
 
     Raises RecordError when it is damaged or unpacks to too much.
     """
-    if raw.startswith(ZIPPED) and is_workbook(raw):
+    if is_workbook(raw):
         with about(name):
             return table_of_workbook(raw)
     if not raw.startswith(b"\x1f\x8b"):

@@ -77,7 +77,14 @@ def _channels_of(
         hashes = f"file {path} has sha256 {sha256}, but the catalogue says {file.sha256}"
         raise RecordError.naming("sha256", sha256, f"{hashes}; it is another version.")
     layouts = Layouts(record.folder, PurePosixPath(file.name).parent.as_posix())
-    options = Options(record.unit or None, record.time_step, inventory, path.parent, layouts=layouts)
+    options = Options(
+        record.unit or None,
+        record.time_step,
+        inventory,
+        path.parent,
+        layouts=layouts,
+        scale_factor=record.scale_factor,
+    )
     with through("catalogue"):
         channels = read_raw(raw, path, options)
     return [replace(channel, source=replace(channel.source, path=file.name)) for channel in channels]

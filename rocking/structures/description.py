@@ -1,13 +1,15 @@
 """What a structure says in a file and in words: which of its forms, and the values of its keys as they were typed."""
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
+from itertools import pairwise
 from typing import Any, NamedTuple, Self, TypeVar
 
 import numpy as np
 
-from rocking.errors import ConfigurationError, SizeError
+from rocking.errors import ConfigurationError, SizeError, StructureError
 from rocking.quantities import shown
 from rocking.remarks import Remark
 from rocking.structures.drawing import Dimension, Path, span
@@ -88,6 +90,11 @@ class Description:
             typed = self.entry.get(key)
             value = error.shown if typed is None or isinstance(typed, list | tuple) else shown(typed)
             raise SizeError.of(key, value, error.said) from None
+        except StructureError as error:
+            keys = {field.name: field.key for field in self.form.fields if "_" in field.name}
+            sentence = re.sub(r"\w+", lambda word: keys.get(word[0], word[0]), str(error))
+            error.args = (sentence,)
+            raise
         return self.describes(made)
 
     def describes(self, structure: S) -> S:
@@ -135,6 +142,12 @@ class Description:
                 words = {"unit": given.field.suffix, "type": article(self.form.type_name)}
                 unusual.append(Remark.of(StructureKind.SIZE_UNUSUAL, given.field.key, **usual, **words))
         sizes = {given.field.name: given for given in self.values}
+        if "storey_heights" in sizes and _are_levels(sizes["storey_heights"].value):
+            storeys = sizes["storey_heights"]
+            total = float(sum(storeys.value))
+            unusual.append(
+                Remark.of(StructureKind.LEVELS_TYPED, storeys.field.key, typed=storeys.text, total_m=total)
+            )
         heights = [sizes[name] for name in ("height", "column_height") if name in sizes]
         across = [sizes[name] for name in _ROCKS_OVER if name in sizes]
         if heights and across and across[0].value > heights[0].value:
@@ -171,6 +184,15 @@ class Description:
                 numbered = letter + str(number).translate(_SUBSCRIPTS)
                 lines.append(Dimension(numbered, text + unit, *own_path))
         return tuple(lines)
+
+
+def _are_levels(heights: Sequence[float]) -> bool:
+    """Whether heights of storeys, m, may be levels above the ground: each is the one before plus a usual storey."""
+    low, high = _USUAL_STOREY
+    return len(heights) > 1 and all(low <= above - below <= high for below, above in pairwise(heights))
+
+
+_USUAL_STOREY = (2.2, 4.8)
 
 
 def _form(of_type: Sequence[Form], keys_typed: Iterable[str], values: Mapping[str, object]) -> Form:
@@ -214,7 +236,7 @@ def _form(of_type: Sequence[Form], keys_typed: Iterable[str], values: Mapping[st
     return form
 
 
-def nearest(word: object, allowed: Iterable[str], likeness: float = 0.5) -> str:
+def nearest(word: object, allowed: Iterable[str], likeness: float = 0.7) -> str:
     """Return the one of `allowed` that is most like a `word`, as a question that follows it; "" if none is."""
     nearest = get_close_matches(str(word)[:LONGEST_KEY], list(allowed), n=1, cutoff=likeness)
     return f" (did you mean {nearest[0]}?)" if nearest else ""

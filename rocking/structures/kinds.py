@@ -32,6 +32,12 @@ class StructureKind(Kind):
         "{about} vale {across_m:.6g} m e {height} {height_m:.6g} m: un corpo così largo scorre prima di "
         "oscillare; controllare quale sia quale.",
     )
+    LEVELS_TYPED = auto(), Sentence(
+        "{about} is {typed} m, each about a storey more than the one before: if these are levels above the ground, "
+        "give the height of each storey; as they stand they make {total_m:.6g} m.",
+        "{about} vale {typed} m, ciascuno circa un piano più del precedente: se sono quote dal suolo, assegnare "
+        "l'altezza di ogni piano; così sommano a {total_m:.6g} m.",
+    )
     ONE_LEAF = auto(), Sentence(
         "Taken as one leaf of {thickness} m; give leaves_m where leaves may part.",
         "Si assume un solo paramento di {thickness} m: se i paramenti possono separarsi, assegnarne gli spessori "

@@ -158,8 +158,12 @@ def _parser() -> argparse.ArgumentParser:
     add = verb(_start, "start a study in a folder of your own")
     add("folder", type=Path)
     add = verb(_catalogue, "write a catalogue of the accelerograms in a folder", declarations)
-    add("folder", type=Path)
-    add("--output", type=Path, help="CSV file to write (default: catalogue.csv in the folder)")
+    add("folder", type=Path, help="folder of records, or of a study")
+    add(
+        "--output",
+        type=Path,
+        help="CSV file to write (default: catalogue.csv in the folder, or that of a study)",
+    )
     add = verb(_run, "run the study in a folder")
     add("folder", type=Path, nargs="?", default=Path(), help="folder of the study (default: this one)")
     add(
@@ -177,10 +181,8 @@ def _parser() -> argparse.ArgumentParser:
     add("results", type=Path, help="folder of the results of a study")
     add("record", nargs="+", help="identifier of a record in the catalogue")
     add = verb(_assess, "assess structures under accelerograms", channels)
-    of_list = (
-        "list of structures: a file (YAML or CSV), - for what comes in, or '{type: block, breadth_m: 1, ...}'"
-    )
-    add("--structures", required=True, metavar="LIST", help=of_list)
+    of_list = "list of structures: a file (YAML, CSV, XLSX), - for what comes in, or '{type: block, breadth_m: 1, ...}'"
+    add("--structures", required=True, type=_list_of_structures, metavar="LIST", help=of_list)
     add("--name", help="name of one structure in the list (default: all)")
     add("--pdf", type=Path, help="file for the report of the record")
     add("--output", type=Path, help="folder for report.pdf and its tables")
@@ -217,6 +219,16 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+def _list_of_structures(text: str) -> str:
+    """Return `text`; raises ArgumentTypeError for braces that the shell cut at their first blank."""
+    if text.startswith("{") and not text.rstrip().endswith("}"):
+        raise argparse.ArgumentTypeError(
+            f"{text!r} ends within its braces; put them and all between them into quotation marks, as in "
+            "'{type: block, breadth_m: 1, height_m: 4}'"
+        )
+    return text
+
+
 def _start(options: argparse.Namespace) -> None:
     from rocking.study.workspace import start
 
@@ -227,10 +239,10 @@ def _start(options: argparse.Namespace) -> None:
 
 
 def _catalogue(options: argparse.Namespace) -> None:
-    from rocking.study.workspace import write_catalogue
+    from rocking.study.workspace import records_of, write_catalogue
 
-    target = options.output or options.folder / "catalogue.csv"
-    print(write_catalogue(options.folder, target, options.unit, options.time_step))
+    folder, target = records_of(options.folder)
+    print(write_catalogue(folder, options.output or target, options.unit, options.time_step))
 
 
 def _run(options: argparse.Namespace) -> int:

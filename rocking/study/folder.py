@@ -37,7 +37,7 @@ def results_folder(name: str, *inputs: str) -> Path:
             f"setting results is {name[:_LONGEST]!r}, but must be a folder inside the study, in letters, digits, "
             f"spaces and . , + - _ @ = ( ) ~ on one line of at most {_LONGEST} characters; give it another name.",
         )
-    resolved = path.resolve()
+    resolved = real(path)
     if not stands_inside(path):
         raise ConfigurationError.naming(
             "results",
@@ -46,7 +46,7 @@ def results_folder(name: str, *inputs: str) -> Path:
             f"{Path.cwd()}; name one there.",
         )
     for file in inputs:
-        if resolved in Path(file).resolve().parents:
+        if resolved in real(Path(file)).parents:
             raise ConfigurationError.naming(
                 "results",
                 name,
@@ -55,9 +55,14 @@ def results_folder(name: str, *inputs: str) -> Path:
     return path
 
 
+def real(path: Path) -> Path:
+    """Return `path` once links are resolved; a link that leads to itself stays one, where `Path.resolve` raises."""
+    return Path(os.path.realpath(path))
+
+
 def stands_inside(path: Path) -> bool:
     """Return whether `path`, seen from the folder of the study, lies inside it once links are resolved."""
-    return Path.cwd().resolve() in path.resolve().parents
+    return real(Path.cwd()) in real(path).parents
 
 
 def check_own(results: Path) -> None:

@@ -59,6 +59,15 @@ class Declared:
     scale_factor: float = 1.0
     component: str = ""
 
+    def __post_init__(self) -> None:
+        """Refuse a factor of 0, which leaves no motion. Raises ConfigurationError."""
+        if not abs(self.scale_factor) > 0 or math.isinf(self.scale_factor):
+            raise ConfigurationError.naming(
+                "scale",
+                self.scale_factor,
+                f"scale is {self.scale_factor:g}, but must be a number other than 0.",
+            )
+
 
 @dataclass(frozen=True)
 class OwnStation:
@@ -91,7 +100,14 @@ def read_files(paths: Sequence[Path], declared: Declared) -> OwnFiles:
     channels: dict[Path, list[Accelerogram]] = {}
     refused: list[RecordError] = []
     for path in named:
-        options = Options(declared.unit, declared.time_step, None, path.parent, described=described)
+        options = Options(
+            declared.unit,
+            declared.time_step,
+            None,
+            path.parent,
+            described=described,
+            scale_factor=declared.scale_factor,
+        )
         try:
             channels[path] = read_raw(bytes_of(path), path, options)
         except RecordError as error:

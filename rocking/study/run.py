@@ -205,15 +205,17 @@ def _in_a_sentence(reason: str, folder: Path, log: Path) -> str:
 
 
 def _plan(folder: Path) -> Plan:
-    if folder.is_file():
-        raise ConfigurationError(
-            f"{folder} is a file, but a study is a folder: rocking run {folder.absolute().parent}"
-        )
-    config = config_file(folder)
+    config = None if folder.is_file() else config_file(folder)
     if config is None:
-        raise ConfigurationError(
-            f"{folder} holds no config.yaml; start a study there first: rocking start {folder}"
-        )
+        above = next((place for place in folder.absolute().parents if config_file(place)), None)
+        what = "is a file, but a study is a folder" if folder.is_file() else "holds no config.yaml"
+        if (folder / "config.yml").is_file():
+            hint = f"rename its config.yml: mv {folder / 'config.yml'} {folder / 'config.yaml'}"
+        elif above:
+            hint = f"the study is a folder above it: rocking run {above}"
+        else:
+            hint = f"start a study first: rocking start {folder.parent if folder.is_file() else folder}"
+        raise ConfigurationError(f"{folder} {what}; {hint}")
     close_doors(folder)
     if find_spec("snakemake") is None:
         raise RockingError(

@@ -248,7 +248,7 @@ class Settings(AssessmentSettings):
     )
     structures: str = described(
         "structures.yaml",
-        "list of the structures, YAML or CSV, in metres and degrees",
+        "list of the structures, YAML, CSV or XLSX, in metres and degrees",
         heading=Heading.RECORDS,
         is_file=True,
         changes_numbers=False,

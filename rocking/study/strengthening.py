@@ -17,8 +17,7 @@ from rocking.records import Accelerogram, load_catalogue
 from rocking.records.sample import Sample
 from rocking.reports.panels import svg_of
 from rocking.reports.style import PICTURE
-from rocking.strengthening import Strengthening, Tried, sizes, strengthen_scene
-from rocking.structures.description import article, nearest
+from rocking.strengthening import Strengthening, Tried, size_named, sizes, strengthen_scene
 from rocking.structures.fields import Field
 from rocking.study.job import Study
 from rocking.study.plan import check_config_file, config_file, make_plan
@@ -214,13 +213,7 @@ def _scene(scenes: Mapping[str, Scene], name: str, path: str) -> Scene:
 
 def _size(scene: Scene, key: str, between: str) -> tuple[Field, tuple[float, float]]:
     """The size of that key, and the ends of the range in SI. Raises ConfigurationError."""
-    allowed = {size.key: size for size in sizes(scene.structure)}
-    if key not in allowed:
-        raise ConfigurationError(
-            f"key is {shown(key)}, but {article(scene.structure.type_name)} has no such size{nearest(key, allowed)}; "
-            f"it has {', '.join(allowed)}."
-        )
-    size = allowed[key]
+    size = size_named(scene.structure, key, {size.key: size for size in sizes(scene.structure)})
     ends = _RANGE.fullmatch(between)
     try:
         low, high = map(float, ends.groups() if ends else ())

@@ -11,8 +11,9 @@ from rocking.records.folder import catalogue_of_folder
 from rocking.records.formats.layouts import NAME
 from rocking.records.listing import listing_text
 from rocking.study.flow import OWN_SNAKEFILE, workflow_folder
+from rocking.study.plan import check_config_file, config_file
 from rocking.study.progress import bar
-from rocking.study.settings import Settings, first_yaml
+from rocking.study.settings import Settings, first_yaml, named_files
 from rocking.tables import Document, check_target, write_whole
 
 
@@ -45,6 +46,18 @@ def _with_schema(name: str, content: bytes) -> bytes:
 
 CATALOGUE = Document("catalogue", ".csv", lambda _: True)
 """What exists there is read before rows are added: `read_rows` refuses what is no catalogue, and names its columns."""
+
+
+def records_of(folder: Path) -> tuple[Path, Path]:
+    """Return the folder of the records that `folder` means, and the catalogue there: of a study those of its settings.
+
+    Raises ConfigurationError for a study whose settings cannot be read.
+    """
+    config = config_file(folder)
+    catalogue = (
+        folder / named_files(check_config_file(config)).catalogue if config else folder / "catalogue.csv"
+    )
+    return catalogue.parent, catalogue
 
 
 def write_catalogue(folder: Path, target: Path, unit: str | None, time_step: float | None) -> str:

@@ -1,4 +1,4 @@
-"""Tables that people edit: CSV in UTF-8, or as a spreadsheet of a country of decimal commas saves it."""
+"""Tables that people edit: CSV in UTF-8, or as a spreadsheet of a country of decimal commas saves it, or XLSX."""
 
 import csv
 from collections import Counter
@@ -7,9 +7,10 @@ from difflib import get_close_matches
 from io import StringIO
 from pathlib import Path
 
-from rocking.errors import RockingError
+from rocking.errors import RockingError, about
 from rocking.quantities import shown
 from rocking.tables.files import read_start, read_whole
+from rocking.tables.sheets import csv_text, is_workbook, sheets
 
 _LARGEST = 16 * 2**20
 """Bytes: a hundred thousand rows."""
@@ -26,25 +27,38 @@ def read_edited(
 ) -> list[tuple[int, dict[str, str]]]:
     """Return line and cells of each row of the table at `path`, with `columns`, of which some are `required`.
 
-    numbers: the columns in which a comma can only be a decimal sign. Raises `error` for what is no such table.
+    Rows without a filled cell, and columns without a name or a filled cell, are passed over. numbers: the columns in
+    which a comma can only be a decimal sign. Raises `error` for what is no such table.
     """
     content = read_whole(path, _LARGEST, error)
+    if is_workbook(content):
+        with about(str(path)), sheets(content, error, "save the sheet as CSV") as rows_of:
+            content = csv_text(next(iter(rows_of.values()))).encode()
     separator = _separator(content)
     try:
         text = StringIO(_decoded(content, separator), newline="")
         reader = csv.DictReader(text, restkey="", restval="", strict=True, delimiter=separator)
-        rows = [(reader.line_num, row) for row in reader]
-        names = list(reader.fieldnames or ())
+        rows = [
+            (reader.line_num, row) for row in reader if any("".join(cell).strip() for cell in row.values())
+        ]
+        names = [name for name in reader.fieldnames or () if name]
     except (ValueError, csv.Error) as fault:
         sentence = f"{path}: the {path.stem} cannot be read as UTF-8 CSV, {fault}."
         raise error.naming("file", path.name, sentence) from None
+    if names and not set(names) & set(columns):
+        raise error.naming(
+            "columns",
+            names,
+            f"{path.name}: its first line, which begins with {shown(names[0])}, names no column; write the names of "
+            f"the columns above the rows, as in {','.join(required)}.",
+        )
     defects = [_unknown(name, columns) for name in names if name not in columns]
     defects += [f"column {shown(name)} stands {n} times" for name, n in Counter(names).items() if n > 1]
     defects += [f"column {shown(name)} is missing" for name in required if name not in names]
     defects += [
         f"line {line} has more cells than there are columns (a number with a comma?)"
         for line, row in rows
-        if row.get("")
+        if "".join(row.get("") or ())
     ]
     if defects:
         allowed = f"; the columns are {', '.join(columns)}" if len(columns) <= _MOST_NAMED else ""

@@ -54,8 +54,9 @@ class Options:
     unit: of the numbers. time_step: s. inventory: a StationXML file; folder: where to look for one. response: whether
     counts are divided by the overall sensitivity or the full response is removed. file: its name, whose ending may
     speak of another quantity. layouts: the answers to what tables hold; None: those in the folder. described: files of
-    StationXML that are looked into before those of the folder. Raises RecordError for an unknown unit or response, or a
-    time step that is not positive.
+    StationXML that are looked into before those of the folder. scale_factor: by which the caller will multiply the
+    samples, which one below 1 may bring within the limits of a ground motion. Raises RecordError for an unknown unit or
+    response, or a time step that is not positive.
     """
 
     unit: str | None = None
@@ -66,6 +67,7 @@ class Options:
     file: str = ""
     layouts: Layouts | None = field(default=None, compare=False)
     described: tuple[Path, ...] = ()
+    scale_factor: float = 1.0
 
     def __post_init__(self) -> None:
         if self.unit is not None:

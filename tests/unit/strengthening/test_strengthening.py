@@ -230,7 +230,7 @@ def test_a_value_with_which_it_does_not_stand_counts_as_overturning():
             PARAPET,
             "tie_strength",
             {},
-            "a block has no such size (did you mean compressive_strength?); it has breadth, ",
+            "a block has no such size; it has breadth, ",
         ),
         (PARAPET, "widht", {}, "key is 'widht'"),
         (PARAPET, "breadth", {"between": (1.0, 0.5)}, "between is 1 to 0.5, but must go from above 0"),

@@ -310,8 +310,8 @@ def _bad_inputs():
     yield "a unit not declared", ["read", "record"], "unit is not declared"
     yield "an unknown unit", ["read", "record", "--unit", "furlong"], "furlong"
     yield "a time step that contradicts", ["read", "record", "--unit", "g", "--time-step", "0.02"], "0.02"
-    yield "a scale of nothing", ["pulse", "record", "--unit", "g", "--scale", "0"], "scale_factor"
-    yield "a scale that is no number", ["pulse", "record", "--unit", "g", "--scale", "nan"], "scale_factor"
+    yield "a scale of nothing", ["pulse", "record", "--unit", "g", "--scale", "0"], "scale is 0"
+    yield "a scale that is no number", ["pulse", "record", "--unit", "g", "--scale", "nan"], "scale is nan"
     yield "a component that is not there", ["pulse", "two", "--unit", "g", "--component", "X"], "'X'"
     yield (
         "a list that is not there",
