@@ -222,11 +222,6 @@ class PulseEvidence:
     explained_energy: float
     phase: float
 
-    @property
-    def effective_length(self) -> float:
-        """L_e = |a_g| T_g², m: the length scale of the pulse."""
-        return abs(self.pulse.amplitude) * self.pulse.period**2
-
 
 @dataclass(frozen=True, eq=False, repr=False)
 class PulseAnalysis(Drawn):

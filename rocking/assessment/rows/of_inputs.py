@@ -196,21 +196,12 @@ class RecordRow(ComponentRow[ReadComponent]):
     velocity_pulse_peak_velocity_m_s: float = of_velocity_pulse(
         "Peak velocity along the axis of the velocity pulse", lambda pulse: pulse.peak_velocity
     )
-    velocity_pulse_orientation_rad: float = of_velocity_pulse(
-        "Axis of the velocity pulse, from the first component", lambda pulse: pulse.orientation
-    )
     velocity_pulse_azimuth_deg: float | None = of_component(
         "Axis of the velocity pulse, clockwise from north",
         lambda read: read.component.motion.velocity_pulse_azimuth,
     )
-    velocity_pulse_indicator: float = of_velocity_pulse(
-        "Pulse indicator of Shahi & Baker (2014)", lambda pulse: pulse.indicator
-    )
     velocity_pulse_like: bool | None = of_velocity_pulse(
         "Whether Shahi & Baker call the motion pulse-like", lambda pulse: pulse.pulse_like
-    )
-    pulse_period_ratio: float = of_both_pulses(
-        "Period of the dominant sine pulse over T_p", lambda both: both[0].period / both[1].period
     )
     pulse_periods_unlike: bool | None = of_both_pulses(
         "Whether these periods differ by more than a factor of 2", lambda both: both[1].is_unlike(both[0])
@@ -291,9 +282,6 @@ class PulseRow(ComponentRow[FoundPulse]):
     same_outcome_share: float = of_pulse(
         "Share of cases with such pulses in which closed form and integration end alike",
         lambda found: worth_of(found.evidence.explained_energy).same_outcome_share,
-    )
-    effective_length_m: float = of_pulse(
-        "Length scale: amplitude times period squared", lambda found: found.evidence.effective_length
     )
     flags: tuple[Kind, ...] = of_pulse(
         "Kinds of reason to doubt the pulse",

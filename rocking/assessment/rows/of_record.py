@@ -170,9 +170,6 @@ class ComparisonRow(DecidedRow[ComparedCase]):
         lambda printed: printed.rotation_ratio,
         equation="Eq. 15",
     )
-    printed_regime: Regime | None = of_printed(
-        "Regime of the paper's block under the pulse", lambda printed: printed.regime
-    )
     printed_holds: bool | None = of_printed(
         "Whether Eq. 15 holds there: no contact before the pulse ends, and largest, or overturning, after the first "
         "impact; or nothing lifts it",

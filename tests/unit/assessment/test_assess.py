@@ -250,9 +250,8 @@ def test_a_pair_has_one_motion_and_its_axis_from_north():
     assert written.pulse_periods_unlike is one.velocity_pulse.is_unlike(
         Pulse(amplitude=1.0, circular_frequency=math.pi)
     )
-    assert written.pulse_period_ratio == pytest.approx(2.0 / one.velocity_pulse.period)
     alone = row_of(north, horizontal_motions([north])[0], None, vertical=component(0.1, ""))
-    assert math.isnan(alone.rotd100_peak_acceleration_m_s2) and math.isnan(alone.pulse_period_ratio)
+    assert math.isnan(alone.rotd100_peak_acceleration_m_s2)
     assert alone.vertical_component == "not named"
 
 
