@@ -10,7 +10,7 @@ from enum import auto
 from pathlib import Path
 from typing import Any, Self
 
-from rocking.remarks import Kind, Remark, Sentence
+from rocking.remarks import Kind, Remark
 
 
 class ErrorKind(Kind):
@@ -18,10 +18,8 @@ class ErrorKind(Kind):
 
     FAULT = (
         auto(),
-        Sentence(
-            "a fault of rocking in what it computes or draws of {about} ({said}); please report it, with {log}.",
-            "un errore di rocking in ciò che calcola o disegna di {about} ({said}); si prega di segnalarlo, con {log}.",
-        ),
+        """a fault of rocking in what it computes or draws of {about} ({said}); please report it,
+        with {log}.""",
     )
 
 

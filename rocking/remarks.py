@@ -1,69 +1,25 @@
 """Remarks: what there is to say of a file, a record, a structure or a case.
 
 A remark is made where the fact is known: its kind, what it is about, and its values. There its kind is declared, too,
-with its sentence in every language: `kinds.py` of each folder. Code compares kinds and reads values; the words are made
-where a person reads them.
+with its sentence: `kinds.py` of each folder. Code compares kinds and reads values; the words are made where a person
+reads them.
 """
 
 import re
-from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from string import Formatter
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from pydantic_core import CoreSchema
 
-Language = Literal["en", "it"]
-"""The languages of the pages to sign; everything else is English."""
 Value = str | int | float
-
-
-class _Commas(Formatter):
-    """Formats numbers with a decimal comma."""
-
-    def format_field(self, value: Any, format_spec: str) -> str:
-        text = str(super().format_field(value, format_spec))
-        return text.replace(".", ",") if isinstance(value, float) else text
-
-
-def filled(text: str, language: Language, values: Mapping[str, Any]) -> str:
-    """Return a text with its values in braces, the numbers as the language writes them."""
-    formatter = Formatter() if language == "en" else _Commas()
-    return formatter.vformat(text, (), values)
 
 
 def values_named(text: str) -> set[str]:
     """Return the names of the values that a text holds in braces."""
     return {name for _, name, _, _ in Formatter().parse(text) if name}
-
-
-@dataclass(frozen=True)
-class Sentence:
-    """What a kind of remark says, in every language: one field a language, so that none can be left out.
-
-    A sentence names its values in braces, with their format; {about} is what the remark is about. brief: the English
-    one in as few words as a line of a table has room for, of a kind that such a table shows.
-    Raises ValueError where a text is missing, or names a value that the English one does not have.
-    """
-
-    en: str
-    it: str
-    brief: str = ""
-
-    def __post_init__(self) -> None:
-        for language in get_args(Language):
-            text = self.text_in(language)
-            if not text:
-                raise ValueError(f"a sentence has no words in the language {language}.")
-            if surplus := values_named(text) - values_named(self.en) - {"about"}:
-                raise ValueError(f"{text!r} names {sorted(surplus)}, which {self.en!r} does not.")
-
-    def text_in(self, language: Language) -> str:
-        """Return the text of one language, with its values in braces."""
-        text: str = getattr(self, language)
-        return text
 
 
 class Kind(StrEnum):
@@ -75,8 +31,6 @@ class Kind(StrEnum):
 
     sentence: str
     """The sentence in English, with its values in braces; {about} is what the remark is about."""
-    italian: str
-    """The same of a kind that the pages to sign print."""
     brief: str
     """The sentence in as few words as a line of a table has room for; itself where it is short."""
     value_names: tuple[str, ...]
@@ -84,16 +38,13 @@ class Kind(StrEnum):
     names_subject: bool
     """Whether it also names what the remark is about."""
 
-    def __new__(cls, code: str, said: "Sentence | str" = "", short: str = "") -> "Kind":
+    def __new__(cls, code: str, sentence: str = "", short: str = "") -> "Kind":
         """Make a kind of its code, with what it says. Raises ValueError for one that says nothing."""
-        if not said:
+        if not sentence:
             raise ValueError(f"remark {code} has no sentence.")
         kind = str.__new__(cls, code)
         kind._value_ = code
-        if isinstance(said, Sentence):
-            kind.sentence, kind.italian, short = said.en, said.it, said.brief
-        else:
-            kind.sentence = kind.italian = re.sub(r"\s*\n\s*", " ", said)
+        kind.sentence = re.sub(r"\s*\n\s*", " ", sentence)
         kind.brief = short or kind.sentence
         named = values_named(kind.sentence)
         kind.value_names = tuple(sorted(named - {"about"}))
@@ -172,13 +123,8 @@ class Remark:
 
     def __str__(self) -> str:
         """The remark in English; what it is about stands before a sentence that does not name it."""
-        words = self.sentence_in("en")
+        words = self.kind.sentence.format(about=self.about, **dict(self.values))
         return f"{self.about}: {words}" if self.about and not self.kind.names_subject else words
-
-    def sentence_in(self, language: Language) -> str:
-        """Return the sentence alone in one language."""
-        text = self.kind.sentence if language == "en" else self.kind.italian
-        return filled(text, language, {**dict(self.values), "about": self.about})
 
     @property
     def brief(self) -> str:

@@ -12,7 +12,7 @@ from enum import StrEnum
 
 from rocking.assessment.kinds import AssessmentKind
 from rocking.quantities import percents
-from rocking.remarks import Kind, Language, Remark
+from rocking.remarks import Kind, Remark
 
 UNANIMOUS = 64
 """Members of which none overturns, or none stands, that settle a verdict."""
@@ -75,26 +75,6 @@ ORDER = (
     Verdict.CANNOT_OVERTURN,
 )
 """The worst verdict first."""
-_ITALIAN = {
-    Verdict.OVERTURNS: ("ribalta", "ribalta"),
-    Verdict.PROBABLY_OVERTURNS: ("probab. ribalta", "probabilmente ribalta"),
-    Verdict.CANNOT_BE_TOLD: ("non determinabile", "non è determinabile"),
-    Verdict.UNCERTAIN: ("incerto", "è incerto"),
-    Verdict.PROBABLY_STANDS: ("probab. non ribalta", "probabilmente non ribalta"),
-    Verdict.STANDS: ("non ribalta", "non ribalta"),
-    Verdict.CANNOT_OVERTURN: ("non può ribaltare", "non può ribaltare"),
-}
-"""Each verdict in Italian: on its colour, and as what a sentence says of a structure."""
-
-
-def word_in(verdict: Verdict, language: Language) -> str:
-    """Return a verdict as it stands on its colour."""
-    return str(verdict) if language == "en" else _ITALIAN[verdict][0]
-
-
-def predicate_in(verdict: Verdict, language: Language) -> str:
-    """Return a verdict as what a sentence says of a structure."""
-    return verdict.predicate if language == "en" else _ITALIAN[verdict][1]
 
 
 def worse(*words: Verdict) -> Verdict:

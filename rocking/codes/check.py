@@ -254,6 +254,11 @@ class Part(StrEnum):
     OVERRULED = "overruled"
     NO_ANSWER = "no answer"
 
+    @property
+    def in_words(self) -> str:
+        """It as a page prints it."""
+        return "does not count" if self is Part.OVERRULED else str(self)
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class StructureCheck:

@@ -1,8 +1,8 @@
-"""The kinds of remarks on an integration, with the sentence of each in every language."""
+"""The kinds of remarks on an integration, with the sentence of each."""
 
 from enum import auto
 
-from rocking.remarks import Kind, Sentence
+from rocking.remarks import Kind
 
 
 class MotionKind(Kind):
@@ -10,10 +10,6 @@ class MotionKind(Kind):
 
     # fmt: off
     # An integration.
-    WEIGHTLESS = auto(), Sentence(
-        "for an instant the ground falls faster than gravity, so that bodies would lose contact; the model "
-        "keeps them on the ground.",
-        "per un istante il suolo cade più velocemente della gravità, e i corpi perderebbero contatto; il "
-        "modello li tiene a terra.",
-    )
+    WEIGHTLESS = auto(), """for an instant the ground falls faster than gravity, so that bodies would lose
+        contact; the model keeps them on the ground."""
     # fmt: on

@@ -6,9 +6,10 @@ A class of a page names the variable of the template that holds it: a `Row` is `
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Literal
 
-from rocking.remarks import Language
+Language = Literal["en", "it"]
+"""The languages of the pages to sign; everything else is English."""
 
 FOLDER = Path(__file__).parent
 """Of the templates of the reports."""

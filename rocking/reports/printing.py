@@ -158,7 +158,7 @@ def band_text(result: Banded, to: str) -> str:
 
 def footer_of(settings: PageSettings) -> Footer:
     """Return the foot of each page of a document in English."""
-    return Footer(made=f"{Footer().made} {stamp(settings)}", units=_UNITS_IN_WORDS[settings.display_units])
+    return Footer(made=f"{Footer().made} {stamp(settings)}", units=UNITS_IN_WORDS[settings.display_units])
 
 
 def stamp(settings: PageSettings) -> str:
@@ -257,7 +257,7 @@ class Unit:
     size: float
 
 
-_UNITS_IN_WORDS = {
+UNITS_IN_WORDS = {
     SI: "SI units and radians",
     "g and cm": "Accelerations in g, velocities in cm/s, displacements in cm; sizes in m, angles in radians",
 }

@@ -9,7 +9,6 @@ from html import escape
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from rocking.assessment.decide import word_in
 from rocking.errors import FaultError, one_structure
 from rocking.remarks import Remark
 from rocking.reports.drawings import drawn_by_hand, room, sketch
@@ -95,7 +94,7 @@ def _cell(
     if conclusion is not None:
         decision = conclusion.verdict.decision
         share = words.decimal(decision.share_in_words) if not math.isnan(decision.share) else ""
-        word = chip(decision.word, share, word_in(decision.word, words.language))
+        word = chip(decision.word, share, words.verdict(decision.word))
         figures = words.decimal(conclusion.verdict.reserve.in_figures if conclusion.verdict.reserve else "")
         if figures:
             alone = bool(conclusion.verdict.reserve_doubts)

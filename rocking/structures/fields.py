@@ -185,9 +185,14 @@ class Field(Described):
             return checked
         return tuple(map(float, value)) if isinstance(value, tuple) else float(value)
 
+    @property
+    def phrase(self) -> str:
+        """How the description says it, of {value}, which has its unit."""
+        return self.value.phrase.replace("{name}", self.name.replace("_", " "))
+
     def phrased(self, text: str) -> str:
         """Return the phrase of the description for the value written `text`."""
-        return self.value.phrase.format(name=self.name.replace("_", " "), value=text + self.suffix)
+        return self.phrase.format(value=text + self.suffix)
 
 
 @dataclass(frozen=True)

@@ -561,7 +561,7 @@ NUMBERS = tuple(Settings.changing_numbers())
 """The settings, and the sections of settings, that change a number of a table."""
 OTHER_SECTIONS = tuple(name for name in parts_of(Settings) if name not in NUMBERS)
 """The sections that change none."""
-_SOURCE = {".py", ".csv", ".json", ".typ", ".yaml", ".mplstyle", ".html", ".css", ".js"}
+_SOURCE = {".py", ".csv", ".json", ".po", ".typ", ".yaml", ".mplstyle", ".html", ".css", ".js"}
 _SPOKEN = {
     f"study/{name}.py"
     for name in ("apart", "cli", "contents", "flow", "products", "run", "terminal", "warm", "workspace")

@@ -229,6 +229,7 @@ OTHERWISE = {
     "openpyxl": "0.08 s; workbooks alone need it",
     "pooch": "0.03 s; downloads alone need it",
     "pydantic_core": "pydantic alone calls what imports it",
+    "polib": "0.02 s; pages in Italian alone need it",
     "psutil": "it comes with snakemake, without which the package runs",
     "rocking": "what draws or measures stands above what offers it as a method",
 }

@@ -5,17 +5,15 @@ import inspect
 import re
 from importlib import import_module
 from pathlib import Path
-from typing import get_args
 
 import pytest
 
 import rocking
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.store import decoded, encoded
-from rocking.codes.kinds import CheckKind
 from rocking.floors.kinds import FloorKind
 from rocking.records.kinds import RecordKind
-from rocking.remarks import Kind, Language, Remark, Sentence, every_kind, kind_of
+from rocking.remarks import Kind, Remark, every_kind, kind_of
 
 PACKAGE = Path(inspect.getfile(rocking)).parent
 TESTS = Path(__file__).parents[1]
@@ -31,27 +29,11 @@ def test_every_sentence_is_filled_by_its_values_alone(kind):
     assert kind_of(kind.value) is kind
     assert "{" not in str(remark)
     assert all(remark[name] == 1.5 for name in numbers)
-    said = {remark.sentence_in(language) for language in get_args(Language)}
-    assert all(text and "{" not in text for text in said)
-
-
-def test_a_sentence_without_one_of_the_languages_cannot_be_made():
-    with pytest.raises(TypeError, match="it"):
-        Sentence("the joint opens")
-    with pytest.raises(ValueError, match="language it"):
-        Sentence("the joint opens", "")
-    with pytest.raises(ValueError, match="forza"):
-        Sentence("it needs {force:g} kN", "richiede {forza:g} kN")
 
 
 def test_a_kind_that_says_nothing_cannot_be_declared():
     with pytest.raises(ValueError, match="opens has no sentence"):
         Kind._new_member_(Kind, "opens")
-
-
-def test_numbers_have_the_mark_of_the_language():
-    bears = Remark.of(CheckKind.LIMIT_SHARE, share=0.4)
-    assert (bears.sentence_in("en"), bears.sentence_in("it")) == ("0.4 d₀", "0,4 d₀")
 
 
 def test_no_two_kinds_say_the_same_or_have_one_code():

@@ -12,10 +12,10 @@ from rocking.codes.check import Check, DynamicCheck, StructureCheck
 from rocking.codes.code_capacity import LIMIT_STATES, CodeCapacity
 from rocking.codes.selection import Selection
 from rocking.products.checks.rows import KINDS
-from rocking.products.checks.sentences import SignSentences
 from rocking.reports.drawings import draw_bay, draw_dimensions, draw_structure
 from rocking.reports.panels import ZERO, plot
 from rocking.reports.printing import unit_of
+from rocking.reports.sentences import Sentences
 from rocking.reports.style import PREDICTED, PULSE, new_figure, panel_at, room_for_texts, styled
 from rocking.structures import Structure
 from rocking.structures.tied import Tied
@@ -41,7 +41,7 @@ _BAR = 0.24
 
 @styled
 def bars_figure(
-    structure: Structure, checked: StructureCheck, untied: StructureCheck | None, words: SignSentences
+    structure: Structure, checked: StructureCheck, untied: StructureCheck | None, words: Sentences
 ) -> Figure:
     """Draw the mechanism that governs, turned, and at its right capacity over demand of each check on one scale.
 
@@ -81,7 +81,7 @@ def bars_figure(
         _write_beside(
             axes,
             place + 0.19,
-            words(f"part {checked.part_of(check)}"),
+            words(checked.part_of(check).in_words),
             size=8.5,
             weight="bold" if decides else "normal",
             color=colour if decides else "0.3",
@@ -111,8 +111,8 @@ def bars_figure(
     if without:
         axes.legend(
             handles=[
-                Patch(facecolor=_MET, edgecolor="black", label=words("with tie")),
-                Patch(facecolor="white", edgecolor="black", label=words("without tie")),
+                Patch(facecolor=_MET, edgecolor="black", label=words("with the tie")),
+                Patch(facecolor="white", edgecolor="black", label=words("without")),
             ],
             loc="upper left",
             bbox_to_anchor=(0, -0.08),
@@ -122,13 +122,13 @@ def bars_figure(
     return figure
 
 
-def _draw_bar(axes: Axes, place: float, check: Check, words: SignSentences, look: dict[str, Any]) -> None:
+def _draw_bar(axes: Axes, place: float, check: Check, words: Sentences, look: dict[str, Any]) -> None:
     """One bar from 1 on, with its ratio: within it where it is not met, at its right where it is."""
     end = min(max(check.ratio, _LEAST), _MOST)
     axes.barh(place, end - 1, _BAR, 1, linewidth=0.8, zorder=3, **look)
     text = words.decimal(check.ratio_in_words)
     if isinstance(check, DynamicCheck) and check.exceeding:
-        text = words("falls in", exceeding=check.exceeding, motions=check.motions)
+        text = words("falls: {exceeding}/{motions}", exceeding=check.exceeding, motions=check.motions)
     outlined = look.get("facecolor") == "white"
     ink = "black" if outlined or check.ratio >= 1 else "white"
     is_short = _SHORT < check.ratio < 1  # without room for its ratio, which stands left of it
@@ -166,7 +166,7 @@ def _write_beside(axes: Axes, place: float, text: str, **look: Any) -> None:
 
 
 @styled
-def basis_figure(structure: Structure, checked: StructureCheck, words: SignSentences) -> Figure:
+def basis_figure(structure: Structure, checked: StructureCheck, words: Sentences) -> Figure:
     """Draw the structure with its sizes and loads, and the capacity curve of the mechanism that governs."""
     figure = new_figure(_BASIS_HEIGHT)
     bay = structure.bay
@@ -178,7 +178,7 @@ def basis_figure(structure: Structure, checked: StructureCheck, words: SignSente
     if bay is not None:
         front = panel_at(figure, 41, 4, 36, _BASIS_HEIGHT - 10)
         draw_bay(front, bay)
-        front.set_title(words("between two ties"))
+        front.set_title(words("front between two ties"))
         _to_scale(figure, front)
     _draw_capacity(panel_at(figure, 94, 4, 74, _BASIS_HEIGHT - 13), checked.governing, words)
     return figure
@@ -193,7 +193,7 @@ def _to_scale(figure: Figure, axes: Axes) -> None:
     room_for_texts(figure, axes)
 
 
-def _draw_capacity(axes: Axes, mechanism: CodeCapacity, words: SignSentences) -> None:
+def _draw_capacity(axes: Axes, mechanism: CodeCapacity, words: Sentences) -> None:
     """a against d with its limit displacements and the secants whose periods the check takes."""
     side = mechanism.static.side
     bends = np.array(side.bends)
@@ -221,8 +221,8 @@ def _draw_capacity(axes: Axes, mechanism: CodeCapacity, words: SignSentences) ->
     axes.margins(x=0)
     axes.set_ylim(0, 1.35 * float(accelerations.max()))
     axes.set(
-        xlabel=words("axis displacement", unit=length.name),
-        ylabel=words("axis acceleration", unit=force.name),
+        xlabel=words("displacement d [{unit}]", unit=length.name),
+        ylabel=words("acceleration a [{unit}]", unit=force.name),
         title=words("capacity curve"),
     )
     if axes.get_legend_handles_labels()[0]:

@@ -8,23 +8,39 @@ from rocking.reports.pages import Page, Picture, Strip, Table
 
 @dataclass(frozen=True, kw_only=True)
 class SignWords:
-    """What the pages to sign say in every study, in their language."""
+    """What the pages to sign say in every study: in English, which is put into their language."""
 
-    what_governs: str
-    capacity_over_demand: str
-    how_sure: str
-    assumed: str
-    place_and_date: str
-    signature: str
-    not_to_sign: str
-    next_page: str
-    figure: str
-    table_checks: str
-    table_mechanisms: str
-    table_periods: str
-    variants_title: str
-    records_title: str
-    table_records: str
+    what_governs: str = "What governs"
+    capacity_over_demand: str = "Capacity over demand"
+    how_sure: str = "How sure"
+    assumed: str = "Assumed, to be confirmed on site"
+    place_and_date: str = "Place and date"
+    signature: str = "Signature"
+    not_to_sign: str = "This page is not to be signed."
+    next_page: str = "Circolare 7/2019 to the NTC 2018. Capacity curve and other figures: next page."
+    figure: str = (
+        "Left: the structure with its sizes and loads; right: its capacity curve with the limit "
+        "displacements, and as dashed lines the secants whose periods the nonlinear check takes."
+    )
+    table_checks: str = "The checks of the Circolare 7/2019 at the design level."
+    table_mechanisms: str = (
+        "The mechanisms in which it may fall: the acceleration at which each starts, p, the share of its "
+        "members that overturn under the records of the study where it was followed, and the forces of what "
+        "holds it. mechanisms.csv lists all."
+    )
+    table_periods: str = (
+        "The other places: ratios of capacity to demand. The page above is of the worst period; the ground "
+        "is given for comparison only."
+    )
+    variants_title: str = (
+        "The variants, drawn on one scale: word and share under the worst record of each, ratios at the "
+        "design level."
+    )
+    records_title: str = "The records of the dynamic check"
+    table_records: str = (
+        "The set of the dynamic check: each record has the one factor that brings its spectrum nearest to "
+        "the target."
+    )
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, fields
 import numpy as np
 
 from rocking.assessment.conclusion import TO_CHECK, Conclusion
-from rocking.assessment.decide import ORDER, Verdict, predicate_in
+from rocking.assessment.decide import ORDER, Verdict
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.variants import variants
 from rocking.codes.check import (
@@ -29,13 +29,13 @@ from rocking.products.checks.conclusion import CodeConclusion, code_conclusions
 from rocking.products.checks.figures import bars_figure, basis_figure, selection_figure
 from rocking.products.checks.pages import Answer, Basis, SetFigure, Sheet, SignWords, StructuresPage, Sure
 from rocking.products.checks.rows import KINDS, code_check_rows
-from rocking.products.checks.sentences import SignSentences
 from rocking.quantities import GRAVITY, percent
 from rocking.records.design_spectrum import DesignSpectrum, NtcSpectrum, PointSpectrum
 from rocking.remarks import Kind, Remark
 from rocking.reports.pages import Cell, Fact, Footer, PageSettings, Strip, Table
-from rocking.reports.printing import displaying, stamp, strong, table, unit_of
+from rocking.reports.printing import UNITS_IN_WORDS, displaying, stamp, strong, table, unit_of
 from rocking.reports.printing import words as or_a_dash
+from rocking.reports.sentences import Sentences
 from rocking.reports.style import picture
 from rocking.reports.variants import strips
 from rocking.structures import Structure
@@ -119,28 +119,37 @@ def structures_data(
     be checked would have been checked on. selection: the sets of the dynamic check, None without; without_sets: why
     there are none. unread: the records of the pool that could not be read, each with its reason.
     """
-    words = SignSentences(settings.language)
+    words = Sentences(settings.language)
     with displaying(settings):
         spectra: tuple[SetFigure, ...] = ()
         motions = Table()
         if selection is not None:
-            drawn = picture(selection_figure(selection), words("records alt"))
+            drawn = picture(
+                selection_figure(selection),
+                words("Spectra of the set of records and their mean beside the design spectrum."),
+            )
             spectra = (SetFigure(drawn, _selection_words(selection, words)),)
             motions = _motion_table(selection, words)
-        said = {field.name: words(field.name.replace("_", " ")) for field in fields(SignWords)}
+        said = {field.name: words(str(field.default)) for field in fields(SignWords)}
         return StructuresPage(
-            title=words("title"),
+            title=words("Checks at the design level"),
             language=settings.language,
             about=tuple(Fact(label=words(fact.label), text=fact.text) for fact in settings.about),
             footer=Footer(
-                made=f"{words('foot')} {stamp(settings)}",
-                page=words("page", page="{page}", pages="{pages}"),
-                continued=words("continued", page="{page}"),
-                units=words(f"units {settings.display_units}").rstrip("."),
+                made=f"{words('Made with the Python package rocking')} {stamp(settings)}",
+                page=words("Page {page} of {pages}", page="{page}", pages="{pages}"),
+                continued=words("Continued from page {page}", page="{page}"),
+                units=words(UNITS_IN_WORDS[settings.display_units]),
             ),
             words=SignWords(**said),
-            notices=(words("no sets", why=words.reason(without_sets)),) if without_sets else (),
-            unread=words("unread", names="; ".join(unread)) if unread else "",
+            notices=(words("The dynamic check was not made: {why}", why=words.reason(without_sets)),)
+            if without_sets
+            else (),
+            unread=words(
+                "Not used for the sets, as they could not be read: {names}.", names="; ".join(unread)
+            )
+            if unread
+            else "",
             spectra=spectra,
             motions=motions,
             sheets=_sheets(structures, spectrum, terms or CodeTerms(), words),
@@ -151,7 +160,7 @@ def _sheets(
     structures: Sequence[CheckedStructure],
     spectrum: DesignSpectrum,
     terms: CodeTerms,
-    words: SignSentences,
+    words: Sentences,
 ) -> tuple[Sheet, ...]:
     """The page of each structure: at the worst period of its support, with the others as lines."""
     by_name: dict[str, list[CheckedStructure]] = {}
@@ -188,7 +197,7 @@ def _sheets(
         )
         checked = page.checked
         level = words(
-            "level",
+            "Design level: {spectrum} · limit state {state} · FC {factor}",
             spectrum=_spectrum_words(spectrum, words),
             state=checked.limit_state if checked else terms.limit_state,
             factor=words.plain(checked.governing.confidence_factor if checked else terms.confidence_factor),
@@ -202,7 +211,11 @@ def _sheets(
                     # Once, with the structure that the others vary.
                     variant_strips = (strip_of[name],) if name in strip_of else ()
                     bars = picture(
-                        bars_figure(page.structure, checked, page.untied, words), words("bars alt", name=name)
+                        bars_figure(page.structure, checked, page.untied, words),
+                        words(
+                            "{name}: the mechanism that governs, and capacity over demand of each check.",
+                            name=name,
+                        ),
                     )
                     answer = Answer(
                         way=opening_words(checked.governing, words),
@@ -230,32 +243,35 @@ def _sheets(
                 name=name,
                 level=level,
                 place=place,
-                headline=words("headline refused"),
+                headline=words("Not checked."),
                 met=False,
                 # What was typed may be why it could not be checked.
-                details=(words("could not", why=words.reason(why)), *_to_check(page, words)),
+                details=(
+                    words("It could not be checked: {why}", why=words.reason(why)),
+                    *_to_check(page, words),
+                ),
                 answers=(),
             )
         )
     return tuple(pages)
 
 
-def _ratios_and_conclusion(conclusion: CodeConclusion, words: SignSentences) -> tuple[str, str]:
+def _ratios_and_conclusion(conclusion: CodeConclusion, words: Sentences) -> tuple[str, str]:
     """The ratios of the checks of a structure and what follows from them, each in a line."""
     ratios = (
         f"{words(kind)} {words('falls') if ratio == 'falls' else words.decimal(ratio)}"
         for kind, ratio in conclusion.ratios.items()
     )
-    key = "line verified" if conclusion.verified else "line not verified"
+    key = "verified by {clause}" if conclusion.verified else "not verified by {clause}"
     return ", ".join(ratios), words(key, clause=conclusion.decisive.clause)
 
 
-def _place(page: CheckedStructure, words: SignSentences) -> str:
+def _place(page: CheckedStructure, words: Sentences) -> str:
     """Where the structure stands on this page, where that is one place of several."""
     if not page.period:
         return ""
-    place = words("period", name=page.place.name, period=words.number(page.period))
-    return words("at its worst", place=place) if len(page.place.supports) > 1 else f"{place}."
+    place = words("{name} with T_b {period} s", name=page.place.name, period=words.number(page.period))
+    return words("At its worst, {place}.", place=place) if len(page.place.supports) > 1 else f"{place}."
 
 
 def _conclusion(
@@ -263,43 +279,68 @@ def _conclusion(
     checked: StructureCheck,
     conclusion: CodeConclusion,
     spectrum: DesignSpectrum,
-    words: SignSentences,
+    words: Sentences,
 ) -> tuple[str, tuple[str, ...]]:
     """The conclusion as a headline, and what else there is to say."""
     decisive = conclusion.decisive
     also = [check.clause for check in conclusion.checks if check.part == Part.COUNTS_TOO]
-    overruled = [words(f"check {check.check}") for check in conclusion.checks if check.part == Part.OVERRULED]
+    overruled = [words(f"{check.check} check") for check in conclusion.checks if check.part == Part.OVERRULED]
     needs_its_tie = page.has_ties and not (page.untied and page.untied.verified)
     if conclusion.verified:
         headline = words(
-            "headline verified",
+            "Verified by {clause}{also}{tied}.",
             clause=decisive.clause,
-            also=words("also met", clause=words.listed(also[::-1])) if also else "",
-            tied=words("only with tie") if needs_its_tie else "",
+            also=words(", and by {clause}", clause=words.listed(also[::-1])) if also else "",
+            tied=words(", only with its tie") if needs_its_tie else "",
         )
     else:
         headline = _refusal(checked, words)
     details = []
     if overruled:
-        details.append(words("overruled", checks=words.listed(overruled), clause=decisive.clause))
+        details.append(
+            words(
+                "Met: {checks}; but {clause}, which is more detailed, decides.",
+                checks=words.listed(overruled),
+                clause=decisive.clause,
+            )
+        )
     dynamic = checked.dynamic
     if conclusion.verified and dynamic:
         others = words.percents(*dynamic.interval)
         unknown = says_nothing(dynamic.interval)
-        details.append(words("others unknown") if unknown else words("others may not", share=others))
+        details.append(
+            words(
+                "The pool has too few stations to say whether sets of other stations would meet the dynamic "
+                "check."
+            )
+            if unknown
+            else words("Under sets of other stations the dynamic check is met by {share}.", share=others)
+        )
     if dynamic is None:
         # Why there are no sets stands above the page.
         if checked.remark is not None and checked.remark.kind is CheckKind.NO_DISPLACEMENT:
-            details.append(words("it cannot overturn"))
+            details.append(words("It cannot overturn, so that the linear check alone is made."))
     elif checked.part_of(dynamic) is Part.NO_ANSWER:
-        details.append(words("no answer", sets=dynamic.sets, asked=SETS))
+        details.append(
+            words(
+                "The dynamic check has no answer: {sets} other sets of records lie within the limits and "
+                "{asked} are required.",
+                sets=dynamic.sets,
+                asked=SETS,
+            )
+        )
     if page.has_ties:
         untied = page.untied.decisive if page.untied else None
         if untied is None:
-            details.append(words("without tie refused"))
+            details.append(words("Without its tie it does not stand."))
         else:
             details.append(
-                words("without tie met" if untied.passed else "without tie not met", clause=untied.clause)
+                words(
+                    "Without its tie it is verified by {clause}."
+                    if untied.passed
+                    else "Without its tie {clause} is not met.",
+                    clause=untied.clause,
+                )
             )
     details += _were_it_unknown(checked, words)
     details += _to_check(page, words)
@@ -308,12 +349,12 @@ def _conclusion(
     return headline, tuple(details)
 
 
-def _to_check(page: CheckedStructure, words: SignSentences) -> list[str]:
+def _to_check(page: CheckedStructure, words: Sentences) -> list[str]:
     """What has to be checked of what was typed, before anything else is read."""
     return [words.of(remark) for remark in page.remarks if remark.kind in TO_CHECK]
 
 
-def _were_it_unknown(checked: StructureCheck, words: SignSentences) -> list[str]:
+def _were_it_unknown(checked: StructureCheck, words: Sentences) -> list[str]:
     """What the kinematic check would say of a structure whose crack is known, were it not."""
     if checked.were_it_unknown is None:
         return []
@@ -323,35 +364,41 @@ def _were_it_unknown(checked: StructureCheck, words: SignSentences) -> list[str]
         for mechanism in checked.were_it_unknown.mechanisms
         if mechanism.description == other.mechanism
     )
-    key = "any crack met" if other.passed else "any crack not met"
+    key = (
+        "Were its crack not known, {clause} would be met as well (capacity over demand {ratio}: {mechanism})."
+        if other.passed
+        else "Were its crack not known, {clause} would not be met (capacity over demand {ratio}: {mechanism})."
+    )
     return [words(key, clause=other.clause, ratio=ratio_words(other, words), mechanism=opens)]
 
 
-def _refusal(checked: StructureCheck, words: SignSentences) -> str:
+def _refusal(checked: StructureCheck, words: Sentences) -> str:
     """The conclusion that it is not verified, with the finding of the check that decides."""
     decisive = checked.decisive
     assert decisive is not None
     if isinstance(decisive, DynamicCheck):
         if decisive.exceeding:
             return words(
-                "headline falls",
+                "Not verified: d₀ is exceeded under {exceeding} of {motions} motions ({clause}).",
                 exceeding=decisive.exceeding,
                 motions=decisive.motions,
                 clause=decisive.clause,
             )
         if decisive.met_by_the_set:
             return words(
-                "headline sets disagree",
+                "Not verified: {share} of {sets} sets of records meet {clause}, and {least} % are required.",
                 share=words.percents(decisive.share),
                 sets=decisive.sets,
                 clause=decisive.clause,
                 least=f"{100 * LEAST_SHARE:.0f}",
             )
-    return words("headline not verified", clause=decisive.clause, ratio=ratio_words(decisive, words))
+    return words(
+        "Not verified: {clause} gives {ratio}.", clause=decisive.clause, ratio=ratio_words(decisive, words)
+    )
 
 
 def _finding(
-    page: CheckedStructure, conclusion: CodeConclusion, spectrum: DesignSpectrum, words: SignSentences
+    page: CheckedStructure, conclusion: CodeConclusion, spectrum: DesignSpectrum, words: Sentences
 ) -> str:
     """What the records of the study say otherwise, and why that is no contradiction; "" where they agree."""
     low, high = (words.number(peak / GRAVITY, 2) for peak in page.peaks)
@@ -364,35 +411,65 @@ def _finding(
         "share": words.decimal(percent(page.overturning_share)) if page.stations else "",
     }
     if conclusion.verified and page.overturning_share > _OFTEN:
-        return words("finding overturns", **of_records)
+        return words(
+            "Two questions, no contradiction: {clause} is met at the design level, whose peak is {level} g; "
+            "the records of the study, of {stations}, act with peaks from {low} to {high} g, and {share} % "
+            "of its members overturn under them.",
+            **of_records,
+        )
     if not conclusion.verified and page.overturning_share == 0 and math.isnan(conclusion.decisive.sets_share):
-        return words("finding stands", **of_records)
+        return words(
+            "Two questions, no contradiction: {clause} is not met at the design level, whose peak is {level}"
+            " g; the records of the study, of {stations}, act with peaks from {low} to {high} g, and no "
+            "member overturns under them.",
+            **of_records,
+        )
     return ""
 
 
-def _sure(page: CheckedStructure, dynamic: DynamicCheck | None, words: SignSentences) -> tuple[Sure, ...]:
+def _sure(page: CheckedStructure, dynamic: DynamicCheck | None, words: Sentences) -> tuple[Sure, ...]:
     """How sure the conclusion is: figures, each with what it is the figure of."""
     lines: list[tuple[str, str]] = []
     if dynamic is not None:
-        lines.append((words.percents(dynamic.share), words("sure sets", sets=dynamic.sets)))
+        lines.append(
+            (
+                words.percents(dynamic.share),
+                words("of {sets} sets of records meet the dynamic check;", sets=dynamic.sets),
+            )
+        )
         if not says_nothing(dynamic.interval):
-            lines.append((words.percents(*dynamic.interval), words("sure others")))
+            lines.append(
+                (words.percents(*dynamic.interval), words("of sets of other stations would (90 % interval);"))
+            )
     if page.stations:
         low, high = (words.decimal(percent(bound)) for bound in page.share_interval)
         of_it = {
             "records": words.counted(page.records, "record"),
             "stations": words.counted(page.stations, "station"),
             "earthquakes": words.counted(page.earthquakes, "earthquake"),
-            "still": words("sure still", still=page.still) if page.still else "",
+            "still": words("; nothing lifts it at {still} of these stations", still=page.still)
+            if page.still
+            else "",
         }
         share = f"{words.decimal(percent(page.overturning_share))}\u00a0%"
-        lines.append((share, words("sure share", low=low, high=high, **of_it)))
+        lines.append(
+            (
+                share,
+                words(
+                    "of its members overturn under the study's {records} of {stations} of {earthquakes} (90 "
+                    "% interval by earthquakes: {low} to {high} %){still};",
+                    low=low,
+                    high=high,
+                    **of_it,
+                ),
+            )
+        )
     if page.reserves:
         lines.append(_reserve(page, words))
     return tuple(Sure(value=value, text=text) for value, text in lines)
 
 
-def _reserve(page: CheckedStructure, words: SignSentences) -> tuple[str, str]:
+def _reserve(page: CheckedStructure, words: Sentences) -> tuple[str, str]:
     """By how much the records may be stronger, and what there is to say of it: its caveat goes where it goes."""
     lows = np.array([reserve.low for reserve in page.reserves])
     reached = lows[~np.isnan(lows)]
@@ -400,39 +477,65 @@ def _reserve(page: CheckedStructure, words: SignSentences) -> tuple[str, str]:
     doubts = ""
     of_all = words.counted(lows.size, "record")
     if lows.size < page.records:  # on a support it is searched at the worst period of each record
-        of_all = words("of worst period", count=of_all, records=page.records)
+        of_all = words(
+            "{count} of {records}, of which this is the worst period", count=of_all, records=page.records
+        )
     if reached.size and lows.size > 1:
         middle = float(np.quantile(np.where(np.isnan(lows), np.inf, lows), 0.5, method="lower"))
         value = f"> {limit:g}\u00a0×" if math.isinf(middle) else f"{words.number(middle, 2)}\u00a0×"
-        doubts += words("reserve median", count=of_all, value=value)
+        doubts += words("; the median over {count} is {value}", count=of_all, value=value)
     if page.reserve_doubts:
         reasons = words.listed([words.of(Remark(kind)) for kind in page.reserve_doubts])
-        doubts += words("reserve alone", reasons=reasons)
+        doubts += words(
+            "; this is the reserve of the mechanism alone, and too high where {reasons}", reasons=reasons
+        )
     if not reached.size:
-        return f"{limit:g}\u00a0×", words("sure reserve beyond", doubts=doubts)
-    return f"{words.number(reached.min(), 2)}\u00a0×", words("sure reserve", doubts=doubts)
+        return f"{limit:g}\u00a0×", words(
+            "applied to any record lets fewer than 5 % of the members overturn{doubts}.", doubts=doubts
+        )
+    return f"{words.number(reached.min(), 2)}\u00a0×", words(
+        "applied to the most demanding record lets 5 % of the members overturn{doubts}.", doubts=doubts
+    )
 
 
-def _assumptions(page: CheckedStructure, mechanism: CodeCapacity, words: SignSentences) -> list[str]:
+def _assumptions(page: CheckedStructure, mechanism: CodeCapacity, words: Sentences) -> list[str]:
     """What the checks take for given, to be confirmed on site."""
     structure = page.structure
     given = [value for value in structure.described.values if value.value is not False]
     sizes = ", ".join(words.described(value) for value in given)
-    lines = [words("assumed sizes", sizes=sizes[:1].upper() + sizes[1:])]
+    lines = [words("{sizes}.", sizes=sizes[:1].upper() + sizes[1:])]
     restitution = min(side.restitution for side in structure.mechanism().sides)
-    lines.append(words("assumed restitution", restitution=words.number(restitution, 2)))
+    lines.append(
+        words("Restitution η = {restitution} at each impact.", restitution=words.number(restitution, 2))
+    )
     if isinstance(structure, Crackable) and structure.known_crack:
         known = words.of(structure.known_crack)
         lines.append(f"{known[:1].upper()}{known[1:]}.")
     lines += [words.of(remark) for remark in page.remarks if remark.kind not in TO_CHECK]
-    lines.append(words("assumed rigid"))
+    lines.append(words("Joints do not slide; each part between its cracks stays one body."))
     if getattr(structure, "compressive_strength", None) is None:
-        lines.append(words("assumed crushing"))
-    lines.append(words("assumed knowledge", factor=words.plain(mechanism.confidence_factor)))
+        lines.append(words("The masonry does not crush at its edges."))
+    lines.append(
+        words(
+            "FC = {factor}, as the level of knowledge requires.",
+            factor=words.plain(mechanism.confidence_factor),
+        )
+    )
     if mechanism.elastic_period:
-        lines.append(words("assumed elastic", period=words.number(mechanism.elastic_period)))
+        lines.append(
+            words(
+                "It is free to vibrate with T₀ = {period} s, as given (C8.7.1.7).",
+                period=words.number(mechanism.elastic_period),
+            )
+        )
     if math.isfinite(mechanism.support_loss):
-        lines.append(words("assumed loss", displacement=words.quantity(mechanism.support_loss, "m")))
+        lines.append(
+            words(
+                "What it carries falls at a displacement of {displacement} of the corner that moves "
+                "farthest, as given.",
+                displacement=words.quantity(mechanism.support_loss, "m"),
+            )
+        )
     checked = page.checked
     ties = (
         [tie.tie.strength for mechanism in checked.mechanisms for tie in mechanism.static.side.ties]
@@ -441,14 +544,27 @@ def _assumptions(page: CheckedStructure, mechanism: CodeCapacity, words: SignSen
     )
     strengths_elsewhere = [restraint.ties for restraint in checked.restraints] if checked else []
     if any(map(math.isinf, (*ties, *strengths_elsewhere))):
-        lines.append(words("assumed ties"))
+        lines.append(
+            words("A tie has no strength: it is assumed never to break, and its force is not checked.")
+        )
     lines += [words.of(assumption) for assumption in structure.assumptions]
     if page.support is not None:
         modes = [
-            words("mode", period=words.number(mode.period), participation=words.number(mode.participation))
+            words(
+                "{period} s with Γψ = {participation}",
+                period=words.number(mode.period),
+                participation=words.number(mode.participation),
+            )
             for mode in page.support.modes
         ]
-        lines.append(words("assumed support", name=page.place.name, modes=words.listed(modes)))
+        lines.append(
+            words(
+                "It stands on {name}, a support of period {modes}: the demands are those there (C7.2.5 to "
+                "C7.2.10), and the dynamic check follows the motion there.",
+                name=page.place.name,
+                modes=words.listed(modes),
+            )
+        )
     return lines
 
 
@@ -458,13 +574,19 @@ def _basis(
     conclusion: CodeConclusion,
     everywhere: Sequence[CheckedStructure],
     variant_strips: tuple[Strip, ...],
-    words: SignSentences,
+    words: Sentences,
 ) -> Basis:
     """The page behind it: the capacity curve, the checks with their values, the other places, and the study's share."""
     others = [checked_structure for checked_structure in everywhere if checked_structure is not page]
-    figure = picture(basis_figure(page.structure, checked, words), words("figure alt", name=page.name))
+    figure = picture(
+        basis_figure(page.structure, checked, words),
+        words(
+            "{name}: drawing with sizes and loads, and capacity curve with limit displacements.",
+            name=page.name,
+        ),
+    )
     return Basis(
-        title=words("basis", name=page.name),
+        title=words("Basis of the checks: {name}", name=page.name),
         figure=(figure,),
         checks=_check_table(checked, words),
         mechanisms=_mechanism_table(page, words) if len(page.mechanisms) > 1 else Table(),
@@ -475,16 +597,16 @@ def _basis(
     )
 
 
-def _check_table(checked: StructureCheck, words: SignSentences) -> Table:
+def _check_table(checked: StructureCheck, words: Sentences) -> Table:
     heads = [
-        (words("head check"), "0.9", "l"),
-        (words("head clause"), "auto", "l"),
-        (words("head capacity"), "1.0", "r"),
-        (words("head demand"), "1.0", "r"),
-        (words("head ratio"), "auto", "r"),
-        (words("head result"), "1.0", "l"),
-        (words("head part"), "0.9", "l"),
-        (words("head mechanism"), "1.5", "l"),
+        (words("Check"), "0.9", "l"),
+        (words("Clause"), "auto", "l"),
+        (words("Capacity"), "1.0", "r"),
+        (words("Demand"), "1.0", "r"),
+        (words("Ratio [-]"), "auto", "r"),
+        (words("Result"), "1.0", "l"),
+        (words("Role"), "0.9", "l"),
+        (words("Mechanism that decides"), "1.5", "l"),
     ]
     governing = {mechanism.description: mechanism for mechanism in checked.mechanisms}
     lines: list[list[Cell]] = [
@@ -495,7 +617,7 @@ def _check_table(checked: StructureCheck, words: SignSentences) -> Table:
             _valued(check, check.demand, words),
             ratio_words(check, words),
             strong(words(check.outcome)),
-            words(f"part {checked.part_of(check)}"),
+            words(checked.part_of(check).in_words),
             opening_words(governing[check.mechanism], words),
         ]
         for check in checked.checks
@@ -503,14 +625,14 @@ def _check_table(checked: StructureCheck, words: SignSentences) -> Table:
     return table(heads, lines)
 
 
-def _mechanism_table(page: CheckedStructure, words: SignSentences) -> Table:
+def _mechanism_table(page: CheckedStructure, words: Sentences) -> Table:
     """The weakest mechanism of each kind, and those that were followed, with what holds them back."""
     heads = [
-        (words("head what falls"), "2.2", "l"),
+        (words("Mechanism"), "2.2", "l"),
         ("λ [g]", "auto", "r"),
         ("p [rad/s]", "auto", "r"),
-        (words("head overturns"), "auto", "r"),
-        (words("head holds"), "2", "l"),
+        (words("Overturns"), "auto", "r"),
+        (words("Held by: force when it starts (largest in motion, without impacts)"), "2", "l"),
     ]
     weakest: dict[tuple[str, int], Candidate] = {}
     for candidate in sorted(page.mechanisms, key=lambda candidate: candidate.uplift_multiplier):
@@ -533,7 +655,7 @@ def _mechanism_table(page: CheckedStructure, words: SignSentences) -> Table:
     return table(heads, lines)
 
 
-def _falls(candidate: Candidate, words: SignSentences) -> str:
+def _falls(candidate: Candidate, words: Sentences) -> str:
     """What falls, and where it opens."""
     if words.language != "en":
         return _opens(candidate, words)
@@ -543,17 +665,21 @@ def _falls(candidate: Candidate, words: SignSentences) -> str:
     return candidate.name if opens in ("", AS_DESCRIBED) else f"{candidate.name}: {opens}"
 
 
-def _holds(candidate: Candidate, largest_forces: Sequence[float], words: SignSentences) -> str:
+def _holds(candidate: Candidate, largest_forces: Sequence[float], words: Sentences) -> str:
     """The force at each height at which something holds it, as it starts and the largest over the records."""
     holds = candidate.reactions if math.isfinite(candidate.uplift_multiplier) else ()
     texts = []
     for place, hold in enumerate(holds):
         largest = largest_forces[place] if place < len(largest_forces) else math.nan
-        key = "hold" if math.isnan(largest) else "hold in motion"
+        key = (
+            "{kind} at {height} m: {force} kN/m"
+            if math.isnan(largest)
+            else "{kind} at {height} m: {force} ({largest}) kN/m"
+        )
         texts.append(
             words(
                 key,
-                kind=words(f"held by {hold.kind}"),
+                kind=words(hold.kind),
                 height=words.number(hold.height),
                 force=words.number(float(hold.force[0]) / 1e3),
                 **({} if math.isnan(largest) else {"largest": words.number(largest / 1e3)}),
@@ -562,26 +688,26 @@ def _holds(candidate: Candidate, largest_forces: Sequence[float], words: SignSen
     return "; ".join(texts) or "–"
 
 
-def ratio_words(check: Check, words: SignSentences) -> str:
+def ratio_words(check: Check, words: Sentences) -> str:
     """Return capacity over demand as a page prints it."""
     return words("falls") if not check.ratio else words.decimal(check.ratio_in_words)
 
 
-def _valued(check: Check, value: float, words: SignSentences) -> str:
+def _valued(check: Check, value: float, words: Sentences) -> str:
     if math.isinf(value):  # of the dynamic check alone
-        return words("exceeded")
+        return words("exceeds d₀")
     letter = "d" if check.unit == "m" else "a_g"
     return f"{letter} = {words.quantity(value, check.unit)}"
 
 
-def opening_words(mechanism: CodeCapacity, words: SignSentences) -> str:
+def opening_words(mechanism: CodeCapacity, words: Sentences) -> str:
     """Return what opens, and to which side it falls."""
     if words.language == "en":
         return mechanism.description
     return _opens(mechanism.candidate, words)
 
 
-def _opens(candidate: Candidate, words: SignSentences) -> str:
+def _opens(candidate: Candidate, words: Sentences) -> str:
     """What opens, and to which side it falls."""
     body = candidate.structure
     opening = body.opening if isinstance(body, Tied) else None
@@ -592,28 +718,35 @@ def _opens(candidate: Candidate, words: SignSentences) -> str:
             for name in ("foot", "hinge", "hold")
             if (value := getattr(opening, name)) is not None
         }
-        key = "opens held" if "hold" in heights else "opens hinge" if "hinge" in heights else "opens whole"
+        key = (
+            "opens at {foot} m, hinge at {hinge} m, held at {hold} m"
+            if "hold" in heights
+            else "opens at {foot} m, hinge at {hinge} m"
+            if "hinge" in heights
+            else "opens at {foot} m"
+        )
         opens = words(key, **heights)
     elif math.isfinite(position):
-        opens = words("opens at", height=words.number(position))
+        opens = words("opens at {height} m", height=words.number(position))
     else:
-        opens = words("opens as given")
-    side = "" if body.symmetric else words(f"side {body.side_names[0 if candidate.sign >= 0 else 1]}")
-    return ", ".join(filter(None, (words(f"alone {candidate.part}") if candidate.part else "", opens, side)))
+        opens = words("as described")
+    side = "" if body.symmetric else words(body.side_names[0 if candidate.sign >= 0 else 1])
+    return ", ".join(filter(None, (words(f"{candidate.part} alone") if candidate.part else "", opens, side)))
 
 
-def _sentences(page: CheckedStructure, checked: StructureCheck, words: SignSentences) -> list[str]:
+def _sentences(page: CheckedStructure, checked: StructureCheck, words: Sentences) -> list[str]:
     """The basis of the checks, in sentences."""
     mechanism = checked.governing
     static = mechanism.static
     lines = [
         words(
-            "governs",
+            "Mechanism that governs: {mechanism}; α₀ = {multiplier}, e* = {mass}, FC = {factor}, d₀ = "
+            "{displacement}; it starts at a_g = {start} (SLD).",
             mechanism=opening_words(mechanism, words),
             multiplier=words.number(mechanism.onset_multiplier),
             mass=words.number(mechanism.participating_mass_ratio),
             factor=words.plain(mechanism.confidence_factor),
-            displacement=words("no displacement")
+            displacement=words("none")
             if math.isinf(mechanism.ultimate_displacement)
             else words.quantity(mechanism.ultimate_displacement, "m"),
             start=words.quantity(checked.damage_level, "m/s²"),
@@ -625,7 +758,7 @@ def _sentences(page: CheckedStructure, checked: StructureCheck, words: SignSente
             continue
         lines.append(
             words(
-                "limit point",
+                "d_{state} = {displacement} ({reason}), a = {acceleration}, T_{state} = {period} s.",
                 state=state.name,
                 displacement=words.quantity(point.displacement, "m"),
                 reason=words.of(point.reason),
@@ -636,7 +769,8 @@ def _sentences(page: CheckedStructure, checked: StructureCheck, words: SignSente
     x, z = static.place
     lines.append(
         words(
-            "control point",
+            "The displacements are those of the equivalent system, d = {factor} d_k (C8.7.1.4), where d_k is"
+            " the displacement of the corner at x = {x} m, z = {z} m, which moves farthest.",
             x=words.number(x),
             z=words.number(z),
             factor=words.number(static.displacement_factor),
@@ -646,7 +780,9 @@ def _sentences(page: CheckedStructure, checked: StructureCheck, words: SignSente
     if letter < static.participating_mass_ratio * (1 - 1e-9):
         lines.append(
             words(
-                "mass by letter",
+                "By the letter of C8.7.1.5, with the weights that something else holds sideways included in "
+                "P, e* would be {letter} and every capacity in acceleration {factor} times as large; e* = "
+                "{mass}, of the masses that move sideways only, is used here, on the safe side.",
                 letter=words.number(letter),
                 mass=words.number(static.participating_mass_ratio),
                 factor=words.number(static.participating_mass_ratio / letter),
@@ -661,11 +797,16 @@ def _sentences(page: CheckedStructure, checked: StructureCheck, words: SignSente
     if dynamic is not None:
         low, high = (words.decimal(percent(bound)) for bound in dynamic.interval)
         unknown = says_nothing(dynamic.interval)
-        others = words("dynamic unknown") if unknown else words("dynamic others", low=low, high=high)
+        others = (
+            words("too few stations to speak for others")
+            if unknown
+            else words("{low} to {high} % of sets of other stations would", low=low, high=high)
+        )
         outcome = words.of(dynamic.refusal) if dynamic.refusal else words(dynamic.outcome)
         lines.append(
             words(
-                "dynamic said",
+                "Dynamic check under {motions}: of {sets} sets drawn {share} % meet it ({others}); "
+                "{outcome}.",
                 motions=words.counted(dynamic.motions, "motion"),
                 sets=dynamic.sets,
                 share=words.decimal(percent(dynamic.share)),
@@ -678,14 +819,16 @@ def _sentences(page: CheckedStructure, checked: StructureCheck, words: SignSente
     return lines
 
 
-def _lowered(checked: StructureCheck, untied: StructureCheck | None, words: SignSentences) -> list[str]:
+def _lowered(checked: StructureCheck, untied: StructureCheck | None, words: Sentences) -> list[str]:
     """The sentence on a tie that brings a mechanism of a lower nonlinear ratio to govern; none where it does not."""
     if untied is None or untied.nonlinear is None or checked.nonlinear is None:
         return []
     if checked.nonlinear.ratio >= untied.nonlinear.ratio * (1 - 1e-6):  # the same but for rounding
         return []
     said = words(
-        "tie lowers",
+        "With the tie another mechanism governs, {mechanism}, with a nonlinear ratio of {tied}; without the "
+        "tie it is {other}, with {untied}: the part that moves is shorter, starts at a higher acceleration "
+        "and overturns at a smaller displacement.",
         tied=ratio_words(checked.nonlinear, words),
         mechanism=opening_words(checked.governing, words),
         untied=ratio_words(untied.nonlinear, words),
@@ -694,37 +837,42 @@ def _lowered(checked: StructureCheck, untied: StructureCheck | None, words: Sign
     return [said]
 
 
-def _period_table(
-    others: Sequence[CheckedStructure], conclusion: CodeConclusion, words: SignSentences
-) -> Table:
+def _period_table(others: Sequence[CheckedStructure], conclusion: CodeConclusion, words: Sentences) -> Table:
     """The lines of the other places of a structure on a support: the ratios, the conclusion, the study's share."""
     kinds = [check.check for check in conclusion.checks]
-    heads = [(words("head place"), "1.4", "l"), *((words(kind), "0.8", "r") for kind in kinds)]
-    heads += [(words("head conclusion"), "2", "l"), (words("head overturns"), "0.8", "r")]
+    heads = [(words("Place"), "1.4", "l"), *((words(kind), "0.8", "r") for kind in kinds)]
+    heads += [(words("Conclusion"), "2", "l"), (words("Overturns"), "0.8", "r")]
     concluded = {at_period.period: at_period for at_period in conclusion.elsewhere}
     lines: list[list[Cell]] = []
     for page in others:
-        place = f"T_b {words.number(page.period)} s" if page.period else words("on the ground")
+        place = (
+            f"T_b {words.number(page.period)} s" if page.period else words("on the ground (for comparison)")
+        )
         share = f"{words.decimal(percent(page.overturning_share))}\u00a0%" if page.stations else "–"
         there = concluded.get(page.period)
         if page.checked is None or there is None:
             lines.append(
-                [place, *["–"] * len(kinds), words("could not", why=words.reason(page.refusal)), share]
+                [
+                    place,
+                    *["–"] * len(kinds),
+                    words("It could not be checked: {why}", why=words.reason(page.refusal)),
+                    share,
+                ]
             )
             continue
         ratios = {KINDS[check.clause]: ratio_words(check, words) for check in page.checked.checks}
-        key = "line verified" if there.verified else "line not verified"
+        key = "verified by {clause}" if there.verified else "not verified by {clause}"
         text = words(key, clause=there.decisive.clause)
         lines.append([place, *(ratios.get(kind, "–") for kind in kinds), text, share])
     return table(heads, lines)
 
 
-def _share(page: CheckedStructure, words: SignSentences) -> str:
+def _share(page: CheckedStructure, words: Sentences) -> str:
     """What the study says of the structure there: its words by station, with their doubts."""
     counts = ", ".join(
         words(
-            "under",
-            predicate=predicate_in(word, words.language),
+            "{predicate} under {count}",
+            predicate=words(word.predicate),
             count=words.counted(page.verdicts[word], "station"),
         )
         for word in ORDER
@@ -732,19 +880,23 @@ def _share(page: CheckedStructure, words: SignSentences) -> str:
     )
     reasons = f" ({'; '.join(words.of(Remark(kind)) for kind in page.doubts)})" if page.doubts else ""
     if not page.stations:
-        return words("no record tells", told=f"; {counts}{reasons}" if counts else "")
-    sentences = [words("sure words", counts=f"{counts}{reasons}")]
+        return words(
+            "No record of the study shows whether it overturns{told}.",
+            told=f"; {counts}{reasons}" if counts else "",
+        )
+    sentences = [words("by the worst record of each station it {counts}.", counts=f"{counts}{reasons}")]
     if not page.reserves:
-        sentences.append(words("no reserve"))
+        sentences.append(words("No reserve was sought."))
     text = " ".join(sentences)
     return text[:1].upper() + text[1:]
 
 
-def _spectrum_words(spectrum: DesignSpectrum, words: SignSentences) -> str:
+def _spectrum_words(spectrum: DesignSpectrum, words: Sentences) -> str:
     damping = words.number(100 * spectrum.damping, 2)
     if isinstance(spectrum, NtcSpectrum):
         return words(
-            "spectrum",
+            "NTC 2018, 3.2.3.2: a_g = {ag} g, F0 = {f0}, T_C* = {tc} s, soil {soil}, S_T = {topography}, "
+            "damping {damping} %",
             ag=words.plain(spectrum.ag / GRAVITY),
             f0=words.plain(spectrum.f0),
             tc=words.plain(spectrum.tc_star),
@@ -754,7 +906,7 @@ def _spectrum_words(spectrum: DesignSpectrum, words: SignSentences) -> str:
         )
     assert isinstance(spectrum, PointSpectrum)
     return words(
-        "points",
+        "{count} points from {first} to {last} s, first ordinate {level} g, damping {damping} %",
         count=len(spectrum.periods),
         first=words.plain(spectrum.periods[0]),
         last=words.plain(spectrum.periods[-1]),
@@ -763,12 +915,14 @@ def _spectrum_words(spectrum: DesignSpectrum, words: SignSentences) -> str:
     )
 
 
-def _selection_words(selection: Selection, words: SignSentences) -> str:
+def _selection_words(selection: Selection, words: Sentences) -> str:
     """The deviations and scale factors of the chosen set."""
     low, high = selection.deviations
     factors = selection.factors[selection.chosen]
     return words(
-        "records caption",
+        "{size} records of as many stations out of {names} of {stations}; the mean spectrum lies between "
+        "{low} and {high} % of the target from {first} to {last} s; factors from {least} to {most}, median "
+        "{median}; {sets} other sets within the limits, of {drawn} drawn.",
         size=selection.chosen.size,
         names=len(selection.names),
         stations=len(set(selection.stations)),
@@ -784,15 +938,15 @@ def _selection_words(selection: Selection, words: SignSentences) -> str:
     )
 
 
-def _motion_table(selection: Selection, words: SignSentences) -> Table:
+def _motion_table(selection: Selection, words: Sentences) -> Table:
     """The records of the chosen set, each with its factor and its peak when scaled."""
     peak = unit_of("m/s²")
     heads = [
-        (words("head record"), "1.6", "l"),
-        (words("head place of record"), "1.6", "l"),
-        (words("head components"), "auto", "r"),
-        (words("head factor"), "auto", "r"),
-        (words("head peak", unit=peak.name), "auto", "r"),
+        (words("Record"), "1.6", "l"),
+        (words("Earthquake and station"), "1.6", "l"),
+        (words("Components"), "auto", "r"),
+        (words("Factor [-]"), "auto", "r"),
+        (words("Peak when scaled [{unit}]", unit=peak.name), "auto", "r"),
     ]
     lines: list[list[Cell]] = []
     for place in selection.chosen:
