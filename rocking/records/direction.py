@@ -20,7 +20,8 @@ from rocking.remarks import Remark
 _VERTICAL = {
     "UP", "DOWN", "DN", "DWN", "V", "Z", "UD", "U-D", "U", "VER", "VERT", "VERTICAL", "UPDO", "U/D", "UPWARD",
     "UP-DOWN", "UP/DOWN", "VERT.", "VER.", "VRT", "VRTL", "UPP", "UPWD", "DWNW", "VERTICAL UP", "VERTICAL DOWN", "V-UP",
-    "DÜŞEY", "DUSEY", "DIKEY", "DİKEY", "U_D", "上下", "鉛直",
+    "DÜŞEY", "DUSEY", "DIKEY", "DİKEY", "U_D", "上下", "上下動", "鉛直", "竖向",
+    "竖直", "垂直", "ВЕРТ", "ВЕРТИКАЛЬНАЯ", "ΚΑΤΑΚΟΡΥΦΗ", "ΚΑΤΑΚΌΡΥΦΗ",
     "400", "500", "600",  # codes of vertical, up and down in the headers of USC, SMC and COSMOS
 }  # fmt: skip
 _NAMED = {
@@ -31,7 +32,8 @@ _NAMED = {
     "ESTE-OESTE": 90.0, "NORD": 0.0, "NORD-SUD": 0.0, "SUD": 180.0, "EST": 90.0, "EST-OUEST": 90.0, "EST-OVEST": 90.0,
     "OUEST": 270.0, "OVEST": 270.0, "OST": 90.0, "KUZEY-GÜNEY": 0.0, "DOĞU-BATI": 90.0,
     "KUZEY-GUNEY": 0.0, "DOGU-BATI": 90.0, "KUZEY": 0.0, "DOĞU": 90.0, "DOGU": 90.0, "K-G": 0.0, "D-B": 90.0,
-    "南北": 0.0, "東西": 90.0,
+    "南北": 0.0, "東西": 90.0, "南北動": 0.0, "東西動": 90.0, "东西": 90.0,
+    "СЮ": 0.0, "С-Ю": 0.0, "ВЗ": 90.0, "В-З": 90.0,
 }  # fmt: skip
 _RELATIVE = {
     **{word: word for word in ("L", "T", "R", "X", "Y", "1", "2", "3", "H1", "H2", "FN", "FP", "SN", "SP")},
@@ -269,63 +271,6 @@ def pair_doubt(horizontal: Sequence[Channel]) -> Remark | None:
 def angle_between(first: Channel, second: Channel) -> float | None:
     """Return the angle between two horizontal channels, degrees in [0, 180), None where it is unknown."""
     return Direction.of_channel(first).angle_to(Direction.of_channel(second))
-
-
-_ENDING = re.compile(r"\.(at2|txt|csv|asc|dat|acc|prn|out|th|tcl|gz|time_\w+|g3)$", re.I)
-_WORDS = (
-    r"NS|EW|SN|WE|EO|N-S|E-W|S-N|W-E|E-O|N|E|S|W|NORTH|EAST|SOUTH|WEST|UD|UP|DN|DWN|DOWN|V|\+V|V\+|Z|VER|VERT|VERTICAL|"
-    r"[A-Z][HNGL][NEZ]"
-)
-_IN_NAME = (
-    re.compile(rf"^(.*?)[-_. ]({_WORDS})$", re.I),
-    re.compile(r"^(.*?)[-_. ]?([NS]\d{1,2}[EWO])$", re.I),
-    re.compile(r"^(.*\D)(\d{3})$"),
-    re.compile(r"^(.*[A-Za-z]\d{2})(\d{3})$"),
-    re.compile(r"^(.+)[-_. ](\d{1,3})(?:deg)?$", re.I),
-    re.compile(r"^(.*[a-z\d])(NS|EW|UD|UP)$"),
-    re.compile(r"^(.*\d)([NEVZ])$"),
-)
-"""A direction at the end of a file's name: a word, a bearing or three digits, or one to three after a sign.
-
-Three digits may stand behind the two of a station, as in "H-E12140"; a longer number is a date or counts files.
-"""
-
-
-def without_ending(name: str) -> str:
-    """Return the name of a file without the endings that say what kind of file it is."""
-    while (shorter := _ENDING.sub("", name)) not in (name, ""):
-        name = shorter
-    return name
-
-
-def direction_in_name(name: str) -> tuple[str, str]:
-    """Return the name of a file before the direction at its end, and that direction; ("", "") where it ends in none.
-
-    >>>     >>> direction_in_name("RSN779_LOMAP_LGP090.time_g.csv")
-    ('RSN779_LOMAP_LGP', '090')
-    """
-    stem = without_ending(name)
-    for pattern in _IN_NAME:
-        match = pattern.match(stem)
-        if match and _of_name(match[2]).is_known:
-            return match[1], match[2]
-    return "", ""
-
-
-def vertical_in_name(name: str) -> str:
-    """Return the word for a vertical with which the name of a file ends, "" where it ends in none."""
-    stem = without_ending(name.rpartition("/")[2])
-    is_word = len(stem) > 1 and stem.isalpha() and _of_name(stem).vertical
-    if not is_word and _NO_DIRECTION.search(stem):
-        return ""
-    word = stem if is_word else direction_in_name(name.rpartition("/")[2])[1]
-    return word if _of_name(word).vertical and not word.isdigit() else ""
-
-
-_NO_DIRECTION = re.compile(
-    r"(?i)(scaled?|clean(ed)?|rounded|filled|sped|speed|back|set|sized?)[-_. ](up|down)$"
-)
-"""The end of a name in which "up" says what was done, as in "scaled_up"."""
 
 
 _FLATTEST = np.sin(np.radians(30.0))

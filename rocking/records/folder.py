@@ -14,14 +14,15 @@ from rocking.errors import CatalogueError, RecordError
 from rocking.quantities import acceleration_factor
 from rocking.records.archive import is_archive, members
 from rocking.records.catalogue import is_safe_id, read_rows
-from rocking.records.direction import angle_between, names_no_direction, pair_doubt, without_ending
+from rocking.records.claims import without_ending
+from rocking.records.direction import angle_between, names_no_direction, pair_doubt
 from rocking.records.formats.format import plain
 from rocking.records.formats.layouts import NAME, Layouts
 from rocking.records.formats.text import day_of, is_number
 from rocking.records.grouping import named_channel, rsn_of, stations, without_direction
 from rocking.records.joining import SQUARE
 from rocking.records.kinds import RecordKind
-from rocking.records.listing import CELLS, ListedChannel, ListedFile, doubts_of, listed_file
+from rocking.records.listing import CELLS, ListedChannel, ListedFile, doubts_of, listed_file, unlike_motions
 from rocking.records.read import bare_text, bytes_of, printable, recognise, unpack
 from rocking.records.readings import Readings
 from rocking.remarks import Remark
@@ -98,6 +99,10 @@ def catalogue_of_folder(
         listed.append(listed_file(reading, path, folder, own))
         signatures += [reading.signature] if reading.signature else []
     readings.save()
+    refused = unlike_motions(listed)
+    for file in listed:
+        if file.channels and (why := refused.get(file.channels[0].answer)):
+            file.refusal, file.channels = why, ()
     renamed = tuple(_follow_renamed(rows, rows_of, listed))
     for file in listed:
         if file.file in rows_of:

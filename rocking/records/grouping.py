@@ -8,12 +8,11 @@ from itertools import combinations
 
 import numpy as np
 
+from rocking.records.claims import direction_in_name, without_ending
 from rocking.records.direction import (
     Direction,
     angle_between,
-    direction_in_name,
     names_no_direction,
-    without_ending,
 )
 from rocking.records.formats.text import day_of
 from rocking.records.joining import SQUARE, why_apart

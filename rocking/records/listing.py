@@ -39,7 +39,6 @@ _OF_UNIT = (
 """What says nothing where the unit is a stand-in."""
 _OF_DIRECTION = (RecordKind.DIRECTION_UNKNOWN, RecordKind.VERTICAL_BY_NAME, RecordKind.VERTICAL_IN_NAME)
 """What is no longer in doubt where a row says the direction."""
-_UPWARDS = re.compile(r"(?:^|[-_. ])(UP|UD|DN|DWN|DOWN|VER|VERT|VERTICAL)(?=[-_. ]|$)", re.I)
 
 
 @dataclass(frozen=True)
@@ -147,7 +146,9 @@ def _read_for_listing(
     while True:
         values = {name: declared[name] or _STAND_INS[name] for name in missing}
         try:
-            channels = read_raw(raw, path, Options(folder=path.parent, layouts=layouts, **values))
+            is_stand_in = not all(declared[name] for name in missing)
+            options = Options(folder=path.parent, layouts=layouts, is_stand_in=is_stand_in, **values)
+            channels = read_raw(raw, path, options)
             break
         except UndeclaredError as error:
             question = question or (error.question if isinstance(error, AskedError) else None)
@@ -208,18 +209,12 @@ def _without_samples(record: Accelerogram, is_known: bool) -> ListedChannel:
 def listed_file(reading: Reading, path: Path, folder: Path, declared: Mapping[str, Any]) -> ListedFile:
     """Return the file at `path` as it is listed, with what its name adds to its `reading`."""
     file = printable(path.relative_to(folder).as_posix())
-    upwards = _UPWARDS.search(path.stem)
-    sideways = [
-        Remark.of(RecordKind.VERTICAL_IN_NAME, channel.component, word=upwards[1])
-        for channel in reading.channels
-        if upwards and not channel.vertical
-    ]
     return ListedFile(
         file=file,
         sha256=reading.sha256,
         channels=reading.channels,
         refusal=reading.refusal or _why_not_listed(path, folder),
-        doubts=(*reading.doubts, *sideways),
+        doubts=reading.doubts,
         declarations={CELLS[name]: f"{declared[name]}" for name in reading.missing if declared[name]},
         blanks=tuple(CELLS[name] for name in CELLS if name in reading.missing and not declared[name]),
         question=reading.question,
@@ -239,6 +234,35 @@ def _why_not_listed(path: Path, folder: Path) -> str:
 def doubts_of(file: ListedFile) -> list[Remark]:
     """Return the doubts about a file that hold whatever its row calls it."""
     return [doubt for doubt in file.doubts if not (file.direction and doubt.kind in _OF_DIRECTION)]
+
+
+_FEWEST_TRIED = 3
+"""Files of an answer from which on their peaks are those of a folder of records, or are not."""
+_STRONG_SHARE = 1 / 3
+"""The share of files above 1 g that no folder of records has: of NGA-West2 less than one in a hundred is."""
+
+
+def unlike_motions(listed: Sequence[ListedFile]) -> dict[str, str]:
+    """Return why an answer cannot hold, by the answer: read by it, its files together are unlike records."""
+    of_answer: dict[str, list[ListedChannel]] = {}
+    for file in listed:
+        if (
+            not file.refusal
+            and file.channels
+            and file.channels[0].answer
+            and file.channels[0].peak_acceleration
+        ):
+            strongest = max(file.channels, key=lambda channel: float(channel.peak_acceleration))
+            of_answer.setdefault(strongest.answer, []).append(strongest)
+    refused = {}
+    for answer, channels in of_answer.items():
+        strong = sum(float(channel.peak_acceleration) > 1.0 for channel in channels)
+        if len(channels) >= _FEWEST_TRIED and strong > _STRONG_SHARE * len(channels):
+            refused[answer] = (
+                f"{answer}: so {strong} of its {len(channels)} files would be above 1 g, as no folder of records "
+                "is; leave the unit out of the answer, and fill in the column unit of the catalogue for each."
+            )
+    return refused
 
 
 _HEAD = ("file", "component", "format", "step s", "samples", "PGA g", "PGV m/s")

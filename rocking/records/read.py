@@ -20,12 +20,12 @@ from rocking.hashes import sha256_of_bytes
 from rocking.quantities import shown
 from rocking.records.accelerogram import Accelerogram, Source
 from rocking.records.archive import archive_of, is_archive, member_bytes, members
+from rocking.records.claims import refuse_spectrum, vertical_in_name, without_end
 from rocking.records.direction import (
     contradiction,
     doubts_of_channel,
     names_no_direction,
     vertical_doubt,
-    vertical_in_name,
 )
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.formats.format import Response, plain
@@ -37,7 +37,6 @@ from rocking.records.plausibility import (
     channel_warnings,
     damage_warnings,
     pass_limits,
-    refuse_spectrum,
     repeated_rows,
     same_motion,
     site_warnings,
@@ -227,6 +226,7 @@ def bare_text(content: bytes) -> bytes:
     ended = any(end in text[len(body) :] for end in (b"\r", b"\n"))
     if b"\r" in body:
         body = body.replace(b"\r\r\n", b"\n").replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+    body = without_end(body)
     return body + b"\n" if ended else body
 
 
@@ -368,6 +368,8 @@ def _named_by_file(records: list[Accelerogram], name: str) -> list[Accelerogram]
     if not word or len(records) != 1:
         return records
     (record,) = records
+    if record.azimuth is not None and not record.vertical:
+        return [record.warned(Remark.of(RecordKind.VERTICAL_IN_NAME, record.component, word=word))]
     is_open = record.azimuth is None and not record.vertical and not record.borehole
     if not is_open or not names_no_direction(record.component):
         return records

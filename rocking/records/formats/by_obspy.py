@@ -21,13 +21,13 @@ import numpy as np
 from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import acceleration_unit, positive
 from rocking.records.accelerogram import Accelerogram
+from rocking.records.claims import refuse_other_quantity
 from rocking.records.doors import advice
 from rocking.records.formats import text
 from rocking.records.formats.format import Format, Layout, Options, required
 from rocking.records.formats.text import LARGEST_SERIES
 from rocking.records.kinds import RecordKind
 from rocking.records.one_trace import as_stated, from_traces, header
-from rocking.records.plausibility import refuse_other_quantity
 from rocking.records.traces import first_line, joined, printed
 from rocking.remarks import Remark
 from rocking.tables import read_whole

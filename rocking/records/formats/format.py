@@ -16,6 +16,7 @@ import numpy as np
 from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import acceleration_factor, acceleration_unit, positive
 from rocking.records.accelerogram import LARGEST_PEAK, Accelerogram, Source
+from rocking.records.claims import Claim, What, Where, agreed, refuse_other_quantity
 from rocking.records.direction import directed
 from rocking.records.doors import advice
 from rocking.records.formats.layouts import Layouts
@@ -36,7 +37,6 @@ from rocking.records.plausibility import (
     agree_with_header,
     agree_with_mean_square,
     is_down_hole,
-    refuse_other_quantity,
     site_warnings,
 )
 from rocking.remarks import Remark
@@ -55,8 +55,9 @@ class Options:
     counts are divided by the overall sensitivity or the full response is removed. file: its name, whose ending may
     speak of another quantity. layouts: the answers to what tables hold; None: those in the folder. described: files of
     StationXML that are looked into before those of the folder. scale_factor: by which the caller will multiply the
-    samples, which one below 1 may bring within the limits of a ground motion. Raises RecordError for an unknown unit or
-    response, or a time step that is not positive.
+    samples, which one below 1 may bring within the limits of a ground motion. is_stand_in: whether unit or time step
+    only stand in for what nobody declares, so that a name that says otherwise is right. Raises RecordError for an
+    unknown unit or response, or a time step that is not positive.
     """
 
     unit: str | None = None
@@ -68,6 +69,7 @@ class Options:
     layouts: Layouts | None = field(default=None, compare=False)
     described: tuple[Path, ...] = ()
     scale_factor: float = 1.0
+    is_stand_in: bool = False
 
     def __post_init__(self) -> None:
         if self.unit is not None:
@@ -86,35 +88,21 @@ class Options:
 
         Raises RecordError when none or two are declared, or one that is not known.
         """
-        unit = in_file or self.unit
+        claims = _claims("unit", in_file, self.unit)
+        unit = agreed("unit", claims)
         if unit is None:
             raise UndeclaredError(_UNDECLARED.format("unit", advice("unit")), "unit")
-        factor = acceleration_factor(unit)
-        if self.unit is not None and acceleration_factor(self.unit) != factor:
-            raise RecordError.naming(
-                "unit", self.unit, f"unit is {unit!r} in the file, but {self.unit!r} was declared; omit it."
-            )
+        acceleration_factor(unit)
         return acceleration_unit(unit) or unit
 
     def time_step_of(self, in_file: float | None) -> float:
         """Return the time step [s] the file declares, else the caller's; the two may differ by 0.1 %."""
-        step = in_file if in_file is not None else self.time_step
+        if in_file is not None:
+            _check_step(in_file)
+        step = agreed("time_step", _claims("time_step", in_file, self.time_step))
         if step is None:
             raise UndeclaredError(_UNDECLARED.format("time_step", advice("time_step")), "time_step")
-        step = positive(RecordError, "time_step", float(step), "s")
-        if not _STEPS[0] <= step <= _STEPS[1]:
-            raise RecordError.naming(
-                "time_step",
-                step,
-                f"time_step is {step!r} s, but must be from {_STEPS[0]:g} to {_STEPS[1]:g} s.",
-            )
-        if self.time_step is not None and abs(self.time_step - step) > 1e-3 * step:
-            raise RecordError.naming(
-                "time_step",
-                self.time_step,
-                f"time_step is {step!r} s in the file, but {self.time_step!r} s was declared.",
-            )
-        return step
+        return _check_step(step)
 
     def accelerogram(
         self, unit: str | None, values: np.ndarray, time_step: float | None, **fields: Any
@@ -130,6 +118,22 @@ class Options:
         step = self.time_step_of(time_step)
         samples = values * acceleration_factor(source.unit)
         return Accelerogram(samples, step, source=source, **directed(fields))
+
+
+def _claims(what: What, in_file: str | float | None, declared: str | float | None) -> list[Claim]:
+    """Return what a file and its caller say of one fact."""
+    said = (in_file, Where.HEAD), (declared, Where.OPTION)
+    return [Claim(what, value, where) for value, where in said if value is not None and value != ""]
+
+
+def _check_step(step: float) -> float:
+    """Return a time step, s. Raises RecordError for one that no recorder has."""
+    step = positive(RecordError, "time_step", float(step), "s")
+    if not _STEPS[0] <= step <= _STEPS[1]:
+        raise RecordError.naming(
+            "time_step", step, f"time_step is {step!r} s, but must be from {_STEPS[0]:g} to {_STEPS[1]:g} s."
+        )
+    return step
 
 
 @dataclass(frozen=True)

@@ -6,8 +6,8 @@ from functools import cached_property
 
 from rocking.errors import RecordError
 from rocking.quantities import acceleration_unit
+from rocking.records.claims import other_quantity
 from rocking.records.direction import Direction
-from rocking.records.plausibility import other_quantity
 
 _TIME = re.compile(
     r"(?i)t\d?|(time(stamp)?|date[ _]?time|zeit|tiempo|temp[os]|zaman|χρόνος|seconds?|secs?)(?![a-z]).*|"

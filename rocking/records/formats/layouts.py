@@ -11,8 +11,8 @@ from typing import Literal, get_args
 
 from rocking.errors import CatalogueError, RecordError, UndeclaredError
 from rocking.quantities import acceleration_unit, counted
+from rocking.records.claims import other_quantity
 from rocking.records.formats.text import is_number
-from rocking.records.plausibility import other_quantity
 from rocking.tables import edited_text, read_edited
 
 NAME = "layouts.csv"
@@ -68,7 +68,7 @@ class TableLayout:
     columns: in their order; of a series the one that it is. is_series: whether it runs along the rows. per_line:
     numbers on a line, 0 where nobody says it; more than there are columns: so many rows stand on a line. width:
     characters of each, 0 where blanks part them. skip: lines that are passed over. above: numbers before the first of a
-    series. time_step: s, where no column holds times.
+    series. time_step: s, where no column holds times. is_answer: whether a person gave it.
     """
 
     columns: tuple[Column, ...]
@@ -78,6 +78,7 @@ class TableLayout:
     skip: int = 0
     above: tuple[Above, ...] = ()
     time_step: float | None = None
+    is_answer: bool = False
 
     @classmethod
     def parse(cls, answer: str) -> "TableLayout":
@@ -183,7 +184,8 @@ def _acceleration(name: str, unit: str) -> Column:
     return Column("acceleration", "" if name.lower() in _PLAIN else name, known)
 
 
-_HALF_DECADE = math.sqrt(10)
+_APART = 3.0
+"""The factor between the least and the largest peak of files of one question: g and m/s² are 9.81 apart."""
 
 
 @dataclass(frozen=True)
@@ -240,8 +242,8 @@ class Signature:
     def distance(self, file: "Signature") -> float | None:
         """Return how far the numbers of a `file` lie from those that this row was drawn from, None where it is unlike.
 
-        0: among them. Above: the factor by which the peak is off the middle of their peaks, within half a decade. An
-        empty cell of a row holds for every file, but where the page says nothing.
+        0: among them. Above: the factor by which the peak is off the middle of their peaks, within the root of three.
+        An empty cell of a row holds for every file, but where the page says nothing.
         """
         if self.page != file.page:
             return None
@@ -256,7 +258,7 @@ class Signature:
         if not (low > 0 and file.peak > 0):
             return None
         off = abs(math.log(file.peak / math.sqrt(low * high)))
-        return math.exp(off) if off <= math.log(_HALF_DECADE) else None
+        return math.exp(off) if off <= math.log(_APART) / 2 else None
 
 
 @dataclass(frozen=True)
@@ -277,7 +279,7 @@ class Family:
 
 
 def families(questions: Iterable[tuple[str, Question]]) -> list[Family]:
-    """Return the files that ask, in families: alike by their pages, and with peaks within a decade.
+    """Return the files that ask, in families: alike by their pages, and with peaks within a factor of three.
 
     questions: with the file that each is drawn from. Each family says how its files, and the others of one page, peak.
     """
@@ -287,7 +289,7 @@ def families(questions: Iterable[tuple[str, Question]]) -> list[Family]:
     found = []
     of_page: dict[tuple[str, ...], list[list[tuple[str, Question]]]] = {}
     for signature, asking in pages.items():
-        of_page.setdefault(signature.page, []).extend(_decades(asking))
+        of_page.setdefault(signature.page, []).extend(_alike(asking))
     for groups in of_page.values():
         for group in groups:
             file, first = group[0]
@@ -298,13 +300,13 @@ def families(questions: Iterable[tuple[str, Question]]) -> list[Family]:
     return found
 
 
-def _decades(asking: Sequence[tuple[str, Question]]) -> list[list[tuple[str, Question]]]:
-    """Return the files of one page, parted so that the peaks of each part lie within a decade of its least one."""
+def _alike(asking: Sequence[tuple[str, Question]]) -> list[list[tuple[str, Question]]]:
+    """Return the files of one page, parted so that the peaks of each part lie within a factor of its least one."""
     parts: list[list[int]] = []
     lowest = 0.0
     peaks = [question.signature.peak for _, question in asking]
     for place in sorted(range(len(asking)), key=peaks.__getitem__):
-        if not parts or peaks[place] > 10 * lowest:
+        if not parts or peaks[place] > _APART * lowest:
             parts.append([])
             lowest = peaks[place]
         parts[-1].append(place)

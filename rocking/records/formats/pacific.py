@@ -4,6 +4,7 @@ import re
 
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
+from rocking.records.claims import refuse_other_quantity
 from rocking.records.formats import text
 from rocking.records.formats.format import (
     WORD,
@@ -20,7 +21,7 @@ from rocking.records.formats.format import (
 )
 from rocking.records.formats.text import NUMBER
 from rocking.records.kinds import RecordKind
-from rocking.records.plausibility import agree_with_velocity, refuse_other_quantity
+from rocking.records.plausibility import agree_with_velocity
 from rocking.remarks import Remark
 
 _CWB_HEADER = 60  # lines of the longest header

@@ -5,6 +5,7 @@ from typing import Any
 
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
+from rocking.records.claims import Declarations, azimuth_of_sensor, factor_warnings, other_quantity
 from rocking.records.formats.format import Format, Layout, Options
 from rocking.records.formats.text import after_lines, count, is_number, lines, number, numbers, whole
 from rocking.records.kinds import RecordKind
@@ -18,15 +19,6 @@ _STEPS = (
     ),
     re.compile(r"^\s*(?P<npts>\d+)\s+(?P<dt>\S+)\s+NPTS\s*,\s*DT", re.I),
 )
-_UNITS = (
-    (re.compile(r"\b(CM/SEC?(/SEC?|\*\*2|\^?2)|GAL)\b", re.I), "cm/s2"),
-    (re.compile(r"\bM/SEC?(/SEC?|\*\*2|\^?2)", re.I), "m/s2"),
-    (re.compile(r"\b(UNITS OF|UNITS ARE|ACCELERATION IN)\s*\(?G\b", re.I), "g"),
-)
-_VELOCITY_UNIT = re.compile(r"\bUNITS (OF|ARE) \(?(CM|M|IN)/S(EC)?\b(?!\s*[/*^\d])")
-_SERIES = re.compile(
-    r"(?m)^(?!.*\bACC(?:EL|\b)).*\b(VELOCITY|DISPLACEMENT)\b.*\b(?:TIME|HISTORY|UNITS?|CM|IN)\b"
-)
 _LAYOUT = Layout(
     "",
     {
@@ -39,8 +31,10 @@ _FILTER_POINTS = re.compile(r"HP\s*=\s*([0-9.]+)\s*HZ", re.I)
 _POLES = re.compile(r"(-?\d+)\s+POLE\s+@\s*([0-9.]+)", re.I)
 _DATE_AT_END = re.compile(r"\s*\b\d{1,2}/\d{1,2}/\d{2,4}(?:,? +\d{1,2}:?\d\d)?$")
 """In a title like "DUZCE 11/12/99": the date stands in a fact of its own."""
-_IN_BRACKETS = re.compile(r"\([^()]*\)")
-"""The sense of a direction, or a network of its own part, as in "CHI-CHI 09/20/99, CHY101, E, (CWB)"."""
+_IN_BRACKETS = re.compile(r"\([^()]*(?:\)|$)")
+"""The sense of a direction, or a network of its own part, as in "CHI-CHI 09/20/99, CHY101, E, (CWB)".
+
+A title may be cut within it, after 80 characters."""
 _HEADER_LINES = 8
 _LONGEST_COMPONENT = 16
 _FIRST = re.compile(
@@ -48,15 +42,6 @@ _FIRST = re.compile(
     r"[ \t]*\d{1,20}[ \t]{1,40}\S{1,40}[ \t]{1,40}NPTS[ \t]*,[ \t]*DT)"
 )
 """The line by which a file is known, one of the first eight, as _STEPS; bounded, so that no text takes long."""
-
-
-def _quantity(head: str) -> str:
-    """Return the quantity that a header in capitals names, acceleration unless it says another."""
-    series = _SERIES.search(head)  # what it says counts more than a title that speaks of an accelerogram
-    if not series and re.search(r"\bACC(EL|\b)", head):
-        return "acceleration"
-    quantity = series or re.search(r"\b(VELOCITY|DISPLACEMENT)\b", head)
-    return quantity[1].lower() if quantity else "velocity" if _VELOCITY_UNIT.search(head) else "acceleration"
 
 
 def _read(content: bytes, options: Options) -> list[Accelerogram]:
@@ -70,11 +55,12 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     place, size = found
     head = head[: place + 1]
     text = "\n".join(head)
-    if (quantity := _quantity(text.upper())) != "acceleration":
+    # What a line of its own says counts more than a title that speaks of an accelerogram.
+    if quantity := next((other for line in head if (other := other_quantity(line))), None):
         raise RecordError.naming(
             "quantity", quantity, f"this is a PEER {quantity} file; use the AT2 file of the same record."
         )
-    unit = next((unit for pattern, unit in _UNITS if pattern.search(text)), "")
+    said = Declarations.of(head)
     declared = count("NPTS", size["npts"])
     values, warnings = whole(numbers(after_lines(content, len(head))), declared, per_line=8)
     parts = [part.strip() for part in head[1].split(",")] if len(head) > 1 else [""]
@@ -84,15 +70,20 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     poles = _POLES.findall(text)
     points = _FILTER_POINTS.search(text)
     corner = points[1] if points else poles[1][1] if len(poles) > 1 and poles[1][0] != "0" else "0"
-    facts: dict[str, Any] = {"component": _component(title), "processed": True, "warnings": warnings}
+    facts: dict[str, Any] = {
+        "component": azimuth_of_sensor(head) or _component(title),
+        "processed": True,
+        "warnings": warnings,
+    }
     if re.search(r"\bmatched\b", head[0], re.I):
         facts["warnings"] += (Remark(RecordKind.MATCHED_TO_SPECTRUM),)
+    facts["warnings"] += factor_warnings(head)
     if len(parts) >= 3:
         undated = _DATE_AT_END.sub("", parts[0])
         facts |= {"station": parts[-2], "event": undated or parts[0]}
     facts["high_pass_frequency"] = float(corner) or None if is_number(corner) else None
     step = number("DT", size["dt"]) * (1e-3 if size.groupdict().get("milli") else 1.0)
-    return [_LAYOUT.channel(text, values, options, unit=unit, step=step, **facts)]
+    return [_LAYOUT.channel(text, values, options, unit=said.unit or "", step=step, **facts)]
 
 
 def _component(title: str) -> str:

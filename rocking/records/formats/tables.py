@@ -13,17 +13,26 @@ from typing import Any
 import numpy as np
 
 from rocking.errors import RecordError, UndeclaredError
-from rocking.quantities import acceleration_factor
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.direction import Direction, directed, names_acceleration
-from rocking.records.formats import dialect, text
-from rocking.records.formats.comments import (
+from rocking.records.claims import (
+    END,
+    AnswerContradictedError,
+    Claim,
     Declarations,
-    contradicts,
+    What,
+    Where,
+    agreed,
+    claims_of_name,
+    doubts_of_claims,
     factor_warnings,
     meaning,
+    point_apart,
+    refuse_by_name,
+    refuse_other_quantity,
     speaks_of_factor,
 )
+from rocking.records.direction import Direction, directed, names_acceleration
+from rocking.records.formats import dialect, text
 from rocking.records.formats.format import Format, Options, plain
 from rocking.records.formats.labels import ColumnLabel
 from rocking.records.formats.layouts import (
@@ -37,7 +46,6 @@ from rocking.records.formats.layouts import (
     TableLayout,
 )
 from rocking.records.kinds import RecordKind
-from rocking.records.plausibility import refuse_by_name, refuse_other_quantity
 from rocking.remarks import Remark
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
@@ -362,7 +370,14 @@ class _Seen:
         clocks = [rows[:, place] for place, column in enumerate(columns) if column.role == "time"]
         if page.is_bare and clocks and len(rows) > 1:
             page = replace(page, time_step_s=f"{np.median(np.diff(clocks[0])):.4g}")
+        elif page.is_bare and len(named := _steps_of_name(file)) == 1:
+            page = replace(page, time_step_s=f"{named[0]:.4g}")
         return page
+
+
+def _steps_of_name(file: str) -> list[float]:
+    """The steps [s] that the name of a file says."""
+    return [claim.value for claim in claims_of_name(file) if claim.what == "time_step"]
 
 
 @lru_cache(maxsize=2)
@@ -395,7 +410,9 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
 
     has_step = bool(above or options.time_step or table.said.time_step)
     question = Question(
-        signature, _holds(table, drawn, values), drawn.proposal(has_step, table.said.stated_steps)
+        signature,
+        _holds(table, drawn, values),
+        drawn.proposal(has_step, table.said.stated_steps or _steps_of_name(options.file)),
     )
     notes = (
         *seen.notes,
@@ -418,6 +435,10 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
         records = records or _channels(values, table, layout, above, options)
     except UndeclaredError as error:
         raise AskedError(error.args[0], error.field, question) from None
+    except AnswerContradictedError as error:
+        raise (answer.wrong(str(error)) if answer else error) from None
+    if len(records) == 1:
+        notes += doubts_of_claims(records[0], table.said)
     said = table.said.component
     if len(records) == 1 and said and (not records[0].component or names_acceleration(records[0].component)):
         records = [replace(records[0], **directed({"component": said}))]
@@ -456,10 +477,6 @@ def _above(table: NumberTable, layout: TableLayout | None, content: bytes) -> tu
     return dict(zip(roles, map(float, found), strict=True)), max(at, table.start if table.counts else at)
 
 
-_END = re.compile(
-    r"(?i)(?:[#%$!]|//).*|[a-z]\w*[ \t]*\$|[\W_]*(?:end(?:[ \t]+of)?(?:[ \t]+\w+)?|eof)[\W_]*|[}\])]+;?"
-)
-"""Remarks, or a word for the end, below the numbers: these are reported to nobody."""
 _NO_VALUE = re.compile(r"(?i)[\s,;]*(?:(?:nan|inf|na|null|none|n/a|#n/a)[\s,;]*)+")
 _LONGEST_TAIL = 20
 """Lines of text that may stand below the numbers."""
@@ -497,7 +514,7 @@ def _is_row(line: str, width: int) -> bool:
 
 def _tail_remarks(table: NumberTable) -> tuple[Remark, ...]:
     """Return a remark on text below the numbers that is more than a word for their end."""
-    text_below = [line for line in table.tail if not _END.fullmatch(line)]
+    text_below = [line for line in table.tail if not END.fullmatch(line)]
     return (
         (Remark.of(RecordKind.TAIL_PASSED_OVER, text=plain(" / ".join(text_below))[:80]),)
         if text_below
@@ -543,6 +560,8 @@ def _drawn(table: NumberTable, values: np.ndarray, is_parted: bool, declared: fl
     for place, label in enumerate(labels):
         if label.text == "T" and sum(times) > 1 and not _is_clock(rows[1:, place]):
             columns[place] = Column("acceleration", unit=said.unit)  # transverse
+        if columns[place].role == "time":
+            continue
         if _LETTER.fullmatch(label.text) and any(other.is_plain_acceleration for other in labels):
             columns[place] = Column(
                 "open", unit=said.unit
@@ -556,9 +575,13 @@ def _column(label: ColumnLabel, numbers: np.ndarray, said: Declarations) -> Colu
     """Return what a column holds by its name, or by numbers that rise all the way; open where neither says it."""
     if label.other or label.is_time:
         return Column("other") if label.other else Column("time", seconds=label.seconds)
-    if not label.unit and (label.is_count or not label.text) and _is_clock(numbers[1:]):
+    says_where = Direction.of(label.component).is_known
+    is_open = label.is_count or not label.text or (_climbs_evenly(numbers) and not says_where)
+    if not label.unit and is_open and _is_clock(numbers[1:]):
         is_count = label.is_count or (numbers.size >= _FEWEST_ROWS and bool((np.diff(numbers) == 1).all()))
         return Column("other" if is_count else "time")
+    if _climbs_evenly(numbers):
+        return Column("open", unit=label.unit or said.unit)  # its name and its numbers say two things
     if label.unit or label.is_direction or label.is_plain_acceleration:
         return Column("acceleration", unit=label.unit or said.unit)
     return Column("open", unit=said.unit)
@@ -572,6 +595,14 @@ def _is_clock(numbers: np.ndarray) -> bool:
     if numbers.size < 2 or numbers[0] < 0 or not numbers[-1] > numbers[0]:
         return False
     return bool(np.corrcoef(numbers, np.arange(numbers.size))[0, 1] > _ONE_WAY)
+
+
+def _climbs_evenly(numbers: np.ndarray) -> bool:
+    """Whether numbers climb by even steps from the first to the last, as times do, whatever they are called."""
+    steps = np.diff(numbers)
+    return (
+        numbers.size >= _FEWEST_ROWS and steps.min() > 0 and float(np.ptp(steps)) < 0.5 * float(steps.mean())
+    )
 
 
 _ONE_WAY = 0.98
@@ -602,7 +633,7 @@ def _holds(table: NumberTable, drawn: TableLayout, values: np.ndarray) -> str:
     """Return what a table holds as far as it can be seen, for a person who knows the rest."""
     rows = values.size // table.width
     size = f"{rows:,} rows".replace(",", " ")
-    if text_below := [line for line in table.tail if not _END.fullmatch(line)]:
+    if text_below := [line for line in table.tail if not END.fullmatch(line)]:
         size += f"; below them {plain(' / '.join(text_below))[:60]!r}"
     if drawn.is_series:
         return f"one series in {drawn.columns[0].unit or '?'}, {table.width} a line; {size}"
@@ -667,26 +698,13 @@ def _fitted(answer: LayoutAnswer, layout: TableLayout, table: NumberTable, drawn
             raise answer.wrong(f"column {place} of this file holds times.")
         if label.other:
             raise answer.wrong(f"column {place} of this file is {label.other} by its name, {label.text!r}.")
-        unit = label.unit or said.unit
-        if unit and column.unit and acceleration_factor(unit) != acceleration_factor(column.unit):
-            raise answer.wrong(f"column {place} of this file is in {unit!r} by its own words.")
         component = label.component if label.is_direction else said.component if len(labels) < 3 else ""
-        if _point_apart(component, column.name):
+        if point_apart(component, column.name):
             raise answer.wrong(f"column {place} of this file is {component!r} by its own words.")
-    if layout.time_step and contradicts(said.stated_steps, layout.time_step):
-        steps = " or ".join(f"{step:.6g}" for step in said.stated_steps)
-        raise answer.wrong(f"the time step of this file is {steps} s by its own words.")
+    layout = replace(layout, is_answer=True)
     if not layout.is_series and layout.per_line == len(layout.columns):
         return replace(layout, per_line=0)
     return layout
-
-
-def _point_apart(first: str, second: str) -> bool:
-    """Whether two names of one component say where it points, and do not say the same."""
-    one, other = Direction.of(first), Direction.of(second)
-    if not (one.is_known and other.is_known):
-        return False
-    return (one.azimuth, one.vertical) != (other.azimuth, other.vertical)
 
 
 def _series(
@@ -712,14 +730,42 @@ def _series(
     for samples in counts:
         values, more = text.whole(values, text.count("number of samples", samples), table.width)
         notes += more
-    step = above.get("dt") or (1 / above["hz"] if above.get("hz") else layout.time_step or said.time_step)
+    step = above.get("dt") or (1 / above["hz"] if above.get("hz") else None)
+    claims = _claims(table, label, column, layout, step, options)
     component = column.name or ("" if label.unit else label.text)
     facts: dict[str, Any] = {"component": component, "warnings": (*notes, *_repeats(values))}
     if table.counts and len(table.words) == 1:
         facts["event"] = table.words[0][:60]  # a title
+    held = replace(options, unit=None, time_step=None)
     return [
-        options.accelerogram(column.unit or label.unit or said.unit, values, step, processed=None, **facts)
+        held.accelerogram(
+            agreed("unit", claims), values, agreed("time_step", claims), processed=None, **facts
+        )
     ]
+
+
+def _claims(
+    table: NumberTable,
+    label: ColumnLabel,
+    column: Column,
+    layout: TableLayout,
+    step: float | None,
+    options: Options,
+) -> tuple[Claim, ...]:
+    """Return all that is said of the unit and the step of one column, step: of its times or above it."""
+    said = table.said
+    is_answer = layout.is_answer
+    told: tuple[tuple[What, Any, Where, str], ...] = (
+        ("unit", column.unit if is_answer else None, Where.ANSWER, ""),
+        ("unit", label.unit, Where.COLUMN, label.text),
+        ("unit", options.unit, Where.OPTION, ""),
+        ("time_step", layout.time_step if is_answer else None, Where.ANSWER, ""),
+        ("time_step", step, Where.SAMPLES, ""),
+        ("time_step", options.time_step, Where.OPTION, ""),
+        *(("time_step", rate, Where.SPOKEN, "") for rate in said.stated_steps if is_answer),
+    )
+    named = () if options.is_stand_in else claims_of_name(options.file)
+    return (*(Claim(*each) for each in told if each[1]), *said.claims(), *named)
 
 
 _MEANT = {"n": "the number of samples", "dt": "the time step", "hz": "the rate", "-": "the number of series"}
@@ -801,12 +847,15 @@ def _channels(
         text.whole(rows[:, 0], text.count("number of samples", f"{above['n']:g}"), per_line=0)
     every = {at: rows[:, at] * column.seconds for at, column in enumerate(columns) if column.role == "time"}
     repeats = () if every else _repeats(rows.ravel())
+    held = replace(options, unit=None, time_step=None)
+    if said.samples and "n" not in above:
+        repeats += text.whole(rows[:, 0], text.count("number of samples", said.samples), per_line=1)[1]
     records = []
     for place, (column, label) in enumerate(zip(columns, labels, strict=True)):
         if column.role not in ("acceleration", "open"):
             continue
         left = max((at for at in every if at < place), default=min(every, default=-1))
-        step, numbers, notes = layout.time_step or said.time_step, rows[:, place], repeats
+        step, numbers, notes = None, rows[:, place], repeats
         processing: tuple[str, ...] = ()
         if (times := every.get(left)) is not None:
             step = text.even_step(times)
@@ -820,8 +869,9 @@ def _channels(
             "processing": processing,
             "warnings": notes,
         }
-        unit = column.unit or label.unit or said.unit
-        records.append(options.accelerogram(unit, numbers, step, processed=None, **facts))
+        claims = _claims(table, label, column, layout, step, options)
+        unit, agreed_step = agreed("unit", claims), agreed("time_step", claims)
+        records.append(held.accelerogram(unit, numbers, agreed_step, processed=None, **facts))
     if not records:
         _refuse_all(labels)
     return records

@@ -8,14 +8,13 @@ from datetime import datetime
 import numpy as np
 
 from rocking.errors import RecordError
+from rocking.records.claims import NUMBER as NUMBER
 from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
 
 _NUMERIC = b"0123456789+-.eE \t\n\r"
 _LARGEST = 1e100
 """The largest plausible number; a larger one (or, in a header, one below its inverse) is damage, and would overflow."""
-NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
-"""A plain finite decimal number, in heads and in rows alike."""
 _NUMBER = re.compile(NUMBER)
 
 

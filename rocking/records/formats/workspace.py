@@ -21,12 +21,12 @@ import numpy as np
 from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import acceleration_unit
 from rocking.records.accelerogram import Accelerogram
+from rocking.records.claims import refuse_other_quantity
 from rocking.records.doors import advice
 from rocking.records.formats.by_obspy import inventory_of, parsed_inventory
 from rocking.records.formats.format import Format, Options
 from rocking.records.kinds import RecordKind
 from rocking.records.one_trace import from_traces
-from rocking.records.plausibility import refuse_other_quantity
 from rocking.records.traces import joined
 from rocking.remarks import Remark
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rocking.errors import RecordError
-from rocking.records.formats.comments import Declarations
+from rocking.records.claims import Declarations
 from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
 from tests.refusals import refused

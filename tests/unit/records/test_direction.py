@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 import pytest
 
-from rocking.records.direction import Direction, directed, direction_in_name, doubts_of_channel, pair_doubt
+from rocking.records.claims import direction_in_name
+from rocking.records.direction import Direction, directed, doubts_of_channel, pair_doubt
 from rocking.records.kinds import RecordKind
 
 

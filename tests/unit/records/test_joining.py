@@ -7,7 +7,7 @@ import pytest
 
 from rocking.records import CatalogueRecord, load_catalogue, open_station
 from rocking.records.catalogue import catalogue_text
-from rocking.records.direction import direction_in_name
+from rocking.records.claims import direction_in_name
 from rocking.records.folder import catalogue_of_folder, list_folder
 from rocking.records.kinds import RecordKind
 from rocking.records.listing import doubts_of

@@ -1,0 +1,583 @@
+"""Claims: what the words about numbers say of them, each with its place, and what holds where several speak.
+
+Heads, names of columns and files, StationXML, answers and typed options say the same few things in many languages. One
+vocabulary reads them all; `agreed` returns what holds, or asks, naming the two that differ.
+"""
+
+import re
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass, field
+from enum import IntEnum
+from functools import lru_cache
+from typing import Any, Literal, TypeVar
+
+from rocking.errors import RecordError, UndeclaredError
+from rocking.quantities import acceleration_factor, acceleration_unit
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.direction import Direction
+from rocking.records.doors import advice
+from rocking.records.kinds import RecordKind
+from rocking.remarks import Remark
+
+What = Literal["unit", "time_step", "rate", "samples", "peak", "direction"]
+"""What a claim is about; rate: a step that is spoken of, which may be that of the recorder."""
+
+
+class Where(IntEnum):
+    """The place of a claim; of two that agree the higher one gives the value. The first two give none."""
+
+    FILE_NAME = 0
+    SPOKEN = 1
+    OPTION = 2
+    HEAD = 3
+    SAMPLES = 4
+    COLUMN = 5
+    ANSWER = 6
+
+    def __str__(self) -> str:
+        return _PLACES[self]
+
+
+_PLACES = (
+    "its name",
+    "a rate in its header",
+    "declared",
+    "its header",
+    "its times",
+    "the name of the column",
+    "layouts.csv",
+)
+_PERSONS = (Where.OPTION, Where.ANSWER)
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One statement: what it is about, its value in SI or as this package calls it, its place, and its words."""
+
+    what: What
+    value: Any
+    where: Where
+    text: str = ""
+
+    def __str__(self) -> str:
+        value = f"{self.value:g} s" if self.what == "time_step" else repr(self.value)
+        return f"{repr(self.text) if self.text else value} ({self.where})"
+
+
+_SAME_STEP = 1e-3
+"""Share by which two steps may differ that are one: a header rounds."""
+_SAME: dict[str, Callable[[Any, Any], bool]] = {
+    "unit": lambda one, other: acceleration_factor(one) == acceleration_factor(other),
+    "time_step": lambda one, other: abs(one - other) <= _SAME_STEP * min(one, other),
+    "peak": lambda one, other: abs(one - other) <= 0.01 * max(one, other),
+    "direction": lambda one, other: not point_apart(one, other),
+}
+
+
+def _same(one: Claim, other: Claim) -> bool:
+    same = _SAME.get(one.what)
+    return same(one.value, other.value) if same else bool(one.value == other.value)
+
+
+class AnswerContradictedError(RecordError):
+    """An answer that a file contradicts."""
+
+
+def agreed(what: What, claims: Collection[Claim]) -> Any:
+    """Return the value of `what` on which claims agree, None where none speaks of it.
+
+    What a person says settles what a file says twice, and may not stand against all that it says. The name of a file
+    is held against what a person says alone: of two words of one file that inside it counts. Raises RecordError where a
+    person contradicts the file, UndeclaredError where it contradicts itself.
+    """
+    spoken = sorted((claim for claim in claims if claim.what == what), key=lambda claim: -claim.where)
+    by_person = [claim for claim in spoken if claim.where in _PERSONS]
+    inside = [claim for claim in spoken if claim.where not in _PERSONS and claim.where > Where.SPOKEN]
+    named = [claim for claim in spoken if claim.where <= Where.SPOKEN]
+    for person in by_person:
+        against = inside or named
+        if against and not any(_same(person, own) for own in against):
+            error = AnswerContradictedError if person.where == Where.ANSWER else RecordError
+            raise error.naming(
+                what,
+                person.value,
+                f"{what} is {person}, but the file says {against[0]}; {_MEND[against is named]}.",
+            )
+    unlike = [(one, other) for one in inside for other in inside if not _same(one, other)]
+    if unlike and not by_person:
+        one, other = unlike[0]
+        wanted = f"; {advice(what)} to say which holds" if what in ("unit", "time_step") else ""
+        raise UndeclaredError(
+            f"of its {what.replace('_', ' ')} the file says both {one} and {other}{wanted}.", what
+        )
+    holding = [
+        claim for claim in inside if not by_person or any(_same(claim, person) for person in by_person)
+    ]
+    return next(
+        (claim.value for claim in sorted([*holding, *by_person], key=lambda claim: -claim.where)), None
+    )
+
+
+_MEND = ("omit it, or mend the file", "type that, or rename the file")
+
+
+def point_apart(first: str, second: str) -> bool:
+    """Whether two names of one component say where it points, and do not say the same."""
+    one, other = Direction.of(first), Direction.of(second)
+    if not (one.is_known and other.is_known):
+        return False
+    return (one.azimuth, one.vertical) != (other.azimuth, other.vertical)
+
+
+# Quantities.
+
+_ACCELERATION = re.compile(r"(?i)(?<![a-z])(acc|acel|beschl|[iİ]vme|ускорени|επιτάχυνση)|加速度")
+_OTHER = {
+    "velocity": re.compile(
+        r"(?i)(?<![a-z])(?:vel(?:oc?\w*|(?![a-z]))|vitesse|h[ıi]z[ıi]?(?![a-z]))|geschwindigkeit|скорость|速度|ταχύτητα|"
+        r"(?<![\w/])(?:cm|m|mm|in|см|м)/(?:s(?:ec)?|с)\b(?!\s*[/^*²2])"
+    ),
+    "displacement": re.compile(
+        r"(?i)(?<![a-z])(?:displ?(?:ac\w*|(?![a-z]))|desp(?:laz)\w*|despl?(?![a-z])|spostament\w*|d[eé]placement|"
+        r"deslocamento|yer ?de[gğ]i[sş]tirme)|verschiebung|перемещение|変位|位移|μετατόπιση"
+    ),
+}
+_OF_NO_MOTION = re.compile(
+    r"(?i)shear|wave|vs[ _,]?30|\bond[ae]s?\b|welle|\bdalga\b|muestreo|chantillon|abtast|örnekle|campion"
+)
+"""The velocity of a site, or of a recorder, is no record."""
+_SUFFIXES = {
+    "velocity": (".vt2", ".vel", ".vtx", ".semv"), "displacement": (".dt2", ".dis", ".disp", ".semd"),
+}  # fmt: skip
+_SERIES_IN_NAME = re.compile(r"(?i)(?<![a-z])(?:(vt2)|dt2)(?![a-z\d])")
+_SPECTRUM = re.compile(
+    r"(?i)(?<![a-z])((?:response|fourier|power|design|pseudo|spectral|elastic|amplitude|hazard)\w*[ _-]+(?:\w+[ _-]+)?"
+    r"spectr(?:um|a|al)|spectr(?:um|a) of|(?:pseudo[ -]?)?spectral acceleration|espectro de respuesta|"
+    r"spettro di risposta|antwortspektr\w*|spectre de réponse|tepki spektrum\w*)(?![a-z])"
+)
+_OF_MOTION = re.compile(
+    r"(?i)match|compatib|consistent|scaled to|target|time[ -]?(history|series)|accelerogram"
+)
+"""Words of a motion that was made to a spectrum, or accompanies one."""
+
+
+def other_quantity(text: str) -> str | None:
+    """Return "velocity" or "displacement" when `text`, a header or the name of a column, speaks of it alone."""
+    if _ACCELERATION.search(text) or _OF_NO_MOTION.search(text):
+        return None
+    return next((word for word, pattern in _OTHER.items() if pattern.search(text)), None)
+
+
+def quantity_in_name(file: str) -> str | None:
+    """Return the quantity other than acceleration of which the name of a file speaks alone."""
+    if series := _SERIES_IN_NAME.search(file):
+        return "velocity" if series[1] else "displacement"
+    return other_quantity(spaced(file))
+
+
+def refuse_other_quantity(file: str, text: str) -> None:
+    """Raise RecordError when `text`, a header, or the ending of the name `file` speaks of another quantity."""
+    suffix = next((word for word, ends in _SUFFIXES.items() if file.lower().endswith(ends)), None)
+    if quantity := other_quantity(text) or suffix:
+        raise RecordError.naming(
+            "quantity", quantity, f"this is a file of {quantity}; use the acceleration of the same record."
+        )
+
+
+def refuse_by_name(file: str) -> None:
+    """Raise RecordError when the name of a file of bare numbers speaks of velocity or displacement alone."""
+    if quantity := quantity_in_name(file):
+        raise RecordError.naming(
+            "quantity",
+            quantity,
+            f"its name speaks of {quantity}, and nothing in it of acceleration; use the acceleration of the same "
+            "record, or rename the file if it is that.",
+        )
+
+
+def refuse_spectrum(header: Sequence[str]) -> None:
+    """Raise RecordError when the lines of a header say that a file holds a spectrum, and none speaks of a motion."""
+    if any(_OF_MOTION.search(line) for line in header):
+        return
+    if said := next((match[0] for line in header if (match := _SPECTRUM.search(line))), ""):
+        raise RecordError.naming(
+            "quantity",
+            "spectrum",
+            f"this is a spectrum ({said}); use the record of acceleration against time.",
+        )
+
+
+# The name of a file.
+
+_ENDING = re.compile(r"\.(at2|txt|csv|asc|dat|acc|prn|out|th|tcl|gz|time_\w+|g3)$", re.I)
+_ANY_ENDING = re.compile(r"\.\w{1,16}$")
+_WORDS = (
+    r"NS|EW|SN|WE|EO|N-S|E-W|S-N|W-E|E-O|N|E|S|W|NORTH|EAST|SOUTH|WEST|UD|UP|DN|DWN|DOWN|V|\+V|V\+|Z|VER|VERT|"
+    r"VERTICAL|[A-Z][HNGL][NEZ]"
+)
+_IN_NAME = (
+    re.compile(rf"^(.*?)[-_. ]({_WORDS})$", re.I),
+    re.compile(r"^(.*?)[-_ ](V\d)$", re.I),
+    re.compile(r"^(.*?)[-_. ]?([NS]\d{1,2}[EWO])$", re.I),
+    re.compile(r"^(.*\D)(\d{3})$"),
+    re.compile(r"^(.*[A-Za-z]\d{2})(\d{3})$"),
+    re.compile(r"^(.+)[-_. ](\d{1,3})(?:deg)?$", re.I),
+    re.compile(r"^(.*[a-z\d])(NS|EW|UD|UP)$"),
+    re.compile(r"^(.*(?<!T\d{5})(?<!T\d{3})\d)([NEVZ])$"),  # and not the zone of a time
+)
+"""A direction at the end of a file's name: a word, a bearing or three digits, or one to three after a sign.
+
+Three digits may stand behind the two of a station, as in "H-E12140"; a longer number is a date or counts files.
+"""
+_GLUED = re.compile(r"^(.*[A-Z])(DWN)$|^(RSN\d+_.*[A-Z\d])(UP|DWN|DN|VER|VRT)$")
+"""A vertical behind the letters of a station, as NGA writes it."""
+_CODE = re.compile(r"(?<![A-Za-z\d])[BCEHS][HNG]Z(?![A-Za-z\d])")
+"""A vertical channel code anywhere in a name."""
+_DONE = re.compile(r"(?i)(scaled?|clean(ed)?|rounded|filled|sped|speed|back|set|sized?)[-_. ](up|down)$")
+"""The end of a name in which "up" says what was done, as in "scaled_up"."""
+
+
+def spaced(name: str) -> str:
+    """Return the words of a name: parted at signs and digits, and where a capital follows a small letter."""
+    return re.sub(r"(?<=[a-z])(?=[A-Z])|[\W\d_]+", " ", name)
+
+
+def without_ending(name: str) -> str:
+    """Return the name of a file without the endings that say what kind of file it is."""
+    while (shorter := _ENDING.sub("", name)) not in (name, ""):
+        name = shorter
+    return name
+
+
+def direction_in_name(name: str) -> tuple[str, str]:
+    """Return the name of a file before the direction at its end, and that direction; ("", "") where it ends in none.
+
+    >>> from rocking.records.claims import direction_in_name
+    >>> direction_in_name("RSN779_LOMAP_LGP090.time_g.csv")
+    ('RSN779_LOMAP_LGP', '090')
+    """
+    stem = without_ending(name)
+    for pattern in _IN_NAME:
+        match = pattern.match(stem)
+        if match and Direction.of(match[2]).is_known:
+            return match[1], match[2]
+    return "", ""
+
+
+def vertical_in_name(name: str) -> str:
+    """Return the word for a vertical with which the name of a file ends, or its channel code; "" where it has none."""
+    stem = without_ending(name.rpartition("/")[2])
+    if code := _CODE.search(stem):
+        return code[0]
+    while stem:
+        if len(stem) > 1 and stem.isalpha() and Direction.of(stem).vertical:
+            return stem
+        if _DONE.search(stem):
+            return ""
+        glued = _GLUED.match(stem)
+        word = (glued[2] or glued[4]) if glued else direction_in_name(stem)[1]
+        if Direction.of(word).vertical and not word.isdigit():
+            return word
+        shorter = _ANY_ENDING.sub("", stem)
+        stem = shorter if shorter != stem else ""
+    return ""
+
+
+_STEP_IN_NAME = re.compile(r"(?i)(?<![a-z])dt[ _=-]?(\d*\.\d+)")
+_RATE_IN_NAME = re.compile(r"(?i)(?<![a-z\d.])(\d+(?:\.\d+)?) ?(?:hz|sps)(?![a-z])")
+_UNIT_IN_NAME = re.compile(
+    r"(?<![A-Za-z])([cm]?m)[_ -]?(?:per[_ ]?)?s(?:ec)?[_^]?2(?![A-Za-z\d])|"
+    r"(?<![A-Za-z])(gals?|GAL(?=$))(?![A-Za-z])|(?<=_)(g)$"
+)
+
+
+def claims_of_name(file: str) -> tuple[Claim, ...]:
+    """Return what the name of a file says of its unit and its step, "kobe_dt0.005", "x_100Hz", "acc_cm_s2"."""
+    stem = re.sub(r"(?i)\.(txt|csv|dat|at2|asc|acc|th|out|prn|xlsx)$", "", file.rpartition("/")[2])
+    found = [
+        Claim("time_step", float(match[1]), Where.FILE_NAME, match[0])
+        for match in _STEP_IN_NAME.finditer(stem)
+    ]
+    if not _OF_FILTER.search(spaced(stem)):
+        rates = ((match, float(match[1])) for match in _RATE_IN_NAME.finditer(stem))
+        found += [
+            Claim("time_step", 1 / rate, Where.FILE_NAME, match[0])
+            for match, rate in rates
+            if rate >= _FEWEST_PER_SECOND
+        ]
+    for match in _UNIT_IN_NAME.finditer(stem):
+        unit = f"{match[1]}/s2" if match[1] else match[2].lower().rstrip("s") if match[2] else "g"
+        found.append(Claim("unit", unit, Where.FILE_NAME, match[0].strip("_")))
+    return tuple(claim for claim in found if claim.value)
+
+
+# Sentences.
+
+NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_TIMES = re.compile(
+    r"(?i)(?:(?<!\*)[x×*]|\btimes|\b(?:multiplied|divided) by)\s*\d|\d\s*[x×*]\s*(?:acc|g\b)|[(\[]\s*%\s*[)\]]"
+)
+"""A factor by which numbers are multiplied, as in "cm/s2 * 100": the unit next to it is not that of the numbers."""
+_SCALED = re.compile(
+    r"(?i)\b(s[ck]al\w*|fa[ck]?t+(?:eu|[eo])re?\w*|m[uo]ltipl\w*|gain|guadagno|ganancia|sensitivity|counts|conteggi|"
+    r"cuentas|çarpan\w*|katsayı\w*|ölçek\w*)\b|倍率|係数|系数|カウント"
+)
+"""Words that speak of a factor by which numbers may still have to be multiplied."""
+_SCALED_TO = re.compile(r"(?i)\(\s*scaled to [^)]*\)")
+_CELLS = re.compile(r"^\s*([^:=,;\t]+?)\s*[,;\t]\s*([^:=,;\t]+?)[\s,;]*$")
+"""A comment of two cells, as "Unit,gal"."""
+_CLAUSE = re.compile(r"[;,]\s+|\.\s+(?=[A-Z])")
+_OF_PEAK = re.compile(r"(?i)\b(pga|peak|max\w*|scale\w*|factor|picco|pico)\b")
+"""The subjects of a comment whose unit need not be that of the numbers."""
+_PEAK = re.compile(rf"(?i)\bpga\s*[:=]?\s*({NUMBER})\s*[(\[]?([a-z%][\w/^*²]*)")
+_OF_ACCELERATION = re.compile(r"(?i)(?<![a-z])(acc|acel|beschl|amplitud)")
+"""Words next to which a unit in brackets is that of the numbers: elsewhere "(G)" may be the code of a network."""
+_UNIT_WORD = r"[A-Za-zµ%][\w/^*²·⁻'%]*(?:\.s(?:ec)?)?(?:-2)?"
+_UNIT = re.compile(
+    r"(?:\b(?:units?|unidad(?:es)?|unit[aà]|unités?|einheit(?:en)?|birim(?:i|ler)?)\b|単位|单位)[^:=：.]*[:=：]\s*[(\[]?\s*([^\s,;()\[\]]+)|"
+    r"\b(?:acc|accel|acceleration|acel|aceleraci[oó]n)\s*[:=]\s*([a-z][\w/^*²]*)|"
+    rf"\bunits?(?: of| are| is)?\s+[(\[]?({_UNIT_WORD})|(?:\bin\s+(?!units?\b)|[(\[]\s*)({_UNIT_WORD})",
+    re.I,
+)
+_SECONDS = r"(?:s|seg|secs?|segundos?|seconds?)"
+_END = r"\s*(?:\.?\s*$|,(?!\d)|[;)\]]|\s/\s)"
+_STEP = re.compile(
+    r"(?:\b(?:dt|delta|time[ _-]?(?:step|interval|increment)|(?:sampling|sample)[ _-]?(?:interval|period|step)|"
+    r"(?:equal )?spacing|intervals|intervalo(?: de muestreo)?|(?:passo|intervallo) (?:di campionamento|temporale)|"
+    r"(?:pas|intervalle) (?:de temps|d.échantillonnage)|abtastintervall|zeitschritt|"
+    r"(?:örnekleme|zaman) (?:aralığı|adımı))|サンプリング間隔|采样间隔)"
+    rf"\s*(?:[(\[]\s*{_SECONDS}\s*[)\]])?\s*(?:[:=：]|is|of)?\s*({NUMBER})\s*\(?{_SECONDS}?{_END}|"
+    rf"^\s*(?:sampling|muestreo)\s*[:=]\s*({NUMBER})\s*{_SECONDS}\s*$",
+    re.I,
+)
+_RATE = re.compile(
+    r"(?:\b(?:fs|(?:sampling|sample)[ _-]?(?:rate|frequency)|tasa de muestreo|frecuencia de muestreo|"
+    r"frequenza di campionamento|fréquence d.échantillonnage|abtast(?:rate|frequenz)|örnekleme (?:frekansı|hızı))\b|"
+    r"サンプリング周波数|采样频率)"
+    rf"\s*(?:[(\[]\s*hz\s*[)\]])?\s*(?:[:=：]|is|of)\s*({NUMBER})\s*(?:hz|sps)?{_END}|"
+    rf"\bsampled at ({NUMBER})\s*(?:hz|sps){_END}",
+    re.I,
+)
+_RATE_STATED = re.compile(
+    rf"(?<![\w.])({NUMBER})\s*(?:hz|sps|samples? ?(?:/|per) ?s(?:ec(?:ond)?)?)(?![a-z])", re.I
+)
+_SAMPLED = re.compile(
+    r"(?i)sampl|decimat|interpol|digiti|muestr|abtast|chantill|campion|örnekle|サンプリング|采样|rate|frecuencia de m"
+)
+"""Words next to which a second rate leaves open which one the numbers have."""
+_OF_FILTER = re.compile(
+    r"(?i)filt|pass|corner|cut|band|butter|natural|period|reson|dominant|range|nyquist|usable|taper|instrument|\bfn\b"
+)
+"""Words next to which a number of hertz is no rate of samples."""
+_FEWEST_PER_SECOND = 10.0
+"""The lowest rate that a recorder has, Hz: below, a number of hertz is that of a motion."""
+_SAMPLES = re.compile(
+    r"(?:^|[\s,;(])(-?\d[\d.e]*)\s+(?:points|samples|values)\b(?!\s+(?:per|across|a|each|in)\b)|"
+    r"\b(?:npts|(?:no\.?|number) (?:of )?(?:points|samples|data|values)|"
+    r"n[uú]m(?:ero|\.)? (?:total )?de (?:datos|muestras|puntos))"
+    r"\s*[:=]\s*(-?\d[\d.e]*)",
+    re.I,
+)
+_VALUE = r"\b\.?\s*(?:code|name)?\s*[:=]?\s*([^,;:=()\[\]]*?)\s*(?:$|[,;()\[\]]|\s-\s)"
+_DIRECTIONS = (
+    re.compile(
+        rf"\b(?:comp(?:onent[ea]?)?|direction|orientation|direcci[oó]n|orientaci[oó]n){_VALUE}",
+        re.I,
+    ),
+    re.compile(
+        r"(?<!class )(?<!type )(?<!site )(?<!soil )\b([\w/-]+)\s+(?:comp(?:onent)?|direction)\b",
+        re.I,
+    ),
+    re.compile(r"\b([\w/-]{2,})\s+(?:acc(?:el(?:eration)?)?|(?:ground )?motion|record)\b", re.I),
+    re.compile(
+        r"(?:^|[\s,_-])([NS]\d{1,2}[EW]|UP|UD|U-D|NS|N-S|EW|E-W|[BCHS]N[NEZ]|[BH]H[NEZ]|VERT|(?i:vertical))"
+        r"\s*(?:$|,)"
+    ),
+    re.compile(r",[^,]+,\s*(\d{3})\s*$"),
+)
+"""Words that may be directions: "Component: HNZ", "vertical component", and what ends a title, as "KOBE UP"."""
+_OF_SENSOR = re.compile(
+    r"(?i)\b(?:comp|component|channel|sensor)\b.*\bazimuth\s*[:=]\s*(\d{1,3})(?:\.0*)?(?![\d.])"
+)
+"""Where a sensor points by a key of its own, which counts more than a title: the azimuth of a source is none."""
+_BOTH_ENDS = re.compile(r"(?i)\b(north|east|up)(?:\s*[/–]\s*|\s+)(south|west|down)\b")
+"""A direction in two words, of which the second alone would turn it round."""
+_CHANNEL = re.compile(rf"\b(?:canal|chan(?:nel)?){_VALUE}", re.I)
+"""A channel may be named by a direction, but "Channel 101" is none."""
+_MEANING = re.compile(
+    r"(?i)(?<![a-z.])(acc\w*|acel\w*|beschl\w*|vel\w*|displ?\w*|(?:shear |axial )?strains?|stress\w*|forces?|moments?|"
+    r"fourier|spectr\w*|psa|fas|periods?|freq\w*|hz|dt|delta|time|intervalo?|sampl\w*|muestr\w*|rate|points|units?|"
+    r"unidad\w*|conversion|format|npts|\(?\d+f\d+\.\d+\)?|sec\w*|seg\w*)(?![a-z])|([a-z][\w/^*²]*)"
+)
+"""Words that say what numbers are; the others are names, of which a unit alone counts."""
+
+
+@lru_cache(maxsize=4096)
+def _claims_of(line: str) -> tuple[Claim, ...]:
+    """Return what a line of text says of the numbers that it accompanies; agencies write the same one above each."""
+    found: list[tuple[What, Any]] = [("samples", match[1] or match[2]) for match in _SAMPLES.finditer(line)]
+    for match in _PEAK.finditer(line):
+        if unit := acceleration_unit(match[2]):
+            found.append(("peak", float(match[1]) * acceleration_factor(unit)))
+    for text in dict.fromkeys((line, _CELLS.sub(r"\1: \2", line))):
+        bare = _SCALED_TO.sub("", text)
+        if not (_TIMES.search(bare) or _SCALED.search(bare)):
+            found += [("unit", unit) for unit in _units(bare)]
+        if not _OF_PEAK.search(text):
+            found += [("time_step", step) for step in _steps(text)]
+            found += [("rate", rate) for rate in _rates(text)]
+            found += [("direction", name) for name in _components(text)]
+    return tuple(Claim(what, value, Where.HEAD, line.strip()) for what, value in found)
+
+
+T = TypeVar("T")
+
+
+def _the_only(values: Collection[T]) -> T | None:
+    """Return the value of which there is one, None of none or several."""
+    return next(iter(values)) if len(values) == 1 else None
+
+
+def azimuth_of_sensor(lines: Sequence[str]) -> str:
+    """Return the azimuth of the only sensor that the lines of a header speak of, "" where none or several do."""
+    return _the_only({match[1] for line in lines if (match := _OF_SENSOR.search(line))}) or ""
+
+
+@dataclass(frozen=True)
+class Declarations:
+    """What one text says, None (the component, the samples: "") where it says nothing, or several things.
+
+    unit: of acceleration. time_step: s. component: where the only channel points. samples: their number, as written.
+    stated_steps: the steps [s] of every rate that is spoken of, but for those of filters. words: all its claims.
+    """
+
+    unit: str | None = None
+    time_step: float | None = None
+    component: str = ""
+    samples: str = ""
+    stated_steps: tuple[float, ...] = ()
+    words: tuple[Claim, ...] = field(default=(), compare=False)
+
+    @classmethod
+    def of(cls, lines: Sequence[str]) -> "Declarations":
+        """Return what the `lines` of a text, without their marks, declare."""
+        claims = tuple(claim for line in lines for claim in _claims_of(line))
+        said: dict[str, list[Any]] = {}
+        for claim in claims:
+            said.setdefault(claim.what, []).append(claim.value)
+        steps = set(said.get("time_step", ()))
+        stated = {1 / rate for rate in said.get("rate", ())} | steps
+        # A rate next to another one may be the one that the numbers were recorded at, and not theirs.
+        is_twice = (
+            bool(stated)
+            and max(stated) > min(stated) * (1 + _SAME_STEP)
+            and any(_SAMPLED.search(line) for line in lines if not _OF_PEAK.search(line))
+        )
+        components = {name.upper(): name for name in said.get("direction", ())}
+        return cls(
+            _the_only(set(said.get("unit", ()))),
+            None if is_twice else _the_only(steps),
+            _the_only(components.values()) or "",
+            _the_only(set(said.get("samples", ()))) or "",
+            tuple(sorted(stated)),
+            claims,
+        )
+
+    def claims(self) -> tuple[Claim, ...]:
+        """Return the claims of a text on which it does not contradict itself."""
+        held = {"unit": self.unit, "time_step": self.time_step, "direction": self.component}
+        return tuple(
+            claim for claim in self.words if claim.what == "peak" or held.get(claim.what) == claim.value
+        )
+
+
+def doubts_of_claims(channel: Accelerogram, said: Declarations) -> tuple[Remark, ...]:
+    """Return a remark where the peak or the direction of the only channel is not what the text above it says."""
+    doubts = []
+    peaks = [claim.value for claim in said.words if claim.what == "peak"]
+    if peaks and not any(_SAME["peak"](abs(peak), channel.peak_acceleration) for peak in peaks):
+        values = {"peak_m_s2": channel.peak_acceleration, "stated_m_s2": abs(peaks[0])}
+        doubts.append(Remark.of(RecordKind.PEAK_UNLIKE_HEADER, **values))
+    if said.component and point_apart(said.component, channel.component):
+        doubts.append(Remark.of(RecordKind.DIRECTION_SAID_TWICE, channel.component, other=said.component))
+    return tuple(doubts)
+
+
+def meaning(comment: str) -> str:
+    """Return the words of a comment that say what numbers are, without its names and values; all of one on a factor."""
+    if speaks_of_factor(comment):
+        return comment.strip()[:80]
+    words = (match[1] or acceleration_unit(match[2]) or "" for match in _MEANING.finditer(comment))
+    return " ".join(word.lower() for word in words if word)
+
+
+def speaks_of_factor(line: str) -> bool:
+    """Whether a line speaks of a factor by which the numbers may still have to be multiplied."""
+    return bool(_SCALED.search(line) or (_TIMES.search(line) and _OF_ACCELERATION.search(line)))
+
+
+def factor_warnings(lines: Sequence[str]) -> tuple[Remark, ...]:
+    """Return a warning where lines speak of a factor: none is applied."""
+    spoken = next((line.strip() for line in lines if speaks_of_factor(line)), "")
+    return (Remark.of(RecordKind.FACTOR_NOT_APPLIED, text=spoken[:60]),) if spoken else ()
+
+
+def _units(line: str) -> set[str]:
+    """The units of acceleration that a line declares for the numbers: no clause of a peak does."""
+    clauses = [clause for clause in _CLAUSE.split(line) if not _OF_PEAK.search(clause)]
+    of_line = not _OF_PEAK.search(line) and bool(_OF_ACCELERATION.search(line))
+    found = [
+        match[1] or match[2] or match[3] or (match[4] if of_line or _OF_ACCELERATION.search(clause) else "")
+        for clause in clauses
+        for match in _UNIT.finditer(clause)
+    ]
+    return {unit for word in found if word and (unit := acceleration_unit(word))}
+
+
+def _steps(line: str) -> set[float]:
+    """The time steps [s] that a line declares, or follow from the rates that it does."""
+    steps = {float(match[1] or match[2]) for match in _STEP.finditer(line)}
+    rates = {float(match[1] or match[2]) for match in _RATE.finditer(line)}
+    return {step for step in steps if step > 0} | {1 / rate for rate in rates if rate > 0}
+
+
+def _rates(line: str) -> set[float]:
+    """The rates [Hz] that a line speaks of, but for those of filters."""
+    if _OF_FILTER.search(line):
+        return set()
+    return {rate for match in _RATE_STATED.finditer(line) if (rate := float(match[1])) >= _FEWEST_PER_SECOND}
+
+
+def _components(line: str) -> list[str]:
+    """The directions that a line says the channel points in."""
+    if re.search(r"(?i)\bhorizontal\b", line):
+        return []
+    line = _BOTH_ENDS.sub(r"\1-\2", line)
+    words = [match[1].strip() for pattern in _DIRECTIONS for match in pattern.finditer(line)]
+    words += [match[1].strip() for match in _CHANNEL.finditer(line) if not match[1].strip().isdigit()]
+    return [word for word in words if _is_direction(word)]
+
+
+def _is_direction(name: str) -> bool:
+    """Whether a name in a text is a direction: a bare number is one if it is written as three digits, else a count."""
+    if name.isdigit():
+        return len(name) == _DIGITS_OF_AN_ANGLE and Direction.of(name).azimuth is not None
+    return Direction.of(name).is_known
+
+
+_DIGITS_OF_AN_ANGLE = 3
+
+END = re.compile(
+    r"(?i)(?:[#%$!]|//).*|[a-z]\w*[ \t]*\$|[\W_]*(?:end(?:[ \t]+of)?(?:[ \t]+\w+)?|eof)[\W_]*|[}\])]+;?"
+)
+"""Remarks, or a word for the end, below the numbers: these are reported to nobody."""
+_MARK_OF_END = re.compile(
+    rb"(?i)(?:(?<=\n)|(?<=\d)(?=\*\*))[ \t]*(?:"
+    rb"[*\-=\s]*(?:end|eof)(?:[ \t]+(?:of[ \t]+)?(?:data|file))?[*\-=. \t]*|/[&*]|[a-z]+[ \t]*\$|[}\])]+;?)\Z"
+)
+
+
+def without_end(body: bytes) -> bytes:
+    """Return a text without a mark of its end: "*** End Data ***", "/&", "EOF", "LEE $", "};"."""
+    match = _MARK_OF_END.search(body[-80:])
+    return body[: len(body) - len(match[0])].rstrip() if match else body
