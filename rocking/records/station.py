@@ -165,20 +165,24 @@ def _horizontal(
 def _counted_once(
     horizontal: Sequence[Accelerogram], vertical: Accelerogram | None
 ) -> tuple[list[Accelerogram], Accelerogram | None]:
-    """Return the components without those that are copies of an earlier one, which says so."""
+    """Return the components without those that are copies of an earlier one, which says so.
+
+    The vertical one may be among the horizontal ones, where the row names it as such: that is no copy.
+    """
     distinct: list[Accelerogram] = []
-    upwards = [vertical] if vertical is not None else []
-    for channel in (*horizontal, *upwards):
+    is_apart = vertical is not None and vertical.component not in {each.component for each in horizontal}
+    for channel in (*horizontal, *filter(None, [vertical if is_apart else None])):
         place = next((at for at, other in enumerate(distinct) if same_motion(channel, other)), None)
         if place is None:
             distinct.append(channel)
         else:
             kept = distinct[place]
-            copy = Remark.of(RecordKind.SAME_MOTION, channel.component, other=kept.component)
-            distinct[place] = kept.warned(copy)
-    if upwards and distinct[-1] is vertical:
+            distinct[place] = kept.warned(
+                Remark.of(RecordKind.SAME_MOTION, channel.component, other=kept.component)
+            )
+    if is_apart and distinct[-1] is vertical:
         return distinct[:-1], vertical
-    return distinct, None
+    return distinct, None if is_apart else vertical
 
 
 def _called(name: str, channels: Sequence[Accelerogram]) -> Accelerogram:

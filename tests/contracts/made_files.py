@@ -28,10 +28,10 @@ def columns(values: np.ndarray, per_line: int, form: str) -> str:
     return "".join("".join(format(v, form) for v in line) + "\n" for line in lines)
 
 
-def peer() -> str:
+def peer(factor: float = 1.0) -> str:
     head = "PEER NGA STRONG MOTION DATABASE RECORD\nQuake, 1/2/1999, Station, 45\n"
     head += "ACCELERATION TIME SERIES IN UNITS OF G\n"
-    return f"{head}NPTS= {N}, DT= {STEP} SEC\n" + columns(TRUE / 9.80665, 5, "15.7E")
+    return f"{head}NPTS= {N}, DT= {STEP} SEC\n" + columns(factor * TRUE / 9.80665, 5, "15.7E")
 
 
 def peer_2008() -> str:

@@ -24,7 +24,7 @@ STRUCTURES = """\
 """
 RECORDS = {
     "RSN1_QUAKE_STA045.AT2": made_files.peer(),
-    "RSN1_QUAKE_STA135.AT2": made_files.peer().replace("Station, 45", "Station, 135"),
+    "RSN1_QUAKE_STA135.AT2": made_files.peer(0.9).replace("Station, 45", "Station, 135"),
     "MYG0010001010000.EW": made_files.knet(),
     "MYG0010001010000.NS": made_files.knet().replace("E-W", "N-S"),
     "cosmos.v2": made_files.cosmos(),

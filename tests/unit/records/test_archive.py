@@ -21,7 +21,7 @@ from rocking.remarks import Remark
 from tests.contracts.made_files import TRUE, knet, peer
 from tests.refusals import refused
 
-FILES = {"quake/RSN1_MADE_ST000.AT2": peer(), "quake/RSN1_MADE_ST090.AT2": peer().replace(", 45", ", 135")}
+FILES = {"quake/RSN1_MADE_ST000.AT2": peer(), "quake/RSN1_MADE_ST090.AT2": peer(0.9).replace(", 45", ", 135")}
 
 
 def packed(path: Path, files: dict[str, str | bytes] = FILES, how: int = zipfile.ZIP_DEFLATED) -> Path:

@@ -16,11 +16,25 @@ from rocking.remarks import Remark
 VALUES = 0.3 * np.sin(np.arange(4000) * 0.07) * np.hanning(4000)
 
 
+FACTORS = {
+    "000": 1.3,
+    "090": 1.4,
+    "N": 1.1,
+    "HNE": 1.5,
+    "T": 1.6,
+    "FP": 1.7,
+    "TRAN": 1.8,
+    "HN2": 1.9,
+    "Y": 1.05,
+}
+"""By which the components of a station differ: none is a copy of another."""
+
+
 def peer(
     folder: Path, name: str, component: str, size: int = 4000, place: str = "Here", date: str = "1/2/1999"
 ) -> None:
     """A file of PEER, in g; `place` is its station and `date` that of the earthquake."""
-    rows = "\n".join(f"{value:.7E}" for value in VALUES[:size] * (1 + 0.1 * len(component)))
+    rows = "\n".join(f"{value:.7E}" for value in VALUES[:size] * FACTORS.get(component, 1.2))
     head = f"PEER NGA\nQuake, {date}, {place}, {component}\nACCELERATION IN UNITS OF G\nNPTS= {size}, DT= .005 SEC\n"
     (folder / name).write_text(f"{head}{rows}\n")
 
@@ -91,7 +105,10 @@ def test_components_of_unlike_length_are_joined_from_the_first_sample(tmp_path: 
     (station,) = opened(tmp_path)
     one, two = station.horizontal
     assert one.acceleration.size == two.acceleration.size == station.vertical.acceleration.size == 3944
-    assert two.acceleration == pytest.approx(1.3 * 9.80665 * VALUES[:3944], abs=1e-5) and not one.processing
+    assert (
+        two.acceleration == pytest.approx(FACTORS["090"] * 9.80665 * VALUES[:3944], abs=1e-5)
+        and not one.processing
+    )
     assert two.processing[-1].startswith(
         "The last 56 samples left out: the station's shortest file holds 3944"
     )

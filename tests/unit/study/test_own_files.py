@@ -21,8 +21,8 @@ from rocking.study.own_files import Declared, read_files, scenes_of, stations_of
 
 FILES = {
     "RSN1_MADE_ST000.AT2": peer().replace(", 45", ", 000"),
-    "RSN1_MADE_ST090.AT2": peer().replace(", 45", ", 090"),
-    "RSN1_MADE_ST-UP.AT2": peer().replace(", 45", ", UP"),
+    "RSN1_MADE_ST090.AT2": peer(0.9).replace(", 45", ", 090"),
+    "RSN1_MADE_ST-UP.AT2": peer(0.6).replace(", 45", ", UP"),
 }
 WALL = "{type: free_wall, height_m: 2.2, thickness_m: 0.3}"
 NOTHING = Declared()
