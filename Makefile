@@ -18,7 +18,7 @@ ENGINE := openquake-engine==3.26.2
 # Tests start many processes, and each would compile the whole package again to bytecode.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: all run setup slurm openquake test test-runs test-all bench trace check near check-research schema measured paper documentation wheel release lock clean
+.PHONY: all run setup slurm openquake test test-runs test-all bench trace check near check-research schema pages figures measured paper documentation wheel release lock clean
 
 all: run
 
@@ -76,6 +76,7 @@ check: $(TOOLS)
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy rocking
 	$(BIN)/snakefmt --check Snakefile workflow
+	$(BIN)/python -m docs.site.pages --check
 
 # The tests that import what has changed since the commit SINCE.
 SINCE ?= HEAD
@@ -95,6 +96,13 @@ schema: setup
 	  > workflow/schemas/config.schema.yaml
 	$(BIN)/python -c "from rocking.study.settings import EXAMPLE, commented_yaml as text; print(text(EXAMPLE), end='')" \
 	  > config/config.yaml
+
+# What the code says of itself, written into the pages; `make figures` also runs their examples and draws.
+pages: $(TOOLS)
+	$(BIN)/python -m docs.site.pages
+
+figures: $(TOOLS)
+	$(BIN)/python -m docs.site.pages --figures
 
 # The measured figures whose code has changed since in meaning.
 measured: setup

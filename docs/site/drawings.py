@@ -1,13 +1,17 @@
 """The drawing of every form of every structure, with the letters of its dimensions, made from the registry."""
 
-from collections.abc import Iterator
+from __future__ import annotations
 
-from matplotlib.figure import Figure
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from rocking.reports.style import styled
 from rocking.structures import Structure
 from rocking.structures.fields import Form
 from rocking.structures.structure_list import TYPES, structure_from_config
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _SEEN_ROTATION, _MOST_ROTATION = 0.12, 0.3
 """Rotation that can be seen in a small drawing, and beyond which a structure is hard to recognise, rad."""
@@ -26,6 +30,8 @@ def drawing(kind: str, form: Form) -> Figure:
 
     What a file holds is drawn by the first form of its type.
     """
+    from matplotlib.figure import Figure  # not needed where only the forms are
+
     form = TYPES[kind][0] if form.is_in_a_file else form
     example = {field.key: field.value.example for field in form.fields if field.required or field.unit}
     structure = structure_from_config({"type": kind, **example})

@@ -1,6 +1,7 @@
 """The parts of the pages that the code itself says: formats, settings, structures, tables, equations, names."""
 
 import csv
+import inspect
 import json
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -9,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import rocking
-from docs.paper.report import equation_rows, equivalence_figures
+from docs.site.build import TOPICS, public_names
 from docs.site.drawings import forms
 from docs.site.kept import scores_of
 from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, HistoryRow, SpectrumRow
@@ -68,6 +69,8 @@ def tables() -> str:
 
 def equations() -> str:
     """The equations that the paper prints with a slip, with the numbers that decide."""
+    from docs.paper.equations import equation_rows  # a second to import, as that below
+
     head = ("Eq.", "quantity", "by the printed form", "by the corrected form", "decides")
     body = []
     for row in equation_rows():
@@ -85,6 +88,8 @@ def pulse_methods() -> str:
 
 def blocks() -> str:
     """The largest error of each equivalent block over a figure of the paper, for few of its curves."""
+    from docs.paper.report import equivalence_figures
+
     errors: dict[tuple[str, ...], float] = {}
     for figure in equivalence_figures():
         for row in figure.rows:
@@ -109,23 +114,19 @@ def regimes() -> str:
     return table(("regime", "meaning"), ((regime.value, regime.sentence) for regime in Regime))
 
 
-TOPICS = {
-    "records": ("records",),
-    "structures": ("structures", "floors"),
-    "pulses": ("pulses", "sine_pulse"),
-    "motion": ("motion", "contacts"),
-    "assessment": ("assessment", "codes", "fragility", "strengthening"),
-    "studies": ("study", "products", "reports", "remarks", "errors"),
-}
-"""Page of the Python names: the parts of the package from which they come."""
-
-
 def api(topic: str) -> str:
-    """The public names of a topic, for mkdocstrings to describe."""
-    modules = ((getattr(rocking, name).__module__, name) for name in rocking.__all__)
-    return "\n\n".join(
-        f"::: {module}.{name}" for module, name in modules if module.split(".")[1] in TOPICS[topic]
-    )
+    """The public names of a topic, each with its module and the first sentence of its docstring."""
+    lines = []
+    for name, module in public_names(topic):
+        summary = " ".join((inspect.getdoc(getattr(rocking, name)) or "").partition("\n\n")[0].split())
+        path = f"../../{module.replace('.', '/')}"
+        file = (
+            f"{path}/__init__.py"
+            if (MEASURED.parents[1] / path.removeprefix("../../")).is_dir()
+            else f"{path}.py"
+        )
+        lines.append(f"* [`rocking.{name}`]({file}): {summary}")
+    return "\n".join(lines)
 
 
 def measured_trade() -> list[TradeRow]:
@@ -325,6 +326,8 @@ GENERATED: Mapping[str, Callable[[], str]] = {
     )
 } | {f"api_{topic}": partial(api, topic) for topic in TOPICS}
 """What may stand behind `generated:` in a page."""
+SLOW = frozenset({"equations", "blocks"})
+"""What takes seconds to compute."""
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:

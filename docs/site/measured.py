@@ -67,17 +67,14 @@ class Figure:
 
     @property
     def words(self) -> str:
-        """The figure as a page prints it: value, interval, numbers and, where it is older than its code, its age."""
-        words = self.value
-        if details := "; ".join(filter(None, (self.interval, self._of))):
-            words += f" ({details})"
-        return f"{words} [measured at {self.commit}, code changed since]" if self.is_older else words
+        """The figure as a page prints it: value, interval and numbers."""
+        details = "; ".join(filter(None, (self.interval, self._of)))
+        return f"{self.value} ({details})" if details else self.value
 
     @property
     def origin(self) -> str:
         """What made it, on what and when: "`snakemake stand` at 1a2b3c4d, 50 sites of 20 earthquakes"."""
-        words = ", ".join(filter(None, (f"`{self.script}` at {self.commit}", self._of)))
-        return f"{words}, code changed since" if self.is_older else words
+        return ", ".join(filter(None, (f"`{self.script}` at {self.commit}", self._of)))
 
     @property
     def _of(self) -> str:

@@ -6,9 +6,8 @@ rule documentation:
         pages=sorted(
             str(path)
             for path in (HOME / "docs").rglob("*")
-            if path.suffix in (".css", ".js", ".md", ".py", ".yml") and "research" not in path.parts
+            if path.suffix in (".css", ".js", ".md", ".py", ".svg", ".yml") and "research" not in path.parts
         ),
-        scores=f"{HOME}/docs/research/scores.py",
     output:
         directory(f"{RESULTS}/documentation"),
     log:
@@ -18,4 +17,4 @@ rule documentation:
     message:
         "Set the documentation"
     run:
-        run_apart("docs.site.pages:documentation", rule, output[0], log[0])
+        run_apart("docs.site.build:documentation", rule, output[0], log[0])

@@ -5,8 +5,8 @@ from types import SimpleNamespace
 
 import pytest
 
+from docs.site.build import FOLDER
 from docs.site.measured import ROOT, figures
-from docs.site.pages import FOLDER
 from rocking.assessment import compilation
 from rocking.errors import RockingError
 

@@ -9,8 +9,9 @@ from docs.research.run import targets
 from docs.research.scores import Score
 from docs.site import kept
 from docs.site import measured as module
+from docs.site.build import written_pages
 from docs.site.measured import FIGURES, ROOT, code_sha256, figures, main, meaning, records_sha256
-from docs.site.pages import filled, written_pages
+from docs.site.pages import filled
 from rocking.errors import ConfigurationError
 from rocking.pulses.pulse import WORTHS
 from rocking.reports.printing import MEASURED
@@ -102,7 +103,7 @@ def test_a_figure_says_that_its_code_has_changed_since(monkeypatch, tmp_path, ca
         cells = (getattr(row, each) for each in head.split(","))
         path.write_text(head + "\n" + ",".join(f'"{each}"' for each in cells) + "\n", encoding="utf-8")
         (told,) = figures(path).values()
-        assert told.is_older is older and ("code changed since" in told.words) is older
+        assert told.is_older is older
         monkeypatch.setattr(module, "figures", lambda path=path, told=told: {name: told})
         assert main(["--first-screen"]) == int(older and first == "yes")
         assert (f"{name}: measured at" in capsys.readouterr().out) is older
@@ -136,11 +137,12 @@ def test_every_target_of_the_research_on_a_page_and_every_figure_of_a_report_has
 
 def test_a_page_prints_a_figure_within_its_line():
     name, figure = next(iter(figures().items()))
-    assert filled(f"It is <!-- measured: {name} -->.", "page") == f"It is {figure.words}."
-    assert filled(f"By <!-- measured by: {name} -->.", "page") == f"By {figure.origin}."
+    for mark, words in (("measured", figure.words), ("measured by", figure.origin)):
+        page = f"It is <!-- {mark}: {name} -->old<!-- end -->."
+        assert filled(page, "page") == page.replace("old", words)
     assert figure.script in figure.origin and figure.commit in figure.origin
     with pytest.raises(ConfigurationError, match="measured figure is 'nothing'"):
-        filled("<!-- measured: nothing -->", "page")
+        filled("<!-- measured: nothing --><!-- end -->", "page")
 
 
 def test_a_page_prints_a_score_as_the_target_left_it(monkeypatch, tmp_path):
@@ -156,14 +158,15 @@ def test_a_page_prints_a_score_as_the_target_left_it(monkeypatch, tmp_path):
         (".2", "ratio", "0.97 (0.90–1.02)"),
         ("sites", "none", "20 sites of 18 earthquakes; 95 cases"),
     ):
-        assert filled(f"<!-- score {form}: made; s; {part}; m -->!", "page") == f"{found}!"
+        mark = f"<!-- score {form}: made; s; {part}; m -->"
+        assert filled(f"{mark}<!-- end -->!", "page") == f"{mark}{found}<!-- end -->!"
     for form, content in (
         ("%", "made; s; none; other"),
         ("?", "made; s; none; m"),
         ("%", "other; s; none; m"),
     ):
         with pytest.raises(ConfigurationError, match=r"must be one|must have one"):
-            filled(f"<!-- score {form}: {content} -->", "page")
+            filled(f"<!-- score {form}: {content} --><!-- end -->", "page")
     kept.scores_of.cache_clear()
 
 

@@ -19,8 +19,9 @@ from obspy.core.inventory import Channel, Inventory, Network, Response, Station
 from obspy.core.inventory.response import InstrumentSensitivity
 
 import rocking
+from docs.site.build import FOLDER, MARKED, written_pages
 from docs.site.drawings import drawing, forms
-from docs.site.pages import FOLDER, filled, python_blocks, written_pages
+from docs.site.pages import filled, main, python_blocks
 from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES
 from rocking.errors import ConfigurationError
 from rocking.records.formats import FORMATS
@@ -135,7 +136,7 @@ def test_the_readme_leads_to_the_report_of_an_own_record(tmp_path):
 
 
 def test_the_commands_of_the_pages_are_understood():
-    text = "\n".join(map(written, WRITTEN))
+    text = MARKED.sub("", "\n".join(map(written, WRITTEN)))
     shell = "\n".join(re.findall(r"^```sh\n(.*?)^```$", text, re.M | re.S)).splitlines()
     commands = [line for line in shell if line.startswith("rocking ")]
     commands += [line for line in re.findall(r"`(rocking [a-z]+ [^`\n]+)`", text) if "FILE" not in line]
@@ -144,11 +145,37 @@ def test_the_commands_of_the_pages_are_understood():
         assert vars(_parser().parse_args(shlex.split(command, comments=True)[1:])), command
 
 
-def test_every_file_that_a_page_links_exists():
-    links = [(path, link) for path in WRITTEN for link in re.findall(r"\]\(([^)#]+)", written(path))]
-    assert len(links) > 30
-    for path, link in links:
-        assert link.startswith(("https://", "figures/")) or (path.parent / link).is_file(), (path, link)
+def headings(path: Path) -> set[str]:
+    """The anchors that a repository gives the headings of a page."""
+    text = re.sub(r"^```.*?^```$", "", written(path), flags=re.M | re.S)
+    titles = re.findall(r"^#+ (.*)$", text, re.M)
+    return {re.sub(r"[^\w\- ]", "", title.strip().lower()).replace(" ", "-") for title in titles}
+
+
+@pytest.mark.parametrize("path", WRITTEN, ids=lambda path: path.name)
+def test_a_page_reads_in_the_repository_as_it_stands(path):
+    """No hole, no mark that would end a paragraph or hide its line, and no link or picture that leads nowhere."""
+    text = re.sub(r"`[^`\n]*`", "", re.sub(r"^```.*?^```$", "", written(path), flags=re.M | re.S))
+    assert all(inside.strip() for _, _, inside in MARKED.findall(text))
+    assert not re.search(r"<!-- (?!end)", MARKED.sub("", text)), "a mark without its end"
+    assert not re.search(r"^\s*(?:[*-] |\d+\. )?<!-- (?!generated|end)", text, re.M), (
+        "a line begins with a mark"
+    )
+    for link in re.findall(r"\]\(([^)\s]+)\)", text):
+        file, _, anchor = link.partition("#")
+        target = path.parent / file if file else path
+        if not link.startswith("https://"):
+            assert target.is_file(), link
+            assert not anchor or anchor in headings(target), link
+
+
+def test_the_pages_hold_what_the_code_says():
+    assert main(["--check"]) == 0
+
+
+@pytest.mark.slow
+def test_the_pages_hold_what_their_examples_print_and_draw():
+    assert main(["--check", "--figures"]) == 0
 
 
 def test_every_test_that_a_page_names_exists():
@@ -177,7 +204,6 @@ def test_the_site_needs_no_network_and_its_links_lead_somewhere(site, folder):
 
 @pytest.mark.slow
 def test_the_site_leaves_nothing_of_the_code_out(site):
-    assert "generated:" not in "".join(site.values())
     for form in FORMATS:
         assert f"<td>{form.name}</td>" in unescape(site["formats.html"])
     for each in (*RECORD_TABLES[:-3], *SUMMARY_TABLES):
@@ -202,15 +228,9 @@ def test_a_drawing_shows_the_letter_of_every_size(name, kind, form):
             assert any(text.rstrip("₀₁₂₃₄₅₆₇₈₉") in (letter, letter[0]) for text in texts), field.meaning
 
 
-def test_a_file_is_shown_as_it_stands():
-    """Also where it names the marks that pages have."""
-    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
-    assert "<!-- measured: NAME -->" in text and filled("<!-- file: CONTRIBUTING.md -->", "made.md") == text
-
-
 def test_an_unknown_generated_part_is_refused():
     with pytest.raises(ConfigurationError, match=r"^strange.md: .*'nonsense'"):
-        filled("<!-- generated: nonsense -->\n", "strange.md")
+        filled("<!-- generated: nonsense --><!-- end -->\n", "strange.md")
 
 
 @pytest.mark.slow

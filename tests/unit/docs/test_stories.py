@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from docs.site.pages import FOLDER
+from docs.site.build import FOLDER
 
 ROOT = FOLDER.parents[1]
 STORIES = {
