@@ -200,12 +200,12 @@ def check_described(error: type[RockingError], made: Any) -> None:
         try:
             object.__setattr__(made, name, declared.checked(value))
         except ValueError as wrong:
-            raise error.naming(name, value, f"{name} is {wrong}") from None
+            raise error(f"{name} is {wrong}", **{name: value}) from None
     for name in parts_of(kind):
         part = getattr(made, name)
         expected = type(getattr(kind, name))
         if not isinstance(part, expected):
-            raise error.naming(name, part, f"{name} is {shown(part)}, but must be a {expected.__name__}.")
+            raise error(f"{name} is {shown(part)}, but must be a {expected.__name__}.", **{name: part})
 
 
 def read_described(

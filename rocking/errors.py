@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from enum import auto
 from pathlib import Path
-from typing import Any, Self
+from typing import Self
 
 from rocking.remarks import Kind, Remark
 
@@ -46,16 +46,11 @@ class RockingError(Exception):
     field: str = ""
     value: object = None
 
-    @classmethod
-    def naming(cls, field: str, value: object, sentence: str, *more: Any) -> Self:
-        """Return the error that the `value` of a field is refused; sentence: it, what is allowed and what to do.
-
-        more: what else the class takes.
-        """
-        error = cls(sentence, *more)
-        error.field = field
-        error.value = value
-        return error
+    def __init__(self, sentence: str = "", /, **refused: object) -> None:
+        """Make the error of a sentence; refused: the field that it refuses, and its value, where it refuses one."""
+        super().__init__(sentence)
+        if refused:
+            ((self.field, self.value),) = refused.items()
 
     @classmethod
     def saying(cls, remark: Remark) -> Self:
@@ -91,17 +86,13 @@ class UnknownFormatError(RecordError):
         What each reader looked for, one sentence each.
     """
 
-    def __init__(self, message: str, details: tuple[str, ...] = ()) -> None:
-        super().__init__(message)
+    def __init__(self, message: str, /, details: tuple[str, ...] = (), **refused: object) -> None:
+        super().__init__(message, **refused)
         self.details = details
 
 
 class UndeclaredError(RecordError):
     """A unit or a time step that neither the file nor the caller declares; `field` is which of the two."""
-
-    def __init__(self, message: str, field: str = "unit") -> None:
-        super().__init__(message)
-        self.field = field
 
 
 class PulseError(RockingError):

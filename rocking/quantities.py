@@ -43,7 +43,7 @@ def instance(error: type[RockingError], name: str, value: object, *kinds: type) 
         hint = "; give one of its items" if isinstance(value, list | tuple) else ""
         article = "an" if kinds[0].__name__[0] in "AEIOU" else "a"
         names = " or ".join(kind.__name__ for kind in kinds)
-        raise error.naming(name, value, f"{name} is {kind_of(value)}, but must be {article} {names}{hint}.")
+        raise error(f"{name} is {kind_of(value)}, but must be {article} {names}{hint}.", **{name: value})
 
 
 def escaped(text: str) -> str:
@@ -130,11 +130,10 @@ def acceleration_factor(unit: str) -> float:
     count = float(of_count["number"]) if of_count else 1.0
     name = acceleration_unit(of_count["unit"] if of_count else unit)
     if name is None or not 0 < count < math.inf:
-        raise RecordError.naming(
-            "unit",
-            unit,
+        raise RecordError(
             f"unit is {shown(unit)}, but must be one of {', '.join(ACCELERATION_UNITS)}, for counts behind the "
             "acceleration of one, as in 4.71e-6 m/s2.",
+            unit=unit,
         )
     return count * ACCELERATION_UNITS[name]
 
@@ -145,15 +144,13 @@ _OF_COUNT = re.compile(r"(?P<number>\d*\.?\d+(?:[eE][-+]?\d+)?)\s+(?P<unit>\D.*)
 def finite(error: type[RockingError], field: str, value: float, unit: str = "") -> float:
     """Return `value` as a finite float, or raise `error` naming `field`."""
     if isinstance(value, bool | str | bytes):
-        raise error.naming(field, value, f"{field} is {shown(value)}, but must be a number.")
+        raise error(f"{field} is {shown(value)}, but must be a number.", **{field: value})
     try:
         number = float(value)
     except (TypeError, ValueError, OverflowError):
-        raise error.naming(field, value, f"{field} is {shown(value)}, but must be a number.") from None
+        raise error(f"{field} is {shown(value)}, but must be a number.", **{field: value}) from None
     if not math.isfinite(number):
-        raise error.naming(
-            field, value, f"{field} is {shown(value)}, but must be a finite number{_in(unit)}."
-        )
+        raise error(f"{field} is {shown(value)}, but must be a finite number{_in(unit)}.", **{field: value})
     return number
 
 
@@ -161,7 +158,7 @@ def positive(error: type[RockingError], field: str, value: float, unit: str = ""
     """Return `value` as a finite float above zero, or raise `error` naming `field`."""
     number = finite(error, field, value, unit)
     if number <= 0:
-        raise error.naming(field, value, f"{field} is {shown(value)}{_in(unit)}, but must be greater than 0.")
+        raise error(f"{field} is {shown(value)}{_in(unit)}, but must be greater than 0.", **{field: value})
     return number
 
 
@@ -171,8 +168,9 @@ def within(
     """Return `value` as a float in [low, high], or raise `error` naming `field`."""
     number = finite(error, field, value, unit)
     if not low <= number <= high:
-        raise error.naming(
-            field, value, f"{field} is {shown(value)}{_in(unit)}, but must lie between {low:g} and {high:g}."
+        raise error(
+            f"{field} is {shown(value)}{_in(unit)}, but must lie between {low:g} and {high:g}.",
+            **{field: value},
         )
     return number
 
@@ -185,8 +183,8 @@ def whole(field: str, value: float, low: float, high: float) -> int:
     """Return a whole number from `low` to `high`, or raise StructureError naming `field`."""
     number = finite(StructureError, field, value)
     if number != int(number) or not low <= number <= high:
-        raise StructureError.naming(
-            field, value, f"{field} is {number:g}, but must be a whole number from {low:g} to {high:g}."
+        raise StructureError(
+            f"{field} is {number:g}, but must be a whole number from {low:g} to {high:g}.", **{field: value}
         )
     return int(number)
 

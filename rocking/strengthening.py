@@ -391,12 +391,12 @@ def strengthen(
     (nan, 22.0)
     """
     if isinstance(records, Accelerogram | str | bytes) or not isinstance(records, Sequence):
-        raise ConfigurationError.naming(
-            "records", records, f"records is {kind_of(records)}, but must be a list of accelerograms."
+        raise ConfigurationError(
+            f"records is {kind_of(records)}, but must be a list of accelerograms.", records=records
         )
     if odd := [record for record in records if not isinstance(record, Accelerogram)]:
-        raise ConfigurationError.naming(
-            "records", odd[0], f"records hold a {type(odd[0]).__name__}, but must hold accelerograms."
+        raise ConfigurationError(
+            f"records hold a {type(odd[0]).__name__}, but must hold accelerograms.", records=odd[0]
         )
     if not isinstance(structure, Structure):
         raise ConfigurationError(

@@ -184,11 +184,10 @@ def code_sets(target: Target) -> None:
         trials += _trials(selections, split)
         target.tell(f"split {split}: {sum(trial.covered for trial in trials)} of {len(trials)} covered")
     if not trials:
-        raise ConfigurationError.naming(
-            "sites",
-            len(sites),
+        raise ConfigurationError(
             f"no half of {len(sites)} sites gave sets of {SET_STATIONS} stations at the design level; give more "
             "records.",
+            sites=len(sites),
         )
     scores = list(_set_scores(trials))
     subtitle = (

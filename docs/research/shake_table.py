@@ -67,10 +67,9 @@ class Campaign:
         folder = next((folder for folder in tried if (folder / TESTS).is_file()), None)
         if folder is None:
             places = ", ".join(map(str, tried)) or "the setting mirror, which is null"
-            raise RecordError.naming(
-                "mirror",
-                mirror,
+            raise RecordError(
                 f"no {TESTS} of the shake-table campaign in {places}; name its folder, or one beside it, as mirror.",
+                mirror=mirror,
             )
         listed = {motion.test: motion for motion in read_rows(TableMotion, catalogue)}
         return cls(read_tests(folder / TESTS), folder, listed)
@@ -85,11 +84,10 @@ class Campaign:
         else:
             raise RecordError(f"test {number}: no samples in {self.folder / MOTIONS} nor in the catalogue.")
         if listed is not None and not listed.holds(samples):
-            raise RecordError.naming(
-                "samples_sha256",
-                listed.samples_sha256,
+            raise RecordError(
                 f"test {number}: the samples have another sha256 than {listed.samples_sha256} of the catalogue; "
                 "it is another version.",
+                samples_sha256=listed.samples_sha256,
             )
         (test,) = self.tests[self.tests.test == number].itertuples()
         source = Source(path=f"Test{name}", unit="g", format="shake table")
@@ -114,15 +112,14 @@ def read_tests(path: Path) -> pd.DataFrame:
     kinds = {"test": int, "dt": float, "pga_g": float, "pgv_over_pga": float, "motion": str, **verdicts}
     for name, kind in kinds.items():
         if name not in tests:
-            raise RecordError.naming(
-                name, "missing", f"{path}: the column {name!r} is missing; mend the table."
-            )
+            raise RecordError(f"{path}: the column {name!r} is missing; mend the table.", **{name: "missing"})
         allowed, pattern = CELLS[kind]
         fits = tests[name].str.fullmatch(pattern)
         if not fits.all():
             line, value = int(np.argmin(fits)) + 2, tests[name][np.argmin(fits)]
-            raise RecordError.naming(
-                name, value, f"{path}, line {line}: {name} is {value!r}, but must be {allowed}; mend the row."
+            raise RecordError(
+                f"{path}, line {line}: {name} is {value!r}, but must be {allowed}; mend the row.",
+                **{name: value},
             )
     tests = tests.astype(dict.fromkeys(verdicts, int)).astype(kinds)
     tests["nominal_peak_velocity"] = tests.pga_g * tests.pgv_over_pga * GRAVITY
@@ -143,7 +140,7 @@ def _download(listed: TableMotion) -> np.ndarray:
         return samples
     except (UnicodeDecodeError, IndexError, ValueError) as error:
         sentence = f"{path.name}: the file is no table of a test, {error}; fetch it again."
-        raise RecordError.naming("file", path.name, sentence) from None
+        raise RecordError(sentence, file=path.name) from None
     finally:
         if not is_right:
             path.unlink()

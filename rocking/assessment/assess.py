@@ -217,7 +217,7 @@ def assess(
         ("settings", settings, AssessmentSettings, "AssessmentSettings"),
     ):
         if not isinstance(value, allowed):
-            raise ConfigurationError.naming(name, value, f"{name} is {kind_of(value)}, but must be {words}.")
+            raise ConfigurationError(f"{name} is {kind_of(value)}, but must be {words}.", **{name: value})
     number = settings.ensemble.members if members is None else members
     varied = replace(settings.ensemble, members=number or EnsembleSettings().members)
     fidelity: Literal["standard", "contact"] = "contact" if settings.fidelity == "contact" else "standard"
@@ -249,4 +249,4 @@ def _checked_records(record: object) -> list[Accelerogram]:
         wrong = f"holds {len(records)} accelerograms, but must hold one or two horizontal ones"
     else:
         return list(records)
-    raise ConfigurationError.naming("record", record, f"record {wrong}.")
+    raise ConfigurationError(f"record {wrong}.", record=record)

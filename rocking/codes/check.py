@@ -54,30 +54,27 @@ class CodeTerms:
     def __post_init__(self) -> None:
         if self.limit_state not in ("SLD", *LIMIT_STATES):
             allowed = ", ".join(LIMIT_STATES)
-            raise ConfigurationError.naming(
-                "limit_state",
-                self.limit_state,
+            raise ConfigurationError(
                 f"limit_state is {self.limit_state!r}, but must be one of SLD, {allowed}.",
+                limit_state=self.limit_state,
             )
         if not isinstance(self.support, Support | None):
-            raise ConfigurationError.naming(
-                "support", self.support, f"support is {kind_of(self.support)}, but must be a Support or None."
+            raise ConfigurationError(
+                f"support is {kind_of(self.support)}, but must be a Support or None.", support=self.support
             )
         for name in ("behaviour_factor", "confidence_factor"):
             value = getattr(self, name)
             if finite(ConfigurationError, name, value) < 1:
-                raise ConfigurationError.naming(name, value, f"{name} is {value!r}, but must be 1 or more.")
+                raise ConfigurationError(f"{name} is {value!r}, but must be 1 or more.", **{name: value})
         if finite(ConfigurationError, "elastic_period", self.elastic_period, "s") < 0:
-            raise ConfigurationError.naming(
-                "elastic_period",
-                self.elastic_period,
+            raise ConfigurationError(
                 f"elastic_period is {self.elastic_period!r} s, but must be 0 or more.",
+                elastic_period=self.elastic_period,
             )
         if not 0 <= finite(ConfigurationError, "least_others", self.least_others) <= 1:
-            raise ConfigurationError.naming(
-                "least_others",
-                self.least_others,
+            raise ConfigurationError(
                 f"least_others is {self.least_others!r}, but must be from 0 to 1.",
+                least_others=self.least_others,
             )
         if self.support_loss != math.inf:
             positive(ConfigurationError, "support_loss", self.support_loss, "m")

@@ -105,7 +105,7 @@ def check(
         ("records", records, Selection | None, "sets of records, as rocking.select gives them, or None"),
     ):
         if not isinstance(value, kind):
-            raise ConfigurationError.naming(name, value, f"{name} is {kind_of(value)}, but must be {words}.")
+            raise ConfigurationError(f"{name} is {kind_of(value)}, but must be {words}.", **{name: value})
     terms = CodeTerms(
         limit_state=limit_state,
         confidence_factor=confidence_factor,

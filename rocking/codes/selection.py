@@ -280,17 +280,14 @@ def scaled_pool(
 def _check_ranges(periods: tuple[float, float], factors: tuple[float, float]) -> None:
     shortest, longest = periods
     if not 0 < shortest < longest:
-        raise ConfigurationError.naming(
-            "periods",
-            (shortest, longest),
+        raise ConfigurationError(
             f"periods is {shortest:g} to {longest:g} s, but must go from above 0 to a longer one.",
+            periods=(shortest, longest),
         )
     least, most = factors
     if not 0 < least <= most:
-        raise ConfigurationError.naming(
-            "factors",
-            factors,
-            f"factors is {least:g} to {most:g}, but must go from above 0 to as much or more.",
+        raise ConfigurationError(
+            f"factors is {least:g} to {most:g}, but must go from above 0 to as much or more.", factors=factors
         )
 
 

@@ -165,11 +165,10 @@ def _opening(structure: Structure) -> Iterator[Candidate]:
     side opens to the other alone. Behind them those of each leaf that may part, which is named first.
     """
     if not isinstance(structure, Structure):
-        raise StructureError.naming(
-            "structure",
-            structure,
+        raise StructureError(
             f"the structure is {kind_of(structure)}, which has no capacity curve; give a structure with a "
             "geometry, as rocking.Block or rocking.Facade.",
+            structure=structure,
         )
     own = [candidate for candidate in structure.candidates() if not candidate.part]
     cracked = [candidate for candidate in own if candidate.counts and not candidate.bulges]

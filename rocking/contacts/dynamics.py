@@ -120,11 +120,10 @@ def follow_stack(
     step = finite(MotionError, "step", step, "s")
     longest = stack.longest_step
     if not SHORTEST <= step <= longest:
-        raise MotionError.naming(
-            "step",
-            step,
+        raise MotionError(
             f"the time step is {step:.4g} s, but must be {SHORTEST:g} to {longest:.4g} s, which the smallest body "
             "and the stiffest tie of this stack allow; give a shorter step, or join bodies.",
+            step=step,
         )
     ground = _ground(motion, vertical)
     shaken = math.ceil(motion.duration / step)

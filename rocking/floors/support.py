@@ -72,34 +72,30 @@ class Mode:
     def __post_init__(self) -> None:
         period = finite(RecordError, "period", self.period, "s")
         if period < 0:
-            raise RecordError.naming(
-                "period",
-                self.period,
+            raise RecordError(
                 f"period is {self.period!r} s, but must be above 0, or 0 for a mode that is rigid.",
+                period=self.period,
             )
         if period > _LONGEST_PERIOD:
-            raise RecordError.naming(
-                "period",
-                self.period,
+            raise RecordError(
                 f"period is {self.period!r} s, but must be at most {_LONGEST_PERIOD:g} s, longer than that of "
                 "any building; give it in seconds.",
+                period=self.period,
             )
         damping = finite(RecordError, "damping_ratio", self.damping_ratio)
         if not 0 <= damping < _LARGEST_DAMPING:
-            raise RecordError.naming(
-                "damping_ratio",
-                self.damping_ratio,
+            raise RecordError(
                 f"damping_ratio is {self.damping_ratio!r}, but must be a share of the critical one from 0 to below 1.",
+                damping_ratio=self.damping_ratio,
             )
         object.__setattr__(self, "period", period)
         object.__setattr__(self, "damping_ratio", damping)
         participation = finite(RecordError, "participation", self.participation)
         if abs(participation) > _LARGEST_PARTICIPATION:
-            raise RecordError.naming(
-                "participation",
-                self.participation,
+            raise RecordError(
                 f"participation is {self.participation!r}, but must be from -{_LARGEST_PARTICIPATION:g} to "
                 f"{_LARGEST_PARTICIPATION:g}; give Γψ as a factor, and not in %.",
+                participation=self.participation,
             )
         object.__setattr__(self, "participation", participation)
 
@@ -143,9 +139,7 @@ class Support:
     def __post_init__(self) -> None:
         modes = tuple(self.modes) if isinstance(self.modes, Sequence) else (self.modes,)
         if not modes or not all(isinstance(mode, Mode) for mode in modes):
-            raise RecordError.naming(
-                "modes", self.modes, f"modes is {self.modes!r}, but must hold at least one Mode."
-            )
+            raise RecordError(f"modes is {self.modes!r}, but must hold at least one Mode.", modes=self.modes)
         object.__setattr__(self, "modes", modes)
 
     def __str__(self) -> str:
@@ -339,21 +333,19 @@ def _check_alike(records: Sequence[Accelerogram]) -> None:
     step = records[0].time_step
     for record in records:
         if record.acceleration.size != size or abs(record.time_step / step - 1) > 1e-9:
-            raise RecordError.naming(
-                "records",
-                records,
+            raise RecordError(
                 f"the components hold {size} samples at {step:g} s and {record.acceleration.size} at "
                 f"{record.time_step:g} s, but a support needs the same ones; cut or resample one of them.",
+                records=records,
             )
 
 
 def _check_sampled(mode: Mode, time_step: float) -> None:
     if mode.period < 2 * time_step:
-        raise RecordError.naming(
-            "period",
-            mode.period,
+        raise RecordError(
             f"period of the support is {mode.period:g} s, but must be at least two samples of the record, "
             f"{2 * time_step:g} s; give a finer record, or the period 0 for a support that is rigid.",
+            period=mode.period,
         )
 
 
@@ -375,11 +367,10 @@ def _sampling(record: Accelerogram, ringing: Sequence[_Ringing]) -> FloorSamplin
     after = 1 + math.ceil(min(quiet, LONGEST_RINGING) / step)
     number = (record.acceleration.size + after) * finer
     if number > MOST_SAMPLES:
-        raise RecordError.naming(
-            "samples",
-            number,
+        raise RecordError(
             f"the motion of the support takes {number} samples, but may take {MOST_SAMPLES}; cut the record, or give a "
             "longer period or more damping.",
+            samples=number,
         )
     return FloorSampling(finer, after)
 

@@ -458,25 +458,22 @@ def fragility(
     [0.0, 0.0, 0.0, 1.0]
     """
     if method == "cloud" and levels is not None:
-        raise ConfigurationError.naming(
-            "levels", "given", "levels are given, but a cloud has those of its records; leave them out."
+        raise ConfigurationError(
+            "levels are given, but a cloud has those of its records; leave them out.", levels="given"
         )
     reduced = reduce(structure)
     check_name(intensity_measure)
     if isinstance(reduced, EquivalentBlock):
-        raise ConfigurationError.naming(
-            "structure",
-            "equivalent block",
+        raise ConfigurationError(
             "structure is an equivalent block, but must be a structure or a mechanism.",
+            structure="equivalent block",
         )
     sample = checked_sample(Sample.of(records, stations, events))
     body = as_structure(structure if isinstance(structure, Structure) else reduced)
     first, *others = counting_cracks(body)
     mechanism = first.mechanism
     if why := never_overturns_because(body):
-        raise StructureError.naming(
-            "structure", why, f"the structure cannot overturn, and has no fragility: it {why}."
-        )
+        raise StructureError(f"the structure cannot overturn, and has no fragility: it {why}.", structure=why)
     measure = measure_named(intensity_measure, mechanism)
     intensities = np.array([measure.of(record, mechanism) for record in records])
     carried = records if support is None else [support.motion(record) for record in records]
@@ -503,10 +500,9 @@ def fragility(
 def checked_sample(sample: Sample) -> Sample:
     """Return the sample. Raises ConfigurationError for fewer than two stations."""
     if sample.count < 2:
-        raise ConfigurationError.naming(
-            "records",
-            sample.count,
+        raise ConfigurationError(
             f"the records come from {sample.count} station, but a fragility needs at least 2; add records.",
+            records=sample.count,
         )
     return sample
 
@@ -598,11 +594,10 @@ def _at_levels(
     if levels is not None:
         chosen = _checked_levels(levels)
         if chosen[0] > scaling.highest:
-            raise ConfigurationError.naming(
-                "levels",
-                float(chosen[0]),
+            raise ConfigurationError(
                 f"levels begin at {chosen[0]:g}, but within a factor of {scaling.largest_factor:g} two stations reach "
                 f"{scaling.highest:.3g} at the most; take stronger records.",
+                levels=float(chosen[0]),
             )
         chosen = chosen[chosen <= scaling.highest * (1 + 1e-9)]
         return chosen, at(chosen)
@@ -657,12 +652,10 @@ def _checked_levels(levels: Sequence[float] | np.ndarray) -> np.ndarray:
     """The levels as an array. Raises ConfigurationError unless they ascend and are greater than 0."""
     array = np.asarray(levels, dtype=float)
     if array.ndim != 1 or array.size < 2 or not np.all(np.isfinite(array) & (array > 0)):
-        raise ConfigurationError.naming(
-            "levels", levels, "levels must be at least two finite numbers greater than 0."
-        )
+        raise ConfigurationError("levels must be at least two finite numbers greater than 0.", levels=levels)
     for before, level in pairwise(array):
         if level <= before:
-            raise ConfigurationError.naming(
-                "levels", float(level), f"levels hold {level:g} after {before:g}, but must ascend; sort them."
+            raise ConfigurationError(
+                f"levels hold {level:g} after {before:g}, but must ascend; sort them.", levels=float(level)
             )
     return array

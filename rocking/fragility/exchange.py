@@ -80,9 +80,7 @@ def _add_function(
     model: ElementTree.Element, curve: FragilityCurve, name: str, state: str, lognormal: bool
 ) -> None:
     if not name or UNPRINTABLE.search(name):
-        raise ConfigurationError.naming(
-            "name", name, f"name is {name!r}, but must be printable and not empty."
-        )
+        raise ConfigurationError(f"name is {name!r}, but must be printable and not empty.", name=name)
     imt, scale = of_openquake(curve.measure)
     tried = np.isfinite(curve.probability)
     levels = curve.levels[tried] * scale

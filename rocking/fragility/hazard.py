@@ -84,11 +84,10 @@ class Hazard:
             levels, rates, measure, unit = _plain(path, text)
             _check(str(path), levels, rates)
             if rates[0] >= 1:
-                raise ConfigurationError.naming(
-                    "annual_rate",
-                    float(rates[0]),
+                raise ConfigurationError(
                     f"{path} says {rates[0]:g} a year at {levels[0]:g}, but annual_rate must be below 1 where no time "
                     "is said; divide what is of more years by them, or give the file of OpenQuake.",
+                    annual_rate=float(rates[0]),
                 )
             return cls(levels, rates, measure, unit=unit)
         mean = _OfOpenQuake.read(path, text, site)
@@ -103,11 +102,10 @@ class Hazard:
         for other in others:
             is_alike = other.imt == mean.imt and np.array_equal(other.levels, mean.levels)
             if not (other.quantile and is_alike):
-                raise ConfigurationError.naming(
-                    "quantile",
-                    other.kind,
+                raise ConfigurationError(
                     f"{other.path} is {other.kind!r} of {other.imt}, but must be a quantile of {mean.imt} at the "
                     f"levels of {path}.",
+                    quantile=other.kind,
                 )
         measure, scale = _measure(mean)
         # A probability of 1 has no rate, and one of 0 no logarithm.
@@ -130,11 +128,10 @@ class Hazard:
     def check_measure(self, name: str) -> None:
         """Raise ConfigurationError where the curve says that it is of another measure than `name`."""
         if not self.is_of(name):
-            raise ConfigurationError.naming(
-                "intensity_measure",
-                name,
+            raise ConfigurationError(
                 f"the hazard curve is {f'of {self.measure}' if self.measure else f'in {self.unit}'}, but the intensity "
                 f"measure is {name}; take one for the other.",
+                intensity_measure=name,
             )
 
 
@@ -159,22 +156,20 @@ def _plain(path: Path, text: str) -> tuple[np.ndarray, np.ndarray, str, str]:
     elif velocity:
         factor, ours = VELOCITY_UNITS[velocity], "m/s"
     else:
-        raise ConfigurationError.naming(
-            "columns",
-            heads,
+        raise ConfigurationError(
             f"{path} has the columns {', '.join(heads)[:80]!r}, but must have annual_rate and levels with their unit "
             "in the head, such as level_m_s2 or PGA (g), or intensity in the unit of its measure here (m/s of pgv, g "
             "of pga and SA); rename them.",
+            columns=heads,
         )
     points = []
     for number, cells in enumerate(lines, start=2):
         try:
             values = dict(zip(heads, map(float, cells), strict=True))
         except ValueError:
-            raise ConfigurationError.naming(
-                "line",
-                number,
+            raise ConfigurationError(
                 f"{path}, line {number}, holds {','.join(cells)[:80]!r}, but must hold two numbers.",
+                line=number,
             ) from None
         points.append((factor * values[head], values["annual_rate"]))
     levels, rates = np.array(points).reshape(-1, 2).T
@@ -184,8 +179,8 @@ def _plain(path: Path, text: str) -> tuple[np.ndarray, np.ndarray, str, str]:
     except ConfigurationError:
         return levels, rates, "", ours  # a word such as "level"
     if not is_of_unit:
-        raise ConfigurationError.naming(
-            "unit", head, f"{path} has the column {head!r}, but {stem} is in {_unit_of(stem)}; mend the unit."
+        raise ConfigurationError(
+            f"{path} has the column {head!r}, but {stem} is in {_unit_of(stem)}; mend the unit.", unit=head
         )
     return levels, rates, measure, ours
 
@@ -193,27 +188,25 @@ def _plain(path: Path, text: str) -> tuple[np.ndarray, np.ndarray, str, str]:
 def _check(name: str, levels: np.ndarray, rates: np.ndarray) -> None:
     """Raise ConfigurationError unless levels ascend and rates do not rise, all above 0, and there are two at least."""
     if len(levels) < 2:
-        raise ConfigurationError.naming(
-            "points", len(levels), f"{name} holds {len(levels)} points, but must hold at least 2."
+        raise ConfigurationError(
+            f"{name} holds {len(levels)} points, but must hold at least 2.", points=len(levels)
         )
     before: tuple[float, float] | None = None
     for level, rate in zip(levels.tolist(), rates.tolist(), strict=True):
         at = f"{rate:g} a year at {level:g}"
         if not (0 < level < math.inf and 0 < rate < math.inf):
-            raise ConfigurationError.naming(
-                "annual_rate", (level, rate), f"{name} holds {at}, but both must be above 0 and finite."
+            raise ConfigurationError(
+                f"{name} holds {at}, but both must be above 0 and finite.", annual_rate=(level, rate)
             )
         if before and level <= before[0]:
-            raise ConfigurationError.naming(
-                "intensity",
-                level,
+            raise ConfigurationError(
                 f"{name} holds {level:g} after {before[0]:g}, but intensity must ascend; sort it.",
+                intensity=level,
             )
         if before and rate > before[1]:
-            raise ConfigurationError.naming(
-                "annual_rate",
-                rate,
+            raise ConfigurationError(
                 f"{name} says {at}, more than {before[1]:g} at {before[0]:g}, but annual_rate must not rise.",
+                annual_rate=rate,
             )
         before = level, rate
 
@@ -241,10 +234,8 @@ class _OfOpenQuake:
         facts = {name: value.strip("'\"") for name, value in _FACT.findall(comment)}
         for fact in ("investigation_time", "imt"):
             if fact not in facts:
-                raise ConfigurationError.naming(
-                    "header",
-                    fact,
-                    f"{path} does not say {fact} in its first line, but must, as OpenQuake's do.",
+                raise ConfigurationError(
+                    f"{path} does not say {fact} in its first line, but must, as OpenQuake's do.", header=fact
                 )
         rows = list(csv.DictReader(lines))
         columns = [name for name in (rows[0] if rows else {}) if name and name.startswith("poe-")]
@@ -254,11 +245,10 @@ class _OfOpenQuake:
             places = [(float(row["lon"]), float(row["lat"])) for row in rows]
             probabilities = np.array([[float(row[name]) for name in columns] for row in rows])
         except (KeyError, TypeError, ValueError):
-            raise ConfigurationError.naming(
-                "format",
-                "OpenQuake",
+            raise ConfigurationError(
                 f"{path} is no hazard curve of OpenQuake: it must hold lon, lat and probabilities poe-LEVEL as "
                 "numbers.",
+                format="OpenQuake",
             ) from None
         chosen = [
             place
@@ -267,18 +257,16 @@ class _OfOpenQuake:
         ]
         if len(chosen) != 1:
             asked = f" at {site[0]:g}, {site[1]:g}" if site else ""
-            raise ConfigurationError.naming(
-                "site",
-                len(chosen),
+            raise ConfigurationError(
                 f"{path} holds {len(chosen)} sites{asked}, but one is needed; give site=(longitude, latitude).",
+                site=len(chosen),
             )
         own = probabilities[chosen[0]]
         if not (years > 0 and own.size and np.all((own >= 0) & (own <= 1))):
-            raise ConfigurationError.naming(
-                "probabilities",
-                years,
+            raise ConfigurationError(
                 f"{path} holds probabilities in {years:g} years that are none; they must lie from 0 to 1, and the time "
                 "above 0.",
+                probabilities=years,
             )
         with np.errstate(divide="ignore"):
             rates = -np.log1p(-own) / years
@@ -289,7 +277,7 @@ def _measure(of: _OfOpenQuake) -> tuple[str, float]:
     try:
         return of_openquake(of.imt)
     except ConfigurationError as error:
-        raise ConfigurationError.naming("imt", of.imt, f"{of.path}: {error}") from None
+        raise ConfigurationError(f"{of.path}: {error}", imt=of.imt) from None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -96,12 +96,11 @@ class IntensityMeasure:
             self._check_band(record)
             value = self.remembered(record)
         except RockingError as error:
-            raise ConfigurationError.naming(self.name, None, f"{name} has no {self.name}: {error}") from None
+            raise ConfigurationError(f"{name} has no {self.name}: {error}", **{self.name: None}) from None
         if not (np.isfinite(value) and value > 0):
-            raise ConfigurationError.naming(
-                self.name,
-                value,
+            raise ConfigurationError(
                 f"{name} has a {self.name} of {value!r}, but must have one greater than 0; leave the record out.",
+                **{self.name: value},
             )
         return value / self.per(mechanism)
 
@@ -114,12 +113,11 @@ class IntensityMeasure:
         longest = 1 / (CORNER_MARGIN * corner) if corner else math.inf
         for period in self.periods:
             if not shortest <= period <= longest * (1 + 1e-9):
-                raise RecordError.naming(
-                    "period",
-                    period,
+                raise RecordError(
                     f"it needs a period of {period:.3g} s, but the record can be used from {shortest:.3g} to "
                     f"{longest:.3g} s (two time steps; 1/{CORNER_MARGIN:g} of the period of its high-pass); choose "
                     "another period, or leave the record out.",
+                    period=period,
                 )
 
     def remembered(self, record: Accelerogram) -> float:
@@ -151,10 +149,9 @@ def _incremental_velocity(record: Accelerogram, period: float) -> float:
     times = np.arange(record.acceleration.size) * step
     starts = times[times <= times[-1] - WINDOW * period]
     if starts.size < 3:
-        raise RecordError.naming(
-            "duration",
-            float(times[-1]),
+        raise RecordError(
             f"it lasts {times[-1]:.3g} s, but must last longer than {WINDOW * period:.3g} s.",
+            duration=float(times[-1]),
         )
     corner = min(CORNER / period, 0.49 / step)  # a corner beyond that of the samples filters nothing
     low_pass = signal.butter(2, corner, fs=1 / step)
@@ -333,10 +330,9 @@ def of_openquake(name: str) -> tuple[str, float]:
         return "AvgSA", 1.0
     measure = intensity_measure(name)
     if not measure.openquake:
-        raise ConfigurationError.naming(
-            "intensity_measure",
-            name,
+        raise ConfigurationError(
             f"intensity_measure is {name!r}, which OpenQuake lacks; take another, such as pgv.",
+            intensity_measure=name,
         )
     return measure.openquake, measure.openquake_scale
 
@@ -355,10 +351,9 @@ def _parsed(name: str) -> tuple[str, tuple[float, ...]]:
     if inside is None and (stem in INTENSITY_MEASURES or stem in _BY_OPENQUAKE or stem in WITH_PERIODS):
         return stem, ()
     if stem not in WITH_PERIODS:
-        raise ConfigurationError.naming(
-            "intensity_measure",
-            name,
+        raise ConfigurationError(
             f"intensity_measure is {name!r}, but must be one of {', '.join(SPELLINGS)}.",
+            intensity_measure=name,
         )
     count = WITH_PERIODS[stem][0]
     try:
@@ -368,10 +363,9 @@ def _parsed(name: str) -> tuple[str, tuple[float, ...]]:
     is_range = all(0 < period <= LONGEST_PERIOD for period in periods) and periods == sorted(set(periods))
     if len(periods) != count or not is_range:
         must = "a period in s" if count == 1 else "two ascending periods in s, parted by a comma,"
-        raise ConfigurationError.naming(
-            "intensity_measure",
-            name,
+        raise ConfigurationError(
             f"intensity_measure is {name!r}, but {stem} must have {must} above 0 and up to {LONGEST_PERIOD:g}.",
+            intensity_measure=name,
         )
     return stem, tuple(periods)
 
@@ -380,11 +374,10 @@ def _from_structure(stem: str, mechanism: Mechanism | None) -> IntensityMeasure:
     """AvgSA or FIV3 at the periods that follow from a structure alone, to three digits."""
     count, made = WITH_PERIODS[stem]
     if mechanism is None or stem not in FROM_STRUCTURE:
-        raise ConfigurationError.naming(
-            "intensity_measure",
-            stem,
+        raise ConfigurationError(
             f"intensity_measure is {stem!r}, but must say its {'period' if count == 1 else 'periods'} here, as in "
             f"{stem}({'0.5' if count == 1 else '0.2,2.0'}).",
+            intensity_measure=stem,
         )
     period = 2 * math.pi / mechanism.equivalent_block("exact_at_rest").frequency_parameter
     shares = RANGE_BY_PERIOD if stem == "AvgSA" else (FIV3_BY_PERIOD,)

@@ -82,10 +82,9 @@ def integrate_batch(
     """
     tolerance = within(MotionError, "tolerance", tolerance, low=LEAST_TOLERANCE, high=LARGEST_TOLERANCE)
     if not isinstance(structures, Sequence) or isinstance(structures, str):
-        raise MotionError.naming(
-            "structures",
-            structures,
+        raise MotionError(
             f"structures is {kind_of(structures)}, but must be a list of structures; integrate follows one.",
+            structures=structures,
         )
     factors = Members(scale_factors).scale_factor
     forcing = forcing_of(record, vertical)
@@ -195,22 +194,20 @@ def rocking_spectrum(
     (3, 2)
     """
     if not isinstance(accelerogram, Accelerogram):
-        raise MotionError.naming(
-            "accelerogram",
-            accelerogram,
+        raise MotionError(
             f"accelerogram is {kind_of(accelerogram)}, but must be an Accelerogram; "
             "pulse_spectrum takes a pulse.",
+            accelerogram=accelerogram,
         )
     frequencies = _positive("frequency_parameters", frequency_parameters)
     multipliers = _positive("uplift_multipliers", uplift_multipliers)
     restitution = within(MotionError, "restitution", restitution, low=0, high=1)
     step = accelerogram.time_step
     if frequencies.size and frequencies.max() * step > LARGEST_GROWTH:
-        raise MotionError.naming(
-            "frequency_parameters",
-            float(frequencies.max()),
+        raise MotionError(
             f"frequency_parameters reach {frequencies.max()!r} rad/s, but at a time step of {step!r} s "
             f"must stay below {LARGEST_GROWTH / step:g}.",
+            frequency_parameters=float(frequencies.max()),
         )
     # The block of λ under the record responds as the one of λ = 1 under the record over λ.
     blocks = [
@@ -228,7 +225,7 @@ def rocking_spectrum(
 def _positive(field: str, values: Sequence[float] | np.ndarray) -> np.ndarray:
     array = np.array(values, dtype=float)
     if array.ndim != 1 or not array.size or not np.all(np.isfinite(array) & (array > 0)):
-        raise MotionError.naming(
-            field, array, f"{field} must be a one-dimensional array of finite numbers greater than 0."
+        raise MotionError(
+            f"{field} must be a one-dimensional array of finite numbers greater than 0.", **{field: array}
         )
     return array

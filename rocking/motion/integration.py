@@ -164,10 +164,9 @@ def integrate(
     leading = rotation or velocity
     side = (leading > 0) - (leading < 0)
     if side < 0 and getattr(structure, "one_sided", False):
-        raise MotionError.naming(
-            "initial_rotation",
-            rotation,
+        raise MotionError(
             "the initial state lies on the negative side, but a one-sided structure rocks to the positive only.",
+            initial_rotation=rotation,
         )
     start = abs(rotation), side * velocity, side
 
@@ -202,11 +201,10 @@ def reduce(structure: Rocking) -> Mechanism | EquivalentBlock:
     if isinstance(structure, Mechanism | EquivalentBlock):
         return structure
     if not hasattr(structure, "mechanism"):
-        raise MotionError.naming(
-            "structure",
-            structure,
+        raise MotionError(
             f"the structure is {kind_of(structure)}, but must be a Mechanism, an EquivalentBlock, "
             "or have a mechanism() method.",
+            structure=structure,
         )
     return structure.mechanism()
 
@@ -299,16 +297,14 @@ def _rows(blocks: tuple[EquivalentBlock, ...]) -> tuple[linear_kernel.Blocks, np
 def failure(status: float, impacts: float) -> MotionError:
     """Why a run has no answer."""
     if status == runs.TOO_MANY_IMPACTS:
-        return MotionError.naming(
-            "impacts",
-            int(impacts),
+        return MotionError(
             f"the structure met {impacts:.0f} impacts before the motion ended, but at most "
             f"{runs.IMPACT_LIMIT} are followed; a restitution below 1 brings it to rest.",
+            impacts=int(impacts),
         )
-    return MotionError.naming(
-        "acceleration",
-        "overflow",
+    return MotionError(
         "the motion left the range of floating-point numbers; check the record's amplitude.",
+        acceleration="overflow",
     )
 
 
@@ -318,10 +314,9 @@ def _initial_arc(table: MechanismTable, start: Start) -> tuple[float, float]:
     side = table.sides[0 if sign > 0 else -1]
     arc = side.arc(rotation)
     if not arc < side.end:
-        raise MotionError.naming(
-            "initial_rotation",
-            rotation,
+        raise MotionError(
             f"initial_rotation is {rotation!r} rad, but the mechanism ends before that.",
+            initial_rotation=rotation,
         )
     return arc, velocity / float(side.slope(np.array(arc)))
 
@@ -466,8 +461,8 @@ class Members:
         for name, array in arrays.items():
             shape = (size, 2) if name == "restitution" else (size,)
             if array.ndim != len(shape) or array.shape[0] not in (1, size) or array.shape[1:] != shape[1:]:
-                raise MotionError.naming(
-                    name, array, f"{name} has the shape {array.shape}, but must hold one value or {size}."
+                raise MotionError(
+                    f"{name} has the shape {array.shape}, but must hold one value or {size}.", **{name: array}
                 )
             object.__setattr__(self, name, np.array(np.broadcast_to(array, shape)))
         if restitution is None:
@@ -480,8 +475,8 @@ class Members:
             values = arrays.get(name, np.ones(1))
             wrong = values[~(holds(values) & np.isfinite(values))]  # type: ignore[no-untyped-call]
             if wrong.size:
-                raise MotionError.naming(
-                    name, float(wrong[0]), f"{name} holds {wrong[0]!s}, but every value must {allowed}."
+                raise MotionError(
+                    f"{name} holds {wrong[0]!s}, but every value must {allowed}.", **{name: float(wrong[0])}
                 )
 
     def __repr__(self) -> str:
@@ -576,10 +571,9 @@ def integrate_members(
     [False, False, True]
     """
     if not isinstance(members, Members):
-        raise MotionError.naming(
-            "members",
-            members,
+        raise MotionError(
             f"members is {kind_of(members)}, but must be Members, as Members([0.9, 1.0, 1.1]).",
+            members=members,
         )
     tolerance = within(MotionError, "tolerance", tolerance, low=LEAST_TOLERANCE, high=LARGEST_TOLERANCE)
     forcing = forcing_of(motion, vertical)

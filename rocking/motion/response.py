@@ -103,10 +103,9 @@ class Response(Drawn):
         from pandas import DataFrame  # which takes half a second to import
 
         if self.times is None:
-            raise MotionError.naming(
-                "history",
-                False,
+            raise MotionError(
                 "the history of the response is not there; integrate with history=True to keep it.",
+                history=False,
             )
         columns = {"time_s": self.times, "rotation_rad": self.rotation}
         return DataFrame(columns | {"angular_velocity_rad_s": self.angular_velocity})

@@ -66,43 +66,35 @@ def forcing_of(motion: GroundMotion, vertical: Accelerogram | None = None) -> Fo
     Raises MotionError when `motion` is neither or a pulse that is no full sine, or `vertical` does not fit its samples.
     """
     if not isinstance(motion, Accelerogram | Pulse):
-        raise MotionError.naming(
-            "motion",
-            motion,
-            f"the ground motion is {kind_of(motion)}, but must be an Accelerogram or a Pulse.",
+        raise MotionError(
+            f"the ground motion is {kind_of(motion)}, but must be an Accelerogram or a Pulse.", motion=motion
         )
     if isinstance(motion, Pulse) and not motion.is_full_sine:
-        raise MotionError.naming(
-            "motion",
-            motion,
+        raise MotionError(
             f"the ground motion is {motion!r}, but of pulses one full sine alone is integrated as it stands; give its "
             "samples: Accelerogram(pulse.acceleration(times), time_step).",
+            motion=motion,
         )
     if vertical is None:
         return _of_pulse(motion) if isinstance(motion, Pulse) else _FORCINGS.of(motion, None)
     if isinstance(motion, Pulse):
-        raise MotionError.naming(
-            "vertical",
-            vertical,
+        raise MotionError(
             "vertical is given with a pulse, but needs a record of the same samples; leave it out.",
+            vertical=vertical,
         )
     if not isinstance(vertical, Accelerogram):
-        raise MotionError.naming(
-            "vertical", vertical, f"vertical is {kind_of(vertical)}, but must be an Accelerogram."
-        )
+        raise MotionError(f"vertical is {kind_of(vertical)}, but must be an Accelerogram.", vertical=vertical)
     if vertical.acceleration.size != motion.acceleration.size:
-        raise MotionError.naming(
-            "vertical",
-            vertical,
+        raise MotionError(
             f"vertical has {vertical.acceleration.size} samples, but must have the {motion.acceleration.size} of the "
             "horizontal component; cut or resample it first.",
+            vertical=vertical,
         )
     if abs(vertical.time_step - motion.time_step) > 1e-9 * motion.time_step:
-        raise MotionError.naming(
-            "vertical",
-            vertical,
+        raise MotionError(
             f"vertical has a time step of {vertical.time_step!r} s, but must have the {motion.time_step!r} s of the "
             "horizontal component; resample it first.",
+            vertical=vertical,
         )
     return _FORCINGS.of(motion, vertical)
 
@@ -384,11 +376,10 @@ def side_table(side: Side, apart: bool = False) -> SideTable:
                 table = _tabulated(side, arc, inverse, last, apart)
             if table is not None:
                 return table
-    raise MotionError.naming(
-        "mechanism",
-        last,
+    raise MotionError(
         f"the mechanism's functions cannot be tabulated to {ACCURACY:g} of their maximum up to a rotation of "
         f"{last!r} rad; they must be smooth up to there.",
+        mechanism=last,
     )
 
 

@@ -94,29 +94,26 @@ def extract_pulses(accelerogram: Accelerogram, *, settings: PulseSettings | None
     samples = accelerogram.acceleration
     name = accelerogram.source.path or "The accelerogram"
     if np.ptp(samples) == 0:
-        raise PulseError.naming(
-            "acceleration",
-            float(samples[0]),
+        raise PulseError(
             f"{name} holds {samples.size} samples that all equal {samples[0]:g} m/s², but a pulse can only be sought "
             "in a record that moves; check the file and its channel.",
+            acceleration=float(samples[0]),
         )
     if not LEAST_PEAK < accelerogram.peak_acceleration < GREATEST_PEAK:
-        raise PulseError.naming(
-            "peak_acceleration",
-            accelerogram.peak_acceleration,
+        raise PulseError(
             f"{name} has a peak of {accelerogram.peak_acceleration:g} m/s², but a peak between {LEAST_PEAK:g} and "
             f"{GREATEST_PEAK:g} m/s² is needed; check its unit.",
+            peak_acceleration=accelerogram.peak_acceleration,
         )
     searched = _thinned(accelerogram, settings)
     search = PulseSearch.of(searched, settings)
     samples = searched.acceleration
     maxima = search.maxima(samples)
     if maxima.gains.max(initial=0.0) <= NOTHING_LEFT * search.energy(samples):
-        raise PulseError.naming(
-            "acceleration",
-            samples,
+        raise PulseError(
             f"{name} holds no motion that a cycle within it could explain; its samples differ only at its ends, so "
             "check the file.",
+            acceleration=samples,
         )
     ranked = search.ranked(samples, maxima)
     sequence = _pursued(search, samples, maxima, ranked[0])

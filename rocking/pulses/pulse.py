@@ -160,11 +160,10 @@ class PulseSettings:
     def __post_init__(self) -> None:
         check_described(PulseError, self)
         if self.highest_frequency <= self.lowest_frequency:
-            raise PulseError.naming(
-                "highest_frequency",
-                self.highest_frequency,
+            raise PulseError(
                 f"highest_frequency is {self.highest_frequency:g} Hz, but must be above lowest_frequency "
                 f"({self.lowest_frequency:g} Hz).",
+                highest_frequency=self.highest_frequency,
             )
 
 

@@ -105,17 +105,15 @@ def largest_velocity_pulse(accelerogram: Accelerogram) -> tuple[float, float]:
 def _searched(accelerations: np.ndarray, step: float) -> tuple[np.ndarray, np.ndarray]:
     """The velocities of components (c, n), m/s, and the scales that are searched in them; raises PulseError."""
     if accelerations.shape[1] > MOST_SAMPLES:
-        raise PulseError.naming(
-            "samples",
-            accelerations.shape[1],
+        raise PulseError(
             f"The motion holds {accelerations.shape[1]} samples, but a velocity pulse is sought in at most "
             f"{MOST_SAMPLES}; cut the record to its earthquake.",
+            samples=accelerations.shape[1],
         )
     if not np.any(accelerations):
-        raise PulseError.naming(
-            "acceleration",
-            0.0,
+        raise PulseError(
             "The motion is zero throughout, but a velocity pulse needs one that moves; check the file.",
+            acceleration=0.0,
         )
     velocities = np.array([integral(acceleration, step) for acceleration in accelerations])
     return velocities, searched_scales(step, velocities.shape[1])
@@ -138,11 +136,10 @@ def searched_scales(time_step: float, count: int) -> np.ndarray:
     step = math.ceil((LONGEST_PERIOD / PERIOD_OF_SCALE / time_step - lowest) / SCALES)
     scales = lowest + step * np.arange(SCALES + 1)
     if SUPPORT * lowest > count:
-        raise PulseError.naming(
-            "samples",
-            count,
+        raise PulseError(
             f"The components hold {count} samples of {time_step:g} s, but a velocity pulse of {SHORTEST_PERIOD:g} s "
             f"needs {math.ceil(SUPPORT * lowest)}; give a longer record.",
+            samples=count,
         )
     return scales
 

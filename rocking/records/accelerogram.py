@@ -174,18 +174,17 @@ class Accelerogram(Drawn):
         with about(self.source.path) if self.source.path else nullcontext():
             for name in ("component", "station", "event", "network", "location"):
                 if UNPRINTABLE.search(str(text := getattr(self, name))):
-                    raise RecordError.naming(
-                        name, text, f"{name} is {text!r}, but must hold printable characters only."
+                    raise RecordError(
+                        f"{name} is {text!r}, but must hold printable characters only.", **{name: text}
                     )
             object.__setattr__(self, "acceleration", _samples(self.acceleration))
             object.__setattr__(self, "time_step", positive(RecordError, "time_step", self.time_step, "s"))
             object.__setattr__(self, "scale_factor", finite(RecordError, "scale_factor", self.scale_factor))
             whole = isinstance(self.smooth_steps, int) and not isinstance(self.smooth_steps, bool)
             if not (whole and self.smooth_steps >= 1):
-                raise RecordError.naming(
-                    "smooth_steps",
-                    self.smooth_steps,
+                raise RecordError(
                     f"smooth_steps is {self.smooth_steps!r}, but must be a whole number from 1 on.",
+                    smooth_steps=self.smooth_steps,
                 )
         doubts = []
         if not SHORTEST_STEP <= self.time_step <= LONGEST_STEP:
@@ -313,8 +312,8 @@ class Accelerogram(Drawn):
 
 def _samples(values: np.ndarray) -> np.ndarray:
     if np.ma.is_masked(values):
-        raise RecordError.naming(
-            "acceleration", "masked", "the samples are masked in places; fill or cut the gap before use."
+        raise RecordError(
+            "the samples are masked in places; fill or cut the gap before use.", acceleration="masked"
         )
     try:
         array = np.asarray(values)
@@ -324,22 +323,18 @@ def _samples(values: np.ndarray) -> np.ndarray:
         frozen = array.dtype == np.float64 and array.base is None and not array.flags.writeable
         samples = array if frozen else np.array(array, dtype=np.float64)
     except (TypeError, ValueError, OverflowError):
-        raise RecordError.naming(
-            "acceleration",
-            type(values).__name__,
+        raise RecordError(
             "the samples are not all real numbers; give a one-dimensional array.",
+            acceleration=type(values).__name__,
         ) from None
     if samples.ndim != 1 or samples.size < 2:
-        raise RecordError.naming(
-            "acceleration",
-            samples.shape,
+        raise RecordError(
             f"the samples have shape {samples.shape}, but must be one row of at least 2.",
+            acceleration=samples.shape,
         )
     if not np.isfinite(samples).all():
         bad = np.flatnonzero(~np.isfinite(samples))
         first = f"sample {bad[0]} is {samples[bad[0]]}, one of {bad.size} that are not finite"
-        raise RecordError.naming(
-            "acceleration", float(samples[bad[0]]), f"{first}; fill or cut the gap before use."
-        )
+        raise RecordError(f"{first}; fill or cut the gap before use.", acceleration=float(samples[bad[0]]))
     samples.flags.writeable = False
     return samples

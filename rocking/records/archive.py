@@ -98,10 +98,9 @@ def members(archive: Path) -> tuple[str, ...]:
             else:
                 names.append(whole)
         if len(names) > _MOST_MEMBERS:
-            raise RecordError.naming(
-                "files",
-                len(names),
+            raise RecordError(
                 f"the archive holds {len(names)} files, more than {_MOST_MEMBERS}; unpack it, or part it.",
+                files=len(names),
             )
     return tuple(sorted(names))
 
@@ -123,13 +122,11 @@ def member_bytes(path: Path, archive: Path, largest: int) -> bytes:
     place, rest = _place_in(archive, name)
     packed = _packed(archive, place)
     if rest not in packed.names:
-        raise RecordError.naming("file", name, f"{called}: the archive holds no such file; mend the name.")
+        raise RecordError(f"{called}: the archive holds no such file; mend the name.", file=name)
     content = packed.whole(rest, largest, called)
     ending = ending_of(rest)
     if (ending and _is_marked(ending, content[:512])) or (content.startswith(ZIPPED) and ending == ".zip"):
-        raise RecordError.naming(
-            "file", name, f"{called}: this is an archive, {_DEEPEST} deep in others; unpack it."
-        )
+        raise RecordError(f"{called}: this is an archive, {_DEEPEST} deep in others; unpack it.", file=name)
     return content
 
 
@@ -166,22 +163,20 @@ class _Packed:
         try:
             return self.start_of(name, size)
         except RecordError as error:
-            raise RecordError.naming(error.field, error.value, f"{called or plain(name)}: {error}") from None
+            raise RecordError(f"{called or plain(name)}: {error}", **{error.field: error.value}) from None
         except Exception as error:  # zipfile raises what it likes: RuntimeError of what is encrypted
-            raise RecordError.naming(
-                "file",
-                name,
+            raise RecordError(
                 f"{called or plain(name)}: the file cannot be unpacked, {error}; unpack the archive yourself.",
+                file=name,
             ) from None
 
     def whole(self, name: str, largest: int, called: str = "") -> bytes:
         """Return a member. Raises RecordError where it is larger than allowed, or cannot be unpacked."""
         content = self.start(name, largest + 1, called)
         if len(content) > largest:
-            raise RecordError.naming(
-                "size",
-                len(content),
+            raise RecordError(
                 f"{called or plain(name)}: the file is larger than {largest} bytes, the most that is read.",
+                size=len(content),
             )
         return content
 
@@ -197,8 +192,8 @@ def _packed(archive: Path, place: str) -> _Packed:
     except _DAMAGES as error:
         ending = ending_of(place or archive.name)
         kind = "HDF5" if ending in _WORKSPACES else "zip" if ending == ".zip" else "tar"
-        raise RecordError.naming(
-            "format", f"{kind} archive", f"damaged {kind} archive, {error}; fetch it again."
+        raise RecordError(
+            f"damaged {kind} archive, {error}; fetch it again.", format=f"{kind} archive"
         ) from None
 
 
@@ -221,8 +216,8 @@ def _of_content(source: str | bytes, name: str) -> _Packed:
         with gzip.open(source if isinstance(source, str) else io.BytesIO(source)) as packed:
             source = packed.read(_LARGEST_TAR + 1)
         if len(source) > _LARGEST_TAR:
-            raise RecordError.naming(
-                "size", len(source), f"the archive unpacks to more than {_LARGEST_TAR} bytes; unpack it."
+            raise RecordError(
+                f"the archive unpacks to more than {_LARGEST_TAR} bytes; unpack it.", size=len(source)
             )
     return _of_tar(source)
 
@@ -278,26 +273,22 @@ def _checked(sizes: Mapping[str, int]) -> frozenset[str]:
     Raises RecordError where it is a workbook, holds too much, or names a path that leads out of it.
     """
     if "[Content_Types].xml" in sizes:
-        raise RecordError.naming(
-            "format", "workbook", "this is a workbook or a document; save the sheet as CSV."
-        )
+        raise RecordError("this is a workbook or a document; save the sheet as CSV.", format="workbook")
     if len(sizes) > _MOST_MEMBERS:
-        raise RecordError.naming(
-            "files",
-            len(sizes),
+        raise RecordError(
             f"the archive holds {len(sizes)} files, more than {_MOST_MEMBERS}; unpack it, or part it.",
+            files=len(sizes),
         )
     if (size := sum(sizes.values())) > _LARGEST_WHOLE:
-        raise RecordError.naming(
-            "size", size, f"the archive unpacks to {size} bytes, more than {_LARGEST_WHOLE}; unpack it."
+        raise RecordError(
+            f"the archive unpacks to {size} bytes, more than {_LARGEST_WHOLE}; unpack it.", size=size
         )
     for name in sizes:
         parts = name.split("/")
         if name.startswith("/") or "\\" in name or ":" in name or {"", ".", ".."} & set(parts):
-            raise RecordError.naming(
-                "file",
-                name,
+            raise RecordError(
                 f"the archive names a file {plain(name)[:60]!r}, which leads out of it; unpack it with care.",
+                file=name,
             )
     hidden = (".", "__MACOSX")  # with which begins what systems and programs put there
     return frozenset(name for name in sizes if not any(part.startswith(hidden) for part in name.split("/")))

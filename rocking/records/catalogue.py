@@ -135,7 +135,7 @@ class CatalogueRecord:
                 except RockingError as error:
                     defects.append(str(error))
         if defects:
-            raise CatalogueError.naming("record", defects, " ".join(defects))
+            raise CatalogueError(" ".join(defects), record=defects)
 
     @property
     def is_remote(self) -> bool:
@@ -260,8 +260,8 @@ def load_catalogue(path: str | Path) -> tuple[CatalogueRecord, ...]:
         number = "a defect" if len(defects) == 1 else f"{len(defects)} defects"
         rest = len(defects) - _MOST_NAMED
         more = [f"and {rest} more"] if rest > 0 else []
-        raise CatalogueError.naming(
-            "catalogue", defects, f"{path.name} has {number}: " + " | ".join([*defects[:_MOST_NAMED], *more])
+        raise CatalogueError(
+            f"{path.name} has {number}: " + " | ".join([*defects[:_MOST_NAMED], *more]), catalogue=defects
         )
     return tuple(records)
 
@@ -280,8 +280,8 @@ def read_rows(path: Path) -> list[tuple[int, dict[str, str]]]:
     """Return line and cells of each row of the catalogue at `path`. Raises CatalogueError for what is no catalogue."""
     rows = read_edited(path, CatalogueError, COLUMNS, ("id", "file"), _NUMBERS)
     if not rows:
-        raise CatalogueError.naming(
-            "catalogue", rows, f"{path.name}: the catalogue has no rows; give at least one record."
+        raise CatalogueError(
+            f"{path.name}: the catalogue has no rows; give at least one record.", catalogue=rows
         )
     return rows
 
@@ -299,10 +299,9 @@ def record_of_row(row: Mapping[str, str], folder: Path) -> CatalogueRecord:
     for name, column in described_values(CatalogueRecord).items():
         if cell := (row.get(column.key) or "").strip():
             if column.kind is not str and not is_number(cell):
-                raise CatalogueError.naming(
-                    column.key,
-                    cell,
+                raise CatalogueError(
                     f"{column.key} is {shown(cell)}, but must be a number{number_hint(cell)}.",
+                    **{column.key: cell},
                 )
             values[name] = float(cell) if column.kind is not str else plain(cell) if name in _PROSE else cell
     return CatalogueRecord(**values)

@@ -98,17 +98,17 @@ def agreed(what: What, claims: Collection[Claim]) -> Any:
         against = inside or named
         if against and not any(_same(person, own) for own in against):
             error = AnswerContradictedError if person.where == Where.ANSWER else RecordError
-            raise error.naming(
-                what,
-                person.value,
+            raise error(
                 f"{what} is {person}, but the file says {against[0]}; {_MEND[against is named]}.",
+                **{what: person.value},
             )
     unlike = [(one, other) for one in inside for other in inside if not _same(one, other)]
     if unlike and not by_person:
         one, other = unlike[0]
         wanted = f"; {advice(what)} to say which holds" if what in ("unit", "time_step") else ""
         raise UndeclaredError(
-            f"of its {what.replace('_', ' ')} the file says both {one} and {other}{wanted}.", what
+            f"of its {what.replace('_', ' ')} the file says both {one} and {other}{wanted}.",
+            **{what: one.value},
         )
     holding = [
         claim for claim in inside if not by_person or any(_same(claim, person) for person in by_person)
@@ -179,19 +179,18 @@ def refuse_other_quantity(file: str, text: str) -> None:
     """Raise RecordError when `text`, a header, or the ending of the name `file` speaks of another quantity."""
     suffix = next((word for word, ends in _SUFFIXES.items() if file.lower().endswith(ends)), None)
     if quantity := other_quantity(text) or suffix:
-        raise RecordError.naming(
-            "quantity", quantity, f"this is a file of {quantity}; use the acceleration of the same record."
+        raise RecordError(
+            f"this is a file of {quantity}; use the acceleration of the same record.", quantity=quantity
         )
 
 
 def refuse_by_name(file: str) -> None:
     """Raise RecordError when the name of a file of bare numbers speaks of velocity or displacement alone."""
     if quantity := quantity_in_name(file):
-        raise RecordError.naming(
-            "quantity",
-            quantity,
+        raise RecordError(
             f"its name speaks of {quantity}, and nothing in it of acceleration; use the acceleration of the same "
             "record, or rename the file if it is that.",
+            quantity=quantity,
         )
 
 
@@ -200,10 +199,8 @@ def refuse_spectrum(header: Sequence[str]) -> None:
     if any(_OF_MOTION.search(line) for line in header):
         return
     if said := next((match[0] for line in header if (match := _SPECTRUM.search(line))), ""):
-        raise RecordError.naming(
-            "quantity",
-            "spectrum",
-            f"this is a spectrum ({said}); use the record of acceleration against time.",
+        raise RecordError(
+            f"this is a spectrum ({said}); use the record of acceleration against time.", quantity="spectrum"
         )
 
 

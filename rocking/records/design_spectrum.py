@@ -94,10 +94,9 @@ class DesignSpectrum(ABC):
         if ag is None or f0 is None or tc_star is None:
             values = {"ag": ag, "f0": f0, "tc_star": tc_star}
             missing = [name for name, value in values.items() if value is None]
-            raise ConfigurationError.naming(
-                ", ".join(missing),
-                None,
+            raise ConfigurationError(
                 f"{', '.join(missing)} of the design spectrum is missing; give it as the code has it for the site.",
+                **{", ".join(missing): None},
             )
         _check_level("ag", ag)
         return NtcSpectrum(damping=damping, ag=ag, f0=f0, tc_star=tc_star, soil=soil, topography=topography)
@@ -168,15 +167,14 @@ class DesignSpectrum(ABC):
     def _checked(self, period: ArrayLike) -> np.ndarray:
         periods = np.asarray(period, dtype=float)
         if not (np.isfinite(periods) & (periods >= 0)).all():
-            raise ConfigurationError.naming(
-                "period", periods, "a period is negative or no number, but must be 0 s or more."
+            raise ConfigurationError(
+                "a period is negative or no number, but must be 0 s or more.", period=periods
             )
         if periods.size and periods.max() > self.longest_period:
-            raise ConfigurationError.naming(
-                "period",
-                float(periods.max()),
+            raise ConfigurationError(
                 f"a period of {periods.max():.4g} s is asked for, but the spectrum ends at "
                 f"{self.longest_period:.4g} s; give one that goes on to longer periods.",
+                period=float(periods.max()),
             )
         return periods
 
@@ -204,8 +202,8 @@ class NtcSpectrum(DesignSpectrum):
         for name, number in numbers.items():
             object.__setattr__(self, name, number)
         if self.soil not in SOILS:
-            raise ConfigurationError.naming(
-                "soil", self.soil, f"soil is {self.soil!r}, but must be one of {', '.join(SOILS)}."
+            raise ConfigurationError(
+                f"soil is {self.soil!r}, but must be one of {', '.join(SOILS)}.", soil=self.soil
             )
 
     @property
@@ -351,11 +349,10 @@ class PointSpectrum(DesignSpectrum):
 def _check_level(name: str, level: float) -> None:
     """Refuse a level that stands in another unit."""
     if positive(ConfigurationError, name, level, "m/s²") > LARGEST_LEVEL:
-        raise ConfigurationError.naming(
-            name,
-            level,
+        raise ConfigurationError(
             f"{name} is {level:g} m/s², which is {level / GRAVITY:.3g} g, but must be {LARGEST_LEVEL:.3g} m/s² or "
             "less; check the unit.",
+            **{name: level},
         )
 
 

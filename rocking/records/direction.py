@@ -362,19 +362,16 @@ def rotd(first: Accelerogram, second: Accelerogram, step: float = 1.0) -> RotD:
     9.9
     """
     if not 0 < step <= 90:
-        raise RecordError.naming(
-            "step", step, f"step is {step!r} degrees, but must be above 0 and at most 90."
-        )
+        raise RecordError(f"step is {step!r} degrees, but must be above 0 and at most 90.", step=step)
     a, b = paired(first, second)
     if first.azimuth is not None and second.azimuth is not None:
         one, two = np.radians([first.azimuth, second.azimuth])
         base = np.sin(two - one)
         if abs(base) < _FLATTEST:
             azimuths = f"{first.azimuth:g}° and {second.azimuth:g}°"
-            raise RecordError.naming(
-                "azimuth",
-                (first.azimuth, second.azimuth),
+            raise RecordError(
                 f"the azimuths are {azimuths}, but must differ by 30° or more.",
+                azimuth=(first.azimuth, second.azimuth),
             )
         axes = np.radians([0.0, 90.0])
         a, b = (np.sin(two - axis) / base * a + np.sin(axis - one) / base * b for axis in axes)
@@ -391,17 +388,16 @@ def paired(first: Accelerogram, second: Accelerogram) -> tuple[np.ndarray, np.nd
     instance(RecordError, "the second component", second, Accelerogram)
     if abs(first.time_step / second.time_step - 1) > 1e-9:
         steps = f"time_step is {first.time_step!r} s and {second.time_step!r} s"
-        raise RecordError.naming(
-            "time_step", (first.time_step, second.time_step), f"{steps}, but must be one; resample first."
+        raise RecordError(
+            f"{steps}, but must be one; resample first.", time_step=(first.time_step, second.time_step)
         )
     if first.vertical or second.vertical:
-        raise RecordError.naming("vertical", True, "a component is vertical, but both must be horizontal.")
+        raise RecordError("a component is vertical, but both must be horizontal.", vertical=True)
     if first.start_time and second.start_time and first.start_time != second.start_time:
         starts = f"{first.start_time} and {second.start_time}"
-        raise RecordError.naming(
-            "start_time",
-            (first.start_time, second.start_time),
+        raise RecordError(
             f"the components start at {starts}, but must start together.",
+            start_time=(first.start_time, second.start_time),
         )
     n = min(first.acceleration.size, second.acceleration.size)
     return first.acceleration[:n], second.acceleration[:n]
@@ -414,10 +410,9 @@ def aligned(vertical: Accelerogram, horizontal: Accelerogram) -> Accelerogram:
     """
     if not np.isclose(vertical.time_step, horizontal.time_step, rtol=1e-9, atol=0):
         steps = f"time_step of the vertical component is {vertical.time_step!r} s"
-        raise RecordError.naming(
-            "time_step",
-            vertical.time_step,
+        raise RecordError(
             f"{steps}, but the horizontal one has {horizontal.time_step!r} s; resample one of them.",
+            time_step=vertical.time_step,
         )
     size = horizontal.acceleration.size
     samples = vertical.acceleration[:size]

@@ -39,8 +39,8 @@ def path_of(record: CatalogueRecord, file: RecordFile, mirror: str | Path | None
         try:
             return Path(get_example_file(record.example_name))
         except (OSError, ValueError):
-            raise RecordError.naming(
-                "file", record.example_name, f"obspy installs no example file {record.example_name!r}."
+            raise RecordError(
+                f"obspy installs no example file {record.example_name!r}.", file=record.example_name
             ) from None
     if path := in_catalogue_folder(record, file.name, mirror):
         return path
@@ -48,8 +48,8 @@ def path_of(record: CatalogueRecord, file: RecordFile, mirror: str | Path | None
         source = record.source_repository, record.source_commit, file.source_path
         return download(file.name, *source, sha256=file.sha256)
     places = " or ".join(str(folder) for folder in (mirror, record.folder) if folder)
-    raise RecordError.naming(
-        "file", file.name, f"file {file.name!r} is not in {places}; mend the catalogue or add the file."
+    raise RecordError(
+        f"file {file.name!r} is not in {places}; mend the catalogue or add the file.", file=file.name
     )
 
 
@@ -120,7 +120,7 @@ def in_catalogue_folder(record: CatalogueRecord, file: str, mirror: str | Path |
         if not (archive or path).is_file():
             continue
         if not path.resolve().is_relative_to(Path(folder).resolve()):
-            raise RecordError.naming("file", file, f"file {file!r} leads out of {folder}; keep it inside.")
+            raise RecordError(f"file {file!r} leads out of {folder}; keep it inside.", file=file)
         return path
     return None
 
@@ -147,7 +147,7 @@ def download(file: str, repository: str, commit: str, path: str, *, sha256: str 
     except Exception as error:
         why = first_line(getattr(error, "reason", None) or error)
         failed = f"file {file!r} cannot be fetched from {address}, {why}"
-        raise RecordError.naming("file", file, f"{failed}; try again or give a mirror folder.") from error
+        raise RecordError(f"{failed}; try again or give a mirror folder.", file=file) from error
 
 
 class _Direct(urllib.request.HTTPRedirectHandler):
@@ -163,9 +163,7 @@ class _Direct(urllib.request.HTTPRedirectHandler):
         newurl: str,
     ) -> urllib.request.Request | None:
         if not newurl.startswith("https://"):
-            raise RecordError.naming(
-                "newurl", newurl, f"the server redirects to {newurl[:100]}, which is not https"
-            )
+            raise RecordError(f"the server redirects to {newurl[:100]}, which is not https", newurl=newurl)
         return super().redirect_request(req, fp, code, msg, headers, newurl)
 
 

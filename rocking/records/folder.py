@@ -84,8 +84,8 @@ def catalogue_of_folder(
     """
     folder = Path(folder)
     if not folder.is_dir():
-        raise RecordError.naming(
-            "folder", folder, f"{folder}: this is no folder; give the folder that holds the records."
+        raise RecordError(
+            f"{folder}: this is no folder; give the folder that holds the records.", folder=folder
         )
     rows = [dict(row) for row in existing]
     rows_of = {_bare(name): row for row in rows for name in row["file"].split(";")}

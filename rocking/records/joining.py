@@ -54,8 +54,8 @@ def why_apart(channels: Sequence[ComponentFacts], samples: Collection[int]) -> R
 def joined(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
     """Return the channels of several files on their common span. Raises RecordError when they do not fit together."""
     if why := why_apart(channels, [channel.acceleration.size for channel in channels]):
-        raise RecordError.naming(
-            "files", str(why), f"its files do not fit together: {why}; give each file a row of its own."
+        raise RecordError(
+            f"its files do not fit together: {why}; give each file a row of its own.", files=str(why)
         )
     if all(channel.start_time for channel in channels):
         return _on_common_span(channels)
@@ -70,15 +70,13 @@ def _on_common_span(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
     first = np.round(late).astype(int).tolist()
     off = np.abs(late - first).max()
     if off > _OFF_GRID:
-        raise RecordError.naming(
-            "start_time",
-            off,
-            f"resample the files: their samples lie {off:.2g} of a step between one another.",
+        raise RecordError(
+            f"resample the files: their samples lie {off:.2g} of a step between one another.", start_time=off
         )
     size = min(channel.acceleration.size - place for channel, place in zip(channels, first, strict=True))
     if size < 2:
-        raise RecordError.naming(
-            "samples", size, "the files have no span of time in common; give each file a row of its own."
+        raise RecordError(
+            "the files have no span of time in common; give each file a row of its own.", samples=size
         )
     begin = channels[int(np.argmax(starts))].start_time
     sentence = f"Cut to the span common to the station's files, {size * step:g} s from {begin} on."

@@ -53,5 +53,5 @@ def from_obspy(
 
     stream = Stream([trace_or_stream] if isinstance(trace_or_stream, Trace) else trace_or_stream).copy()
     if not stream:
-        raise RecordError.naming("stream", 0, "the stream holds no trace; give one with acceleration.")
+        raise RecordError("the stream holds no trace; give one with acceleration.", stream=0)
     return checked_channels(from_traces(joined(stream), inventory, unit, response, calibration))

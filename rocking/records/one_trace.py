@@ -69,10 +69,9 @@ def _from_trace(
     """
     stats = trace.stats
     if stats.npts > LARGEST_TRACE:
-        raise RecordError.naming(
-            "samples",
-            stats.npts,
+        raise RecordError(
             f"it holds {stats.npts} samples, more than {LARGEST_TRACE}; cut the motion out of it first.",
+            samples=stats.npts,
         )
     form = str(stats.get("_format", ""))
     own = dict(stats.get("rocking", {}))
@@ -168,8 +167,8 @@ def _is_due(trace: Any, calibration: Calibration | None, is_counts: bool) -> boo
     says whether they are multiplied already, and RecordError where counts are.
     """
     if calibration not in (None, *get_args(Calibration)):
-        raise RecordError.naming(
-            "calibration", calibration, f"calibration is {calibration!r}, but must be 'apply' or 'done'."
+        raise RecordError(
+            f"calibration is {calibration!r}, but must be 'apply' or 'done'.", calibration=calibration
         )
     factor = float(trace.stats.get("calib", 1.0))
     form = str(trace.stats.get("_format", ""))
@@ -182,14 +181,13 @@ def _is_due(trace: Any, calibration: Calibration | None, is_counts: bool) -> boo
         raise UndeclaredError(
             f"its calibration is {factor:g}, and nothing says whether its samples are multiplied by that: obspy leaves "
             "the number where apply_calib=True has used it; give calibration='apply' or 'done' to rocking.from_obspy.",
-            "calibration",
+            calibration=None,
         )
     if is_counts and calibration == "done":
-        raise RecordError.naming(
-            "calibration",
-            calibration,
+        raise RecordError(
             f"its samples are multiplied by the calibration {factor:g}, and are no counts, as the response is of; read "
             "the file without apply_calib, or give unit= and no inventory.",
+            calibration=calibration,
         )
     return calibration == "apply" and not is_counts
 
@@ -207,21 +205,20 @@ def _unit_of(
         kinds = {1: "velocity", 2: "displacement"}
         kind = kinds.get(order, "the derivative of an acceleration")
         last = list(trace.stats.processing)[-1].partition("(")[0].split()[-1]
-        raise RecordError.naming(
-            "quantity",
-            kind,
+        raise RecordError(
             f"its processing by obspy, {last} at the end, leaves {kind}; give acceleration: "
             "remove_response(output='ACC').",
+            quantity=kind,
         )
     calibrated_to = "" if removed else _CALIBRATED_TO.get(str(trace.stats.get("_format", "")), "")
     if unit is not None:
         if calibrated_to and acceleration_factor(unit) not in (1.0, acceleration_factor(calibrated_to)):
-            raise RecordError.naming(
-                "unit", unit, f"unit is {unit!r}, but the calibration of this format leads to m/s²; omit it."
+            raise RecordError(
+                f"unit is {unit!r}, but the calibration of this format leads to m/s²; omit it.", unit=unit
             )
         if own.get("unit") and acceleration_factor(unit) != acceleration_factor(own["unit"]):
-            raise RecordError.naming(
-                "unit", unit, f"unit is {own['unit']!r} in the trace, but {unit!r} was declared; omit it."
+            raise RecordError(
+                f"unit is {own['unit']!r} in the trace, but {unit!r} was declared; omit it.", unit=unit
             )
         return calibrated_to or unit
     if not removed and (has_response or "response" in trace.stats):
@@ -231,8 +228,8 @@ def _unit_of(
         declared = unit_left_by(trace)
     if declared is None:
         state = "its sensitivity removed" if removed else "neither a unit nor a response"
-        raise RecordError.naming(
-            "unit", None, f"it has {state}; give unit= of its samples, or the inventory= of counts."
+        raise RecordError(
+            f"it has {state}; give unit= of its samples, or the inventory= of counts.", unit=None
         )
     return str(declared)
 
@@ -264,10 +261,9 @@ def _channel_named(stats: Any) -> dict[str, Any]:
 
 def _of_sac(stats: Any) -> dict[str, Any]:
     if quantity := _OTHER_SAC.get(int(stats.sac.get("idep", 0))):
-        raise RecordError.naming(
-            "quantity",
-            quantity,
+        raise RecordError(
             f"its header says that it holds {quantity}; use the acceleration of the same record.",
+            quantity=quantity,
         )
     numbers = {key: float(x) for key, x in stats.sac.items() if isinstance(x, np.floating | float)}
     header = {key: value for key, value in numbers.items() if value != _UNDEFINED}

@@ -84,11 +84,10 @@ def agree_with_header(
         near = min(apart, key=apart.__getitem__)
         is_unit = apart[near] < _NEAR
         factor = f"{near:g} ({_FACTORS[near]})" if is_unit else f"{ratio:.4g} that no unit explains"
-        raise RecordError.naming(
-            "peak",
-            stated,
+        raise RecordError(
             f"peak acceleration of {record.component or 'the samples'} is {peak_read:.6g} m/s², but the file's header "
             f"states {stated:.6g} m/s², a factor {factor}; the two must agree within 1 %.",
+            peak=stated,
         )
     if off > max(_ROUNDING * stated, digit):
         record = record.warned(
@@ -170,22 +169,20 @@ def _refuse_peak(record: Accelerogram, found: str, limit: str, form: str) -> NoR
     fits = _fitting_factors(record.peak_acceleration / GRAVITY)
     beyond = f"{found} read as {record.source.unit or 'm/s2'}, above {limit}"
     if form in OF_COUNTS:
-        raise RecordError.naming(
-            "peak",
-            found,
+        raise RecordError(
             f"{beyond}: the samples may be counts of the recorder; {advice('inventory')} "
             f"and no unit, or as the unit the acceleration of one count, as in 4.71e-6 m/s2"
             f"{f'; divided {fits} they would be plausible as acceleration' if fits else ''}.",
+            peak=found,
         )
     if fits:
-        raise RecordError.naming(
-            "peak", found, f"{beyond}; divided {fits} it would be plausible; declare the true unit."
+        raise RecordError(
+            f"{beyond}; divided {fits} it would be plausible; declare the true unit.", peak=found
         )
-    raise RecordError.naming(
-        "peak",
-        found,
+    raise RecordError(
         f"{beyond}, and no factor between units explains it: counts of the recorder, perhaps; give as the unit the "
         "acceleration of one count, as in 4.71e-6 m/s2, or use the calibrated file of the record.",
+        peak=found,
     )
 
 

@@ -44,10 +44,9 @@ class Processing:
     def __post_init__(self) -> None:
         check_described(RecordError, self)
         if self.high_pass and self.low_pass and self.high_pass >= self.low_pass:
-            raise RecordError.naming(
-                "high_pass",
-                self.high_pass,
+            raise RecordError(
                 f"high_pass is {self.high_pass!r} Hz, but low_pass only {self.low_pass!r} Hz.",
+                high_pass=self.high_pass,
             )
 
 
@@ -96,10 +95,8 @@ def _levelled(record: Accelerogram, processing: Processing) -> Accelerogram:
         samples = round(processing.pre_event / record.time_step)
         if not 1 <= samples < record.acceleration.size:
             window = f"pre_event is {processing.pre_event!r} s"
-            raise RecordError.naming(
-                "pre_event",
-                processing.pre_event,
-                f"{window}, but must hold a sample and end within the record.",
+            raise RecordError(
+                f"{window}, but must hold a sample and end within the record.", pre_event=processing.pre_event
             )
         mean = record.acceleration[:samples].mean()
         sentence = f"Mean of the first {processing.pre_event:g} s removed, {mean:.6g} m/s²."
@@ -162,8 +159,9 @@ def _butterworth(
 
     nyquist = 0.5 / time_step
     if not corner < nyquist:
-        raise RecordError.naming(
-            kind, corner, f"the {kind} corner is {corner!r} Hz, but must be below {nyquist:g} Hz (Nyquist)."
+        raise RecordError(
+            f"the {kind} corner is {corner!r} Hz, but must be below {nyquist:g} Hz (Nyquist).",
+            **{kind: corner},
         )
     whole = np.pad(values, margin, mode="edge")
     filtered = sosfiltfilt(butter(order, corner / nyquist, kind, output="sos"), whole, padlen=0)
@@ -176,10 +174,8 @@ def _resampled(record: Accelerogram, processing: Processing) -> Accelerogram:
         return record
     number = int(record.duration / step * (1 + 1e-12)) + 1
     if not 2 <= number <= 10_000_000:
-        raise RecordError.naming(
-            "time_step",
-            step,
-            f"time_step is {step!r} s, which makes {number} samples; it must make 2 to 1e7.",
+        raise RecordError(
+            f"time_step is {step!r} s, which makes {number} samples; it must make 2 to 1e7.", time_step=step
         )
     values = record.acceleration
     sentence = f"Resampled from {record.time_step:g} to {step:g} s, linear between samples."
@@ -211,8 +207,8 @@ def adaptive_baseline(acceleration: np.ndarray, time_step: float) -> tuple[np.nd
     left after it, the record stays as it is. Raises RecordError for fewer than 64 samples or a record without motion.
     """
     if (size := acceleration.size) < _FEWEST or not np.any(acceleration):
-        raise RecordError.naming(
-            "samples", size, f"the adaptive baseline needs motion and at least {_FEWEST} samples, got {size}."
+        raise RecordError(
+            f"the adaptive baseline needs motion and at least {_FEWEST} samples, got {size}.", samples=size
         )
     velocity = integral(acceleration, time_step)
     share = np.cumsum(acceleration**2)

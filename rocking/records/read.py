@@ -98,8 +98,8 @@ def read(
     ['N28W', 'S62W', 'Up']
     """
     if not isinstance(path, str | os.PathLike):
-        raise RecordError.naming(
-            "path", path, f"path is {shown(path)}, but must be the path of a file, as a text or a Path."
+        raise RecordError(
+            f"path is {shown(path)}, but must be the path of a file, as a text or a Path.", path=path
         )
     path = Path(path)
     stationxml = Path(inventory) if inventory else None
@@ -124,7 +124,7 @@ def _read_archive(path: Path, options: Options) -> list[Accelerogram]:
                 refused.append((name, error))
         if not records:
             reasons = [error for _, error in refused] or [
-                RecordError.naming("files", 0, "the archive holds no file; fetch it again.")
+                RecordError("the archive holds no file; fetch it again.", files=0)
             ]
             raise next((error for error in reasons if isinstance(error, UndeclaredError)), reasons[0])
     if refused:
@@ -159,7 +159,7 @@ def read_content(
         text = bare_text(content)
         reader = reader or recognise(text)
         if isinstance(reader.read, str):
-            raise RecordError.naming("format", reader.name, reader.read)
+            raise RecordError(reader.read, format=reader.name)
         try:
             read_by = reader.read(text, replace(options, file=name))
         except RecordError:
@@ -167,8 +167,8 @@ def read_content(
             raise
         records = distinct_channels(_named_by_file(read_by, name))
         if not records:
-            raise RecordError.naming(
-                "channels", 0, "the file holds no channel of acceleration; use the acceleration file."
+            raise RecordError(
+                "the file holds no channel of acceleration; use the acceleration file.", channels=0
             )
         is_doubled = b"\r\r\n" in content[:2000] and text is not content
         notes = [Remark(RecordKind.LINE_ENDS_DOUBLED)] if is_doubled else []
@@ -269,32 +269,31 @@ _OTHER_KINDS = tuple((re.compile(pattern, re.I), sentence) for pattern, sentence
 def recognise(content: bytes) -> Format:
     """Return the one format that recognises `content`. Raises UnknownFormatError when none or several do."""
     if not content.strip(b"\0 \n"):
-        raise RecordError.naming("size", 0, "the file is empty; fetch it again.")
+        raise RecordError("the file is empty; fetch it again.", size=0)
     if _is_pickle(content):
-        raise UnknownFormatError.naming(
-            "format", "pickle", "this is a pickled Python object, which could run code; it is never opened."
+        raise UnknownFormatError(
+            "this is a pickled Python object, which could run code; it is never opened.", format="pickle"
         )
     forms = [form for form in FORMATS if not form.yields and form.recognise(content)]
     for pattern, sentence in _OTHER_KINDS if not forms else ():
         if pattern.match(content[:400]):
-            raise UnknownFormatError.naming("format", content[:8], sentence)
+            raise UnknownFormatError(sentence, format=content[:8])
     # Bare numbers last: what stands above them, and how, takes longer than all the other first lines together.
     forms = forms or [form for form in FORMATS if form.yields and form.recognise(content)]
     if len(forms) == 1:
         return forms[0]
     if forms:
         names = ", ".join(form.name for form in forms)
-        raise UnknownFormatError.naming(
-            "format", names, f"several readers recognise this file ({names}); none is preferred."
+        raise UnknownFormatError(
+            f"several readers recognise this file ({names}); none is preferred.", format=names
         )
     head = content.lstrip()[:40] or b" "
     words = head.decode("latin-1").splitlines()[0].strip()
-    raise UnknownFormatError.naming(
-        "format",
-        words,
+    raise UnknownFormatError(
         f"no reader recognises this file, which begins with {(words if words.isprintable() else head[:8])!r}; "
         f"rocking read --details says why. {_BY_OBSPY}.",
         tuple(f"{form.name}: no {form.signature}" for form in FORMATS),
+        format=words,
     )
 
 
@@ -326,14 +325,11 @@ def unpack(raw: bytes, name: str) -> bytes:
     try:
         content = gzip.GzipFile(fileobj=BytesIO(raw)).read(LARGEST_FILE + 1)
     except (OSError, EOFError, zlib.error) as error:
-        raise RecordError.naming(
-            "format", "gzip", f"{name}: damaged gzip file, {error}; fetch it again."
-        ) from None
+        raise RecordError(f"{name}: damaged gzip file, {error}; fetch it again.", format="gzip") from None
     if len(content) > LARGEST_FILE:
-        raise RecordError.naming(
-            "size",
-            len(content),
+        raise RecordError(
             f"{name}: the gzip file unpacks to more than {LARGEST_FILE} bytes; cut it first.",
+            size=len(content),
         )
     return content
 
@@ -348,11 +344,10 @@ def bytes_of(path: Path, largest: int = LARGEST_FILE) -> bytes:
     if is_archive(path):
         with about(printable(path.name)):
             count = len(members(path))
-        raise RecordError.naming(
-            "file",
-            path.name,
+        raise RecordError(
             f"{printable(path.name)}: this is an archive of {count} files; name each of them, as "
             f"{printable(path.name)}/member, or list the folder with rocking catalogue.",
+            file=path.name,
         )
     return read_whole(path, largest, RecordError, printable(str(path)))
 
@@ -387,8 +382,8 @@ def distinct_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
         same = a.component == b.component and a.peak_acceleration > 0
         if same and np.array_equal(a.acceleration, b.acceleration):
             name = f"channel {k} ({a.component or 'not named'})"
-            raise RecordError.naming(
-                "channel", k, f"{name} repeats channel {i}: the file is appended to itself; fetch it again."
+            raise RecordError(
+                f"{name} repeats channel {i}: the file is appended to itself; fetch it again.", channel=k
             )
         if a.peak_acceleration > 0 and same_motion(a, b):
             other = a.component or f"channel {i}"

@@ -246,10 +246,9 @@ class Sample:
 
     def __post_init__(self) -> None:
         if len(self.stations) != len(self.events):
-            raise ConfigurationError.naming(
-                "events",
-                len(self.events),
+            raise ConfigurationError(
                 f"events names {len(self.events)}, but must name one for each of {len(self.stations)} records.",
+                events=len(self.events),
             )
 
     @classmethod
@@ -270,10 +269,9 @@ class Sample:
         """
         for name, given in (("stations", stations), ("events", events)):
             if given is not None and len(given) != len(records):
-                raise ConfigurationError.naming(
-                    name,
-                    len(given),
+                raise ConfigurationError(
                     f"{name} names {len(given)}, but must name one for each of {len(records)} records.",
+                    **{name: len(given)},
                 )
         of_records = list(map(str, events)) if events is not None else earthquakes_of(records)
         own = list(map(str, stations)) if stations is not None else stations_of(records, of_records, rows)

@@ -48,20 +48,19 @@ class ScalingTarget:
         """Return the target that `text` names. Raises RecordError when it names none."""
         match = _SPELLING.fullmatch(text.strip())
         if not match:
-            raise RecordError.naming("scale_to", text, f"scale_to is {shown(text)}, but must be {FORM}.")
+            raise RecordError(f"scale_to is {shown(text)}, but must be {FORM}.", scale_to=text)
         measure = match[1].lower()
         number = match[2]
         unit = match[3].strip()
         if not is_number(number) or not 0 < float(number) < math.inf:
             must = f"must be finite and above 0{number_hint(number)}"
-            raise RecordError.naming(
-                "scale_to", text, f"scale_to is {shown(text)}, but its number {must}; give {FORM}."
+            raise RecordError(
+                f"scale_to is {shown(text)}, but its number {must}; give {FORM}.", scale_to=text
             )
         if measure == "pgv" and unit not in VELOCITY_UNITS:
-            raise RecordError.naming(
-                "scale_to",
-                text,
+            raise RecordError(
                 f"scale_to is {shown(text)}, but a velocity is given in {' or '.join(VELOCITY_UNITS)}.",
+                scale_to=text,
             )
         factor = acceleration_factor(unit) if measure == "pga" else VELOCITY_UNITS[unit]
         return cls(measure, float(number) * factor, " ".join(text.split()))
@@ -70,10 +69,9 @@ class ScalingTarget:
         """Return the one factor on all components. Raises RecordError for a record that does not move."""
         largest = max(map(_MEASURES[self.measure], horizontal))
         if largest <= 0:
-            raise RecordError.naming(
-                "scale_to",
-                self.text,
+            raise RecordError(
                 f"the record is zero throughout, so that nothing scales it to {self.text}.",
+                scale_to=self.text,
             )
         return self.value / largest
 

@@ -24,10 +24,9 @@ def table_of_workbook(raw: bytes) -> bytes:
     named = {title: table for title, table in tables.items() if table}
     if len(named) != 1:
         what = f"the sheets {', '.join(named)} hold" if named else "no sheet of the workbook holds"
-        raise RecordError.naming(
-            "sheets",
-            tuple(named),
+        raise RecordError(
             f"{what} times and accelerations with their units in names above them; {_ADVICE}.",
+            sheets=tuple(named),
         )
     return next(iter(named.values()))
 

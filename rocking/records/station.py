@@ -50,10 +50,9 @@ def open_station(record: CatalogueRecord, mirror: str | Path | None = None) -> S
     with about(record.id):
         inventory = in_catalogue_folder(record, record.inventory, mirror) if record.inventory else None
         if record.inventory and inventory is None:
-            raise RecordError.naming(
-                "inventory",
-                record.inventory,
+            raise RecordError(
                 f"inventory {record.inventory!r} is missing; mend the row or add the file.",
+                inventory=record.inventory,
             )
         channels: list[Accelerogram] = []
         for file in record.files:
@@ -75,7 +74,7 @@ def _channels_of(
     sha256 = sha256_of_bytes(raw)
     if file.sha256 and sha256 != file.sha256:
         hashes = f"file {path} has sha256 {sha256}, but the catalogue says {file.sha256}"
-        raise RecordError.naming("sha256", sha256, f"{hashes}; it is another version.")
+        raise RecordError(f"{hashes}; it is another version.", sha256=sha256)
     layouts = Layouts(record.folder, PurePosixPath(file.name).parent.as_posix())
     options = Options(
         record.unit or None,
@@ -156,9 +155,7 @@ def _horizontal(
     horizontal = [channel for channel in surface if channel is not vertical and not channel.vertical]
     if not horizontal:
         names = _listed(channels)
-        raise RecordError.naming(
-            "component", names, f"the file holds no horizontal component, only {names}; name one."
-        )
+        raise RecordError(f"the file holds no horizontal component, only {names}; name one.", component=names)
     return horizontal
 
 
@@ -189,9 +186,7 @@ def _called(name: str, channels: Sequence[Accelerogram]) -> Accelerogram:
     """Return the first channel of that name. Raises RecordError where no file holds it."""
     named = next((channel for channel in channels if channel.component == name), None)
     if named is None:
-        raise RecordError.naming(
-            "component", name, f"component is {name!r}, but the file holds {_listed(channels)}."
-        )
+        raise RecordError(f"component is {name!r}, but the file holds {_listed(channels)}.", component=name)
     return named
 
 

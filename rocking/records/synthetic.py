@@ -43,10 +43,9 @@ class SyntheticRecord:
         for field in ("pulse_amplitude", "pulse_start", "noise_peak"):
             finite(RecordError, field, getattr(self, field))
         if not 16 <= self.duration / self.time_step <= 1e6:
-            raise RecordError.naming(
-                "duration",
-                self.duration,
+            raise RecordError(
                 f"duration is {self.duration!r} s, but must hold 16 to 1e6 time steps.",
+                duration=self.duration,
             )
 
 

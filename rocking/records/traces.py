@@ -33,18 +33,18 @@ def joined(result: Any) -> Any:
     try:
         result = result.merge(method=0)
     except Exception as error:
-        raise RecordError.naming(
-            "channel", first_line(error), f"the pieces of a channel do not join, {first_line(error)}."
+        raise RecordError(
+            f"the pieces of a channel do not join, {first_line(error)}.", channel=first_line(error)
         ) from error
     for trace in result:
         if trace.data.dtype.kind not in "iuf":
-            raise RecordError.naming(
-                "channel", trace.id, f"channel {trace.id} holds text and no samples; leave it out."
+            raise RecordError(
+                f"channel {trace.id} holds text and no samples; leave it out.", channel=trace.id
             )
         if np.ma.is_masked(trace.data):
             at = int(np.flatnonzero(np.ma.getmaskarray(trace.data))[0]) * trace.stats.delta
-            raise RecordError.naming(
-                "channel", trace.id, f"channel {trace.id} has a gap at {at:g} s; give a record without gaps."
+            raise RecordError(
+                f"channel {trace.id} has a gap at {at:g} s; give a record without gaps.", channel=trace.id
             )
         trace.data = np.ma.getdata(trace.data)
     result.traces.sort(key=lambda trace: order.index(trace.id))  # which joining sorts by name
@@ -112,32 +112,28 @@ def calibrated(trace: Any, inventory: Any, response: str) -> Calibrated:
         units = str(of.instrument_sensitivity.input_units)
         gain = float(of.instrument_sensitivity.value)
     except Exception as error:
-        raise RecordError.naming(
-            "inventory", trace.id, f"the StationXML holds no response of {trace.id} at {stats.starttime}."
+        raise RecordError(
+            f"the StationXML holds no response of {trace.id} at {stats.starttime}.", inventory=trace.id
         ) from error
     try:
         factor, order = measured_as(units)
     except ValueError as error:
-        raise RecordError.naming(
-            "quantity", units, f"{error}; use a channel of acceleration or velocity."
-        ) from None
+        raise RecordError(f"{error}; use a channel of acceleration or velocity.", quantity=units) from None
     doubts = _check_gain(gain, of, trace.id, response)
     staged = bool(getattr(of, "response_stages", None))
     if response == "sensitivity" and (order == 0 or (order == 1 and not staged)):
         return replace(_by_sensitivity(trace, gain / factor, order), warnings=doubts)
     if not staged:
-        raise RecordError.naming(
-            "response",
-            "stages",
+        raise RecordError(
             f"the response of {trace.id} has no stages, of which its full removal consists; give a StationXML that has "
             "them, or take response: sensitivity.",
+            response="stages",
         )
     if factor != 1:
-        raise RecordError.naming(
-            "response",
-            units,
+        raise RecordError(
             f"the response of {trace.id} is in {units}, which its full removal does not convert; give a StationXML in "
             "M/S or M/S**2, or take response: sensitivity.",
+            response=units,
         )
     return _by_response(trace, inventory)
 
@@ -164,11 +160,10 @@ def _check_epochs(trace: Any, inventory: Any) -> None:
             words = f"{of.value:g} counts per {of.input_units}, {points}"
             said.setdefault(words, f"{words} (from {each.start_date})")
     if len(said) > 1:
-        raise RecordError.naming(
-            "inventory",
-            trace.id,
+        raise RecordError(
             f"the StationXML describes {trace.id} at {trace.stats.starttime} twice, as "
             f"{' and as '.join(said.values())}; take out the epoch that does not hold.",
+            inventory=trace.id,
         )
 
 
@@ -197,8 +192,8 @@ def _by_response(trace: Any, inventory: Any) -> Calibrated:
             how = {"output": "ACC", "pre_filt": band, "water_level": None}
             clean = trace.copy().remove_response(inventory=inventory, **how)
     except Exception as error:
-        raise RecordError.naming(
-            "response", trace.id, f"the response of {trace.id} cannot be removed, {error}."
+        raise RecordError(
+            f"the response of {trace.id} cannot be removed, {error}.", response=trace.id
         ) from error
     limits = " and ".join(f"{band[i]:g}-{band[i + 1]:g} Hz" for i in (0, 2))
     removed = f"full instrument response removed to acceleration between {limits}"
@@ -233,11 +228,10 @@ def _check_gain(gain: float, response: Any, name: str, removal: str) -> tuple[Re
     At another frequency than theirs it may differ, as a remark says; the full removal uses the stages alone.
     """
     if not 0 < abs(gain) < LARGEST_GAIN:
-        raise RecordError.naming(
-            "sensitivity",
-            gain,
+        raise RecordError(
             f"the overall sensitivity is {gain:g}, but must be above 0 and below {LARGEST_GAIN:g}; the StationXML is "
             "damaged: fetch it again.",
+            sensitivity=gain,
         )
     staged = [stage for stage in response.response_stages or () if stage.stage_gain]
     product = float(np.prod([float(stage.stage_gain) for stage in staged])) if staged else gain
@@ -249,11 +243,10 @@ def _check_gain(gain: float, response: Any, name: str, removal: str) -> tuple[Re
     if at is not None and any(other > 0 and abs(other / at - 1) > _SAME_FREQUENCY for other in others if at):
         return (Remark.of(RecordKind.SENSITIVITY_ELSEWHERE, name, at_hz=float(at), off=off),)
     if staged:
-        raise RecordError.naming(
-            "sensitivity",
-            gain,
+        raise RecordError(
             f"the overall sensitivity is {gain:g}, but the gains of its stages multiply to {product:g}, more than 5 % "
             "off: the StationXML contradicts itself; ask the network which one holds.",
+            sensitivity=gain,
         )
     return ()
 
@@ -330,10 +323,9 @@ def unit_left_by(trace: Any) -> str | None:
     except (AttributeError, ValueError):
         return None
     if order:
-        raise RecordError.naming(
-            "quantity",
-            units,
+        raise RecordError(
             f"its sensitivity was removed, which leaves {units}; give acceleration: remove_response(output='ACC').",
+            quantity=units,
         )
     return {1.0: "m/s2", 1e-2: "cm/s2", 1e-3: "mm/s2", 1e-9: "nm/s2", GRAVITY: "g"}.get(factor)
 

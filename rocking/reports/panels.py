@@ -74,10 +74,9 @@ def plot(thing: object, axes: Axes | None = None, **options: Any) -> Axes:
     """
     names = [kind.__name__ for kind in type(thing).__mro__ if kind.__name__ in _PLOTS]
     if not names:
-        raise RockingError.naming(
-            "thing",
-            thing,
+        raise RockingError(
             f"thing is {shown(thing)}, but must be something that has a picture: {', '.join(sorted(_PLOTS))}.",
+            thing=thing,
         )
     draw = _PLOTS[names[0]]
     if axes is None:
@@ -245,10 +244,9 @@ def _plot_spectrum(spectrum: RockingSpectrum, axes: Axes) -> None:
     """
     whole = spectrum.frequency_parameters.size, spectrum.uplift_multipliers.size
     if spectrum.shape != whole or min(whole) < 2:
-        raise MotionError.naming(
-            "shape",
-            spectrum.shape,
+        raise MotionError(
             f"the spectrum has shape {spectrum.shape}, but lines need the whole of it, {whole}, and at least (2, 2).",
+            shape=spectrum.shape,
         )
     across = spectrum.frequency_parameters
     up = spectrum.uplift_multipliers
@@ -387,7 +385,7 @@ _PLOTS: dict[str, Callable[..., None]] = {
 def _history(response: Response, otherwise: str) -> tuple[np.ndarray, np.ndarray]:
     """Return times [s] and rotation [rad] while the structure moves. Raises MotionError without a history."""
     if response.times is None or response.rotation is None:
-        raise MotionError.naming("history", False, f"the history of the response is not there; {otherwise}.")
+        raise MotionError(f"the history of the response is not there; {otherwise}.", history=False)
     begin, end = moving_span([(response.times, response.rotation)])
     inside = (response.times >= begin) & (response.times <= end)
     return response.times[inside], response.rotation[inside]

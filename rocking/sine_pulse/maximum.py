@@ -227,18 +227,16 @@ def sides_under(block: EquivalentBlock, pulse: Pulse) -> list["sine_pulse.kernel
     Ground that accelerates in the positive direction rocks the block to its negative side.
     """
     if not isinstance(block, EquivalentBlock):
-        raise StructureError.naming(
-            "equivalent_block",
-            block,
+        raise StructureError(
             f"equivalent_block is {kind_of(block)}, but must be an EquivalentBlock; a structure's is "
             "structure.mechanism().equivalent_block().",
+            equivalent_block=block,
         )
     if not isinstance(pulse, Pulse):
-        raise PulseError.naming(
-            "pulse",
-            pulse,
+        raise PulseError(
             f"pulse is {kind_of(pulse)}, but must be a Pulse; that of a record is "
             "extract_pulses(record).dominant.",
+            pulse=pulse,
         )
     sides = []
     for row in _rows_of(block):
@@ -272,18 +270,16 @@ def _rows_of(block: EquivalentBlock) -> tuple[_SideRow, _SideRow]:
 def check_ratios(*, frequency_ratio: float, amplitude_ratio: float) -> None:
     """Raise PulseError when the frequency ratio ω, or the amplitude ratio a, lies outside LARGEST_RATIO."""
     if not 1 / LARGEST_RATIO <= frequency_ratio <= LARGEST_RATIO:
-        raise PulseError.naming(
-            "frequency_ratio",
-            frequency_ratio,
+        raise PulseError(
             f"ω_g/p, the pulse's circular_frequency over the block's frequency_parameter, is {frequency_ratio!r}, "
             f"but must lie between {1 / LARGEST_RATIO:g} and {LARGEST_RATIO:g}.",
+            frequency_ratio=frequency_ratio,
         )
     if not amplitude_ratio <= LARGEST_RATIO:
-        raise PulseError.naming(
-            "amplitude_ratio",
-            amplitude_ratio,
+        raise PulseError(
             f"a_g/(gλ), the pulse's amplitude over the block's uplift acceleration, is {amplitude_ratio!r}, "
             f"but must be at most {LARGEST_RATIO:g}.",
+            amplitude_ratio=amplitude_ratio,
         )
 
 
@@ -403,13 +399,12 @@ def overturning_amplitudes(
     """
     frequencies = np.asarray(circular_frequencies, dtype=float)
     if frequencies.ndim != 1 or not np.all((frequencies > 0) & np.isfinite(frequencies)):
-        raise PulseError.naming(
-            "circular_frequencies",
-            frequencies,
+        raise PulseError(
             "circular_frequencies must be a one-dimensional array of finite numbers greater than 0.",
+            circular_frequencies=frequencies,
         )
     if polarity not in (1, -1):
-        raise PulseError.naming("polarity", polarity, f"polarity is {polarity!r}, but must be 1 or -1.")
+        raise PulseError(f"polarity is {polarity!r}, but must be 1 or -1.", polarity=polarity)
     rows = _rows(blocks, frequencies, np.zeros(1))
     amplitudes = np.empty((len(blocks), frequencies.size))
     sine_pulse.kernel.thresholds(rows, -polarity, frequencies, amplitudes)
@@ -476,15 +471,15 @@ def pulse_spectrum(
 def _axis(field: str, values: np.ndarray, lowest: float) -> np.ndarray:
     array = np.asarray(values, dtype=float)
     if array.ndim != 1 or array.size == 0:
-        raise PulseError.naming(
-            field, array, f"{field} has the shape {array.shape}, but must be a list of at least one number."
+        raise PulseError(
+            f"{field} has the shape {array.shape}, but must be a list of at least one number.",
+            **{field: array},
         )
     wrong = array[~((array >= lowest) & (array <= LARGEST_RATIO))]
     if wrong.size:
-        raise PulseError.naming(
-            field,
-            float(wrong[0]),
+        raise PulseError(
             f"{field} holds {wrong[0]!s}, but every value must lie between {lowest:g} and {LARGEST_RATIO:g}.",
+            **{field: float(wrong[0])},
         )
     return array
 
@@ -528,10 +523,8 @@ def printed_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> float:
     """
     first, second = sides_under(equivalent_block, pulse)
     if not pulse.is_full_sine:
-        raise PulseError.naming(
-            "pulse",
-            pulse,
-            f"{pulse!r} is no full sine, for which alone Eq. 15 is printed; use predict_maximum.",
+        raise PulseError(
+            f"{pulse!r} is no full sine, for which alone Eq. 15 is printed; use predict_maximum.", pulse=pulse
         )
     side = first if first.exists else second
     if side.amplitude_ratio <= 1:
@@ -602,10 +595,9 @@ def pulse_end_energy(*, frequency_ratio: float, amplitude_ratio: float) -> float
     omega = positive(PulseError, "frequency_ratio", frequency_ratio)
     a = finite(PulseError, "amplitude_ratio", amplitude_ratio)
     if not a > 1:
-        raise PulseError.naming(
-            "amplitude_ratio",
-            amplitude_ratio,
+        raise PulseError(
             f"amplitude_ratio is {amplitude_ratio!r}, but must exceed 1 for the pulse to lift the block.",
+            amplitude_ratio=amplitude_ratio,
         )
     check_ratios(frequency_ratio=omega, amplitude_ratio=a)
     # s = √(a² − 1), the slope of a sin θ where it reaches 1, and asin(1/a) written so that it keeps its digits

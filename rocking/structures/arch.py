@@ -138,12 +138,11 @@ class Arch(Crackable):
 
     def __post_init__(self) -> None:
         if self.restitution == "momentum":
-            raise StructureError.naming(
-                "restitution",
-                "momentum",
+            raise StructureError(
                 "restitution is 'momentum', but that balance takes more speed from an arch than its hinges do, on "
                 "the unsafe side; give a number, such as the default of 0.9, or, of an arch without piers, "
                 f"{UNSAFE_MOMENTUM!r} to take it all the same.",
+                restitution="momentum",
             )
         super().__post_init__()
         if self.thickness >= 2 * self.radius:
@@ -179,11 +178,10 @@ class Arch(Crackable):
             return self._as_crushed(lambda ring: onset_at(ring, np.array(self.hinge_angles)))
         except (NoMechanism, TooThin, ValueError):
             angles = ", ".join(f"{angle:.6g}" for angle in np.degrees(self.hinge_angles))
-            raise StructureError.naming(
-                "hinge_angles",
-                self.hinge_angles,
+            raise StructureError(
                 f"hinge_angles is {angles}°, but must be four angles of a mechanism that turns about the intrados "
                 "at the first and the third and about the extrados at the others; leave it out for those of statics.",
+                hinge_angles=self.hinge_angles,
             ) from None
 
     def _may_form(self, count: int) -> tuple[Candidate, ...]:
@@ -284,14 +282,13 @@ class Arch(Crackable):
             return self._as_crushed(static_onset)
         except (TooThin, NoMechanism) as reason:
             if whole is not None:
-                raise DoesNotStandError.naming(
-                    "compressive_strength",
-                    self.compressive_strength,
+                raise DoesNotStandError(
                     f"{self._sentence} does not stand or rock where its joints crush at a compressive_strength of "
                     f"{self.compressive_strength!r} Pa.",
+                    compressive_strength=self.compressive_strength,
                 ) from None
-            raise StructureError.naming(
-                "thickness", self.thickness, f"{self._sentence} {self._refusal(type(reason))}."
+            raise StructureError(
+                f"{self._sentence} {self._refusal(type(reason))}.", thickness=self.thickness
             ) from None
 
     def _refusal(self, reason: type[StructureError]) -> str:

@@ -243,11 +243,10 @@ class RigidBody(Crushable):
                 f" m, but must be above the centre of mass, at {self.centre_height!r} m.",
             )
         if self.compressive_strength is not None and self.section is None:
-            raise StructureError.naming(
-                "section",
-                None,
+            raise StructureError(
                 "section is missing, but must be given with a compressive_strength, for what presses on the edge "
                 "follows from it; give the volume per metre of that edge, m².",
+                section=None,
             )
         self._stand_crushed()
 
@@ -269,11 +268,10 @@ class RigidBody(Crushable):
     def stack(self, courses: int | None = None) -> Stack:
         """Return it as one body, as high as twice its centre of mass, for its courses are not known."""
         if courses not in (None, 1):
-            raise StructureError.naming(
-                "courses",
-                courses,
+            raise StructureError(
                 f"courses is {courses!r}, but must be 1 for a body that is known by its centre of mass only; leave "
                 "it out.",
+                courses=courses,
             )
         face = (-self.left, self.right)
         body = Course(

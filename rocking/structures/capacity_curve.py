@@ -106,46 +106,40 @@ class CapacityCurve(Structure):
         displacements = self.displacements
         multipliers = self.multipliers
         if len(displacements) != len(multipliers) or len(displacements) < 2:
-            raise StructureError.naming(
-                "displacements",
-                displacements,
+            raise StructureError(
                 f"the curve has {len(displacements)} displacements and {len(multipliers)} multipliers, but must have "
                 "as many of both, and two at least.",
+                displacements=displacements,
             )
         if displacements[0] != 0:
-            raise StructureError.naming(
-                "displacements",
-                displacements[0],
+            raise StructureError(
                 f"the curve begins at a displacement of {displacements[0]!r} m, but must begin at 0.",
+                displacements=displacements[0],
             )
         for before, after in pairwise(displacements):
             if after <= before:
-                raise StructureError.naming(
-                    "displacements",
-                    after,
+                raise StructureError(
                     f"the curve has a displacement of {after!r} m after {before!r} m, but they must ascend; sort the "
                     "points, and leave one of two at the same displacement out.",
+                    displacements=after,
                 )
         if not multipliers[0] > 0:
-            raise StructureError.naming(
-                "multipliers",
-                multipliers[0],
+            raise StructureError(
                 f"the curve begins with a multiplier of {multipliers[0]!r}, but must begin above 0, with the one at "
                 "which the mechanism opens; leave its elastic branch out.",
+                multipliers=multipliers[0],
             )
         if min(multipliers) > 0:
-            raise StructureError.naming(
-                "multipliers",
-                multipliers[-1],
+            raise StructureError(
                 f"the curve ends with a multiplier of {multipliers[-1]!r} at {displacements[-1]!r} m and never reaches "
                 "0, but must, for that is where it overturns; give its points up to there.",
+                multipliers=multipliers[-1],
             )
         if not self._reach > 0:
-            raise StructureError.naming(
-                "multipliers",
-                multipliers[0],
+            raise StructureError(
                 f"the curve begins with a multiplier of {multipliers[0]!r} and comes down to 0 at once, but must bear "
                 "something up to a displacement above 0; give it as it is there.",
+                multipliers=multipliers[0],
             )
 
     @classmethod
@@ -167,9 +161,7 @@ class CapacityCurve(Structure):
         Raises StructureError naming what is missing or no number.
         """
         if not isinstance(file, str | Path):
-            raise StructureError.naming(
-                "file", file, f"file is {file!r}, but must be a text, the name of a CSV file."
-            )
+            raise StructureError(f"file is {file!r}, but must be a text, the name of a CSV file.", file=file)
         displacements, loads, head = _points(Path(file))
         units = {
             "force_kN": 1e3 / weight,
@@ -177,11 +169,10 @@ class CapacityCurve(Structure):
             "acceleration_m_s2": mass_ratio / GRAVITY,
         }
         if mass_ratio != 1 and not head.startswith("acceleration"):
-            raise StructureError.naming(
-                "mass_ratio",
-                mass_ratio,
+            raise StructureError(
                 f"mass_ratio is {mass_ratio!r}, but a {head} takes none, as it stands before the division by e*; leave "
                 "it out.",
+                mass_ratio=mass_ratio,
             )
         return cls(
             tuple(displacements),
@@ -323,11 +314,10 @@ def _points(path: Path) -> tuple[list[float], list[float], str]:
             displacements.append(_DISPLACEMENTS[heads[place]] * float(cells[place]))
             loads.append(float(cells[other]))
         except (IndexError, ValueError):
-            raise StructureError.naming(
-                heads[place],
-                cells,
+            raise StructureError(
                 f"{path}, line {number}, holds {shown(','.join(cells))}, but must hold a number under {heads[place]} "
                 f"and under {heads[other]}.",
+                **{heads[place]: cells},
             ) from None
     return displacements, loads, heads[other]
 
@@ -336,9 +326,8 @@ def _only(path: Path, heads: Sequence[str], allowed: Sequence[str] | set[str] | 
     """The place of the one head that is allowed."""
     found = [place for place, head in enumerate(heads) if head in allowed]
     if len(found) != 1:
-        raise StructureError.naming(
-            "columns",
-            heads,
+        raise StructureError(
             f"{path} has the columns {shown(', '.join(heads))}, but must have one of {', '.join(sorted(allowed))}.",
+            columns=heads,
         )
     return found[0]

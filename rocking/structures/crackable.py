@@ -122,11 +122,10 @@ class Crackable(Crushable):
 
 def unplaced(fields: str) -> StructureError:
     """Return the error of a crack that is known where nothing says where it is. fields: one of which has to say it."""
-    return StructureError.naming(
-        "crack",
-        "known",
+    return StructureError(
         f"crack is 'known', but {fields} is missing, which says where; give it, or leave crack out, so that every "
         "place counts.",
+        crack="known",
     )
 
 

@@ -206,32 +206,28 @@ def _form(of_type: Sequence[Form], keys_typed: Iterable[str], values: Mapping[st
         if key not in allowed:
             keys = ", ".join(sorted(allowed))
             if str(key).isdigit() and key not in values:
-                raise ConfigurationError.naming(
-                    key,
-                    None,
+                raise ConfigurationError(
                     f"{key} is not a key of {kind}: a comma parts the entries within braces; write a number "
                     f"with a point, as in 3.{key}.",
+                    **{key: None},
                 )
             name = str(key) if len(str(key)) <= LONGEST_KEY else shown(key)
-            raise ConfigurationError.naming(
-                str(key),
-                values.get(key),
+            raise ConfigurationError(
                 f"{name} is not a key of {kind}{nearest(key, allowed)}; use {keys}.",
+                **{str(key): values.get(key)},
             )
     form = max(of_type, key=lambda form: len(set(form.required) & values.keys()))
     missing = [key for key in form.required if key not in values]
     if missing:
-        raise ConfigurationError.naming(
-            missing[0],
-            None,
+        raise ConfigurationError(
             f"{kind} needs {' and '.join(missing)}; give {'it' if len(missing) == 1 else 'them'}.",
+            **{missing[0]: None},
         )
     foreign = [key for key in values if key not in form.keys]
     if foreign:
-        raise ConfigurationError.naming(
-            foreign[0],
-            values[foreign[0]],
+        raise ConfigurationError(
             f"{kind} is given {' and '.join(foreign)} beside {' and '.join(form.required)}; give one set.",
+            **{foreign[0]: values[foreign[0]]},
         )
     return form
 

@@ -237,17 +237,15 @@ class Facade(Tied):
         thicknesses = self.thicknesses
         loads = self.floor_loads
         if len(heights) > _MOST_STOREYS:
-            raise StructureError.naming(
-                "storey_heights",
-                heights,
+            raise StructureError(
                 f"storey_heights has {len(heights)} values, but must have {_MOST_STOREYS} at most.",
+                storey_heights=heights,
             )
         for name, values in (("thicknesses", thicknesses), ("floor_loads", loads or heights)):
             if len(values) != len(heights):
-                raise StructureError.naming(
-                    name,
-                    values,
+                raise StructureError(
                     f"{name} has {counted(len(values), 'value')}, but must have {len(heights)}, one for each storey.",
+                    **{name: values},
                 )
         bearing = [t for load, t in zip(loads, thicknesses, strict=False) if load]
         check_eccentricity(value=self.eccentricity, thickness=min(bearing or thicknesses))
@@ -261,11 +259,10 @@ class Facade(Tied):
             check_inside("thrust_height", self.thrust_height, self.height)
         # A crack_storey of 1 with a crack_height was once the default, and still occurs in files.
         if self.crack_height is not None and self.crack_storey not in (None, 1):
-            raise StructureError.naming(
-                "crack_height",
-                self.crack_height,
+            raise StructureError(
                 f"crack_height is {self.crack_height!r} m and crack_storey {self.crack_storey}, but one crack is "
                 "meant; give one of them.",
+                crack_height=self.crack_height,
             )
         if self.crack_height is not None and not self.crack_height < self.height:
             raise SizeError.of(
@@ -554,11 +551,10 @@ class Facade(Tied):
     def _flat_slab(self, thickness: float, load: float) -> Course:
         """The uppermost floor as a body that stays flat and moves along."""
         if self.loads_held:
-            raise StructureError.naming(
-                "loads_held",
-                True,
+            raise StructureError(
                 "loads_held is true under a flat slab, but contact dynamics needs the mass of a slab; leave loads_held "
                 "out, or choose another fidelity than contact.",
+                loads_held=True,
             )
         return slab(-thickness, 0.0, self.height, load, upright=True)
 

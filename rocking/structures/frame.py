@@ -85,10 +85,9 @@ class Frame(Crushable):
     def __post_init__(self) -> None:
         super().__post_init__()
         if not isinstance(self.column, Block) or self.column.one_sided:
-            raise StructureError.naming(
-                "column",
-                self.column,
+            raise StructureError(
                 f"column is {self.column!r}, but must be a Block that rocks to both sides.",
+                column=self.column,
             )
         self._stand_crushed()
 
@@ -164,12 +163,11 @@ class Frame(Crushable):
     def stones(self, voussoirs: int | None = None) -> Stones:
         """Return the two columns and the beam on them, spaced as they are drawn; voussoirs: None, as it has none."""
         if not self.as_stones or voussoirs is not None:
-            raise StructureError.naming(
-                "columns",
-                self.columns,
+            raise StructureError(
                 f"a frame of {self.columns} columns with a beam_mass_ratio of {self.beam_mass_ratio!r} is asked for as "
                 f"{'stones' if voussoirs is None else f'{voussoirs} voussoirs'}, but only two columns below a beam are "
                 "a chain of stones, which has no voussoirs.",
+                columns=self.columns,
             )
         left, right, beam = (corners for _, corners in self._parts())
         foot, head = [0, 1], [3, 2]

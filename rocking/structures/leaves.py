@@ -149,11 +149,10 @@ class Leaved(Structure):
                     structure.mechanism()
                 alone.append(LeafAlone(name, structure))
             except DoesNotStandError as wrong:
-                raise DoesNotStandError.naming(
-                    "leaves",
-                    self.leaves,
+                raise DoesNotStandError(
                     f"leaves is {list(self.leaves)!r} m, but the {name} alone does not stand under its loads at rest; "
                     "mend its loads or its sizes.",
+                    leaves=self.leaves,
                 ) from wrong
         return tuple(alone)
 

@@ -489,11 +489,10 @@ def inset(*, pressing: float, strength: float | None, breadth: float) -> float:
 def check_pressed(*, pressed: float, whole: float) -> None:
     """Refuse a joint of which the part that is pressed at rest is not less than the whole, both in m or in m²."""
     if not pressed < whole:
-        raise DoesNotStandError.naming(
-            "compressive_strength",
-            None,
+        raise DoesNotStandError(
             "the structure does not stand: at rest its weight crushes a joint over "
             f"{pressed / whole:.4g} times its breadth; correct compressive_strength, or the sizes and loads above it.",
+            compressive_strength=None,
         )
 
 

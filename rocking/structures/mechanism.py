@@ -202,17 +202,15 @@ class Side:
 
     def __post_init__(self) -> None:
         if self.ties and self.untied_gravity is None:
-            raise StructureError.naming(
-                "untied_gravity",
-                None,
+            raise StructureError(
                 "untied_gravity is missing, but must be given with ties; it is G without them.",
+                untied_gravity=None,
             )
         critical = positive(StructureError, "critical_rotation", self.critical_rotation, "rad")
         if not self.end_rotation > critical:
-            raise StructureError.naming(
-                "end_rotation",
-                self.end_rotation,
+            raise StructureError(
                 f"end_rotation is {self.end_rotation!r} rad, but must exceed critical_rotation = {critical!r} rad.",
+                end_rotation=self.end_rotation,
             )
         object.__setattr__(
             self, "restitution", within(StructureError, "restitution", self.restitution, low=0, high=1)
@@ -221,10 +219,9 @@ class Side:
             for name in names:
                 value = self.at(name, at)
                 if not value > 0:
-                    raise StructureError.naming(
-                        name,
-                        value,
+                    raise StructureError(
                         f"{name} is {value!r} at a rotation of {at!r} rad, but must be positive there.",
+                        **{name: value},
                     )
 
     def __repr__(self) -> str:
@@ -304,9 +301,7 @@ class Side:
         mean = (linearised + alternative) / 2
         scales = {"exact_at_rest": alternative, "linearised": linearised, "uplift": alternative, "mean": mean}
         if scale not in scales:
-            raise StructureError.naming(
-                "scale", scale, f"scale is {scale!r}, but must be one of {', '.join(scales)}."
-            )
+            raise StructureError(f"scale is {scale!r}, but must be one of {', '.join(scales)}.", scale=scale)
         block = EquivalentBlock(
             frequency_parameter=self.frequency_parameter,
             critical_rotation=self.critical_rotation,
@@ -365,10 +360,9 @@ class Mechanism(Drawn):
 
     def __post_init__(self) -> None:
         if self.one_sided and self.negative is not None:
-            raise StructureError.naming(
-                "negative",
-                self.negative,
+            raise StructureError(
                 "negative is given, but a one-sided mechanism has the positive side only; leave it out.",
+                negative=self.negative,
             )
 
     def __repr__(self) -> str:
@@ -486,10 +480,9 @@ class Mechanism(Drawn):
     def side_of(self, rotation: np.ndarray, velocity: np.ndarray) -> np.ndarray:
         """Return the side of each state, 1 or −1: the sign of the rotation, at 0 of the velocity; positive at rest."""
         if self.one_sided and (rotation < 0).any():
-            raise StructureError.naming(
-                "rotation",
-                rotation,
+            raise StructureError(
                 "rotation is negative, but a one-sided mechanism rocks to the positive side only.",
+                rotation=rotation,
             )
         negative = (rotation < 0) | ((rotation == 0) & (velocity < 0) & (not self.one_sided))
         return np.where(negative, -1.0, 1.0)

@@ -187,10 +187,9 @@ class Stack:
                     f"{lower.base + lower.height:.6g} m; give courses that touch."
                 )
         if not self.friction >= 0:
-            raise StructureError.naming(
-                "friction",
-                self.friction,
+            raise StructureError(
                 f"friction is {self.friction!r}, but must be 0 or more; give the coefficient of the joints.",
+                friction=self.friction,
             )
         for held in self.held:
             if not 0 <= held.course < len(self.courses):

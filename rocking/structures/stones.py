@@ -102,10 +102,9 @@ class Stones:
                 f"the chain has {len(self.stones)} stones, but must have 2 to {most}; join some."
             )
         if not self.friction >= 0:
-            raise StructureError.naming(
-                "friction",
-                self.friction,
+            raise StructureError(
                 f"friction is {self.friction!r}, but must be 0 or more; give the coefficient of the joints.",
+                friction=self.friction,
             )
         for number, (one, other) in enumerate(pairwise(self.stones), start=1):
             ends = np.array(one.corners)[[3, 2]] - np.array(other.corners)[[0, 1]]

@@ -272,10 +272,8 @@ class Structure(ABC):
         """
         mechanism = self.mechanism()
         if side not in (1, -1) or (side == -1 and mechanism.one_sided):
-            raise StructureError.naming(
-                "side",
-                side,
-                f"side is {side!r}, but must be 1, or -1 where the structure rocks to both sides.",
+            raise StructureError(
+                f"side is {side!r}, but must be 1, or -1 where the structure rocks to both sides.", side=side
             )
         known: dict[int, StaticCapacity] = self.__dict__.setdefault("_capacities", {})
         if side not in known:
@@ -291,11 +289,10 @@ class Structure(ABC):
         Raises StructureError for a side to which it does not rock, or fewer than two points.
         """
         if side not in (1, -1) or (side == -1 and self.mechanism().one_sided) or count < 2:
-            raise StructureError.naming(
-                "side",
-                (side, count),
+            raise StructureError(
                 f"side is {side!r} and count {count!r}, but side must be 1, or -1 where the structure rocks to both "
                 "sides, and count 2 or more.",
+                side=(side, count),
             )
         return self.static_capacity(side).curve(count)
 
@@ -545,11 +542,10 @@ class Structure(ABC):
             arriving.masses, leaving.masses, rtol=1e-9
         ):
             # what moves as one body to one side parts where it moves to the other, so that no body keeps its momentum
-            raise StructureError.naming(
-                "restitution",
-                self._given_restitution,
+            raise StructureError(
                 "the restitution is not given, but other bodies move to one side than to the other, so that no balance "
                 "of momentum gives it; give a number between 0 and 1.",
+                restitution=self._given_restitution,
             )
         before = arriving.motion(0.0)
         after = leaving.motion(0.0)

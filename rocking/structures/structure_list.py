@@ -68,19 +68,16 @@ def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str
     Mechanism(λ = 0.2222, φ_cr = 0.2187 rad, p = 1.263 rad/s, η = 0.9294)
     """
     if not isinstance(mapping, Mapping):
-        raise ConfigurationError.naming(
-            "structure",
-            mapping,
+        raise ConfigurationError(
             f"a structure is {shown(mapping)}, but must be a mapping with a type and its sizes.",
+            structure=mapping,
         )
     kind = mapping.get("type")
     if not isinstance(kind, str) or kind not in TYPES:
         known = answer(kind)
         hint = f" ({known.words})" if known else nearest(kind, TYPES, _ALIKE)
         given = "missing" if kind is None else shown(kind)
-        raise ConfigurationError.naming(
-            "type", kind, f"type is {given}, but must be one of {', '.join(TYPES)}{hint}."
-        )
+        raise ConfigurationError(f"type is {given}, but must be one of {', '.join(TYPES)}{hint}.", type=kind)
     structure: Structure = Description.read(TYPES[kind], mapping, texts or {}).structure()
     return structure
 

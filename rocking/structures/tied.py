@@ -292,11 +292,10 @@ class Tied(CrackedAtHeight, Leaved):
     def _check_plane(self) -> None:
         """Refuse a stack, which is plane, of a wall that may fall between its ties."""
         if self.ties_apart:
-            raise StructureError.naming(
-                "tie_spacing",
-                self.tie_spacing,
+            raise StructureError(
                 "tie_spacing lets the wall fall between its ties, where a plane stack of courses holds it all along, "
                 "so that contact dynamics cannot follow it; choose another fidelity than contact.",
+                tie_spacing=self.tie_spacing,
             )
 
     @property

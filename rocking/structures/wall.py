@@ -786,11 +786,10 @@ class LoadedWall(CrackedWall, Tied):
         if not self.top_load:
             return Stack(wall, held, top_held_at=(0.0, self.height))
         if self.load_held and self.top_slab == "flat":
-            raise StructureError.naming(
-                "load_held",
-                True,
+            raise StructureError(
                 "load_held is true under a flat slab, but contact dynamics needs the mass of a slab; leave load_held "
                 "out, or choose another fidelity than contact.",
+                load_held=True,
             )
         if self.load_held:
             weight = Held(len(wall) - 1, top, force=(0.0, -self.top_load))

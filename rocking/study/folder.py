@@ -31,26 +31,23 @@ def results_folder(name: str, *inputs: str) -> Path:
     given = Path(name)
     path = given.relative_to(Path.cwd()) if given.is_relative_to(Path.cwd()) else given
     if not path.is_absolute() and not (_PLAIN.fullmatch(path.as_posix()) and len(name) <= _LONGEST):
-        raise ConfigurationError.naming(
-            "results",
-            name,
+        raise ConfigurationError(
             f"setting results is {name[:_LONGEST]!r}, but must be a folder inside the study, in letters, digits, "
             f"spaces and . , + - _ @ = ( ) ~ on one line of at most {_LONGEST} characters; give it another name.",
+            results=name,
         )
     resolved = real(path)
     if not stands_inside(path):
-        raise ConfigurationError.naming(
-            "results",
-            name,
+        raise ConfigurationError(
             f"setting results is {name!r}, which leads to {resolved}, but must be a folder inside the study, "
             f"{Path.cwd()}; name one there.",
+            results=name,
         )
     for file in inputs:
         if resolved in real(Path(file)).parents:
-            raise ConfigurationError.naming(
-                "results",
-                name,
+            raise ConfigurationError(
                 f"setting results is {name!r}, but {file} lies within it; name a folder of its own for the results.",
+                results=name,
             )
     return path
 
@@ -72,10 +69,10 @@ def check_own(results: Path) -> None:
     """
     for folder in (REMEMBERED, results):
         if folder.is_symlink() and not stands_inside(folder):
-            raise ConfigurationError.naming("path", str(folder), f"{folder}: {_LINK}")
+            raise ConfigurationError(f"{folder}: {_LINK}", path=str(folder))
         for entry in _entries(folder):
             if entry.is_symlink():
-                raise ConfigurationError.naming("path", entry.path, f"{entry.path}: {_LINK}")
+                raise ConfigurationError(f"{entry.path}: {_LINK}", path=entry.path)
             if not (entry.is_dir() or entry.is_file()):
                 raise ConfigurationError(
                     f"{entry.path}: it is neither a file nor a folder, and a run would wait for it; remove it."
@@ -118,12 +115,12 @@ def locked(path: Path, how: int) -> int:
     """
     path.parent.mkdir(exist_ok=True)
     if path.is_symlink():
-        raise ConfigurationError.naming("path", str(path), f"{path}: {_LINK}")
+        raise ConfigurationError(f"{path}: {_LINK}", path=str(path))
     handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o644)
     if not stat.S_ISREG(os.fstat(handle).st_mode):
         os.close(handle)
-        raise ConfigurationError.naming(
-            "file", path.name, f"{path}: it is no file, but must be one, which a run locks; remove it."
+        raise ConfigurationError(
+            f"{path}: it is no file, but must be one, which a run locks; remove it.", file=path.name
         )
     fcntl.flock(handle, how)
     return handle

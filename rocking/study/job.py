@@ -231,10 +231,9 @@ def _planned(task: Task) -> Plan:
     """The plan of a task, read again. Raises ConfigurationError when its product is made from something else now."""
     plan = plan_of_job(task.config, task.product, task.by_name)
     if changed := what_changed(task.made_from, made_from(task.product, plan)):
-        raise ConfigurationError.naming(
-            "made_from",
-            changed,
+        raise ConfigurationError(
             f"{task.product}: a file or a setting changed while the study ran ({changed}); start the study again.",
+            made_from=changed,
         )
     return plan
 

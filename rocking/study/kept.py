@@ -58,8 +58,8 @@ def undamaged(path: Path) -> Iterator[None]:
     try:
         yield
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError, BadZipFile) as error:
-        raise RockingError.naming(
-            "path", path, f"{path}: it is damaged ({error}); remove it and run the study again."
+        raise RockingError(
+            f"{path}: it is damaged ({error}); remove it and run the study again.", path=path
         ) from None
 
 

@@ -62,10 +62,8 @@ class Declared:
     def __post_init__(self) -> None:
         """Refuse a factor of 0, which leaves no motion. Raises ConfigurationError."""
         if not abs(self.scale_factor) > 0 or math.isinf(self.scale_factor):
-            raise ConfigurationError.naming(
-                "scale",
-                self.scale_factor,
-                f"scale is {self.scale_factor:g}, but must be a number other than 0.",
+            raise ConfigurationError(
+                f"scale is {self.scale_factor:g}, but must be a number other than 0.", scale=self.scale_factor
             )
 
 

@@ -151,12 +151,11 @@ class Plan:
         if self.by_name:
             hashes = files_by_name(record)
             if "" in hashes.values() or self.settings.mirror:
-                raise ConfigurationError.naming(
-                    "sha256",
-                    record.sha256,
+                raise ConfigurationError(
                     f"{self.settings.catalogue}: record {record.id} is read on another machine, so that its sha256 "
                     "must stand in the catalogue, and its files in the folder of it; run the study once where they "
                     "lie, without mirror.",
+                    sha256=record.sha256,
                 )
             inventory = record.folder / record.inventory if record.inventory else None
             return {**hashes, **({str(inventory): self.contents.of(inventory)} if inventory else {})}
@@ -241,10 +240,9 @@ def plan_of_job(config: Mapping[str, Any], product: str, by_name: bool = False) 
     plan = Plan(settings, records, scenes_of(settings.structures, contents), contents, by_name)
     own = records_of(product, plan)
     if gone := [name for name in own if name not in records]:
-        raise ConfigurationError.naming(
-            "record",
-            gone[0],
+        raise ConfigurationError(
             f"{settings.catalogue}: record {gone[0]} is not in it any more; start the study again.",
+            record=gone[0],
         )
     return replace(
         plan, records=records | {name: with_hashes(records[name], settings.mirror) for name in own}

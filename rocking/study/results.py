@@ -66,9 +66,7 @@ class Results:
         import pandas as pd  # which takes half a second to import
 
         if name not in _names():
-            raise RockingError.naming(
-                "table", name, f"table is {name!r}, but must be one of {', '.join(_names())}."
-            )
+            raise RockingError(f"table is {name!r}, but must be one of {', '.join(_names())}.", table=name)
         product = _OF_PRODUCTS.get(name)
         row_class = rows_of_table(product, name) if product else _OWN[name]
         file = row_class.table.file_name
@@ -77,8 +75,8 @@ class Results:
             return frame(row_class, whole, names)
         paths = sorted(self.folder.glob(f"*/{file}"))  # of records that were assessed one by one
         if not paths:
-            raise RockingError.naming(
-                "file", file, f"{self.folder} holds no {file}; name the folder of a study's results."
+            raise RockingError(
+                f"{self.folder} holds no {file}; name the folder of a study's results.", file=file
             )
         table = pd.concat([frame(row_class, path, ["record", *names]) for path in paths])
         return table.sort_values("record", kind="stable", ignore_index=True)[names]
@@ -97,10 +95,9 @@ class Results:
             for row_class in RECORD_TABLES
         }
         if len(tables[TimingRow]) == 1:  # which every record has, also one that could not be read
-            raise RockingError.naming(
-                "record",
-                record,
+            raise RockingError(
                 f"{self.folder} holds no tables of {record!r}; name a record of a study that has been run.",
+                record=record,
             )
         with written_together():
             for row_class, lines in tables.items():
@@ -147,14 +144,12 @@ def open_results(folder: Path | str) -> Results:
     """
     path = Path(folder)
     if not path.is_dir():
-        raise RockingError.naming(
-            "folder", path, f"{path} is no folder; name the folder of a study's results."
-        )
+        raise RockingError(f"{path} is no folder; name the folder of a study's results.", folder=path)
     if not _holds_results(path):
         inner = path / "results"
         hint = f"name {inner}" if _holds_results(inner) else "name the folder of a study's results"
-        raise RockingError.naming(
-            "folder", path, f"{path} holds no results, neither a summary nor tables of a record; {hint}."
+        raise RockingError(
+            f"{path} holds no results, neither a summary nor tables of a record; {hint}.", folder=path
         )
     return Results(path)
 

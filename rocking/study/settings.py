@@ -407,11 +407,10 @@ class _Restricted(Settings):
 
     def __getattribute__(self, name: str) -> Any:
         if name in _FIELDS and name not in object.__getattribute__(self, "__dict__"):
-            raise ConfigurationError.naming(
-                name,
-                None,
+            raise ConfigurationError(
                 f"setting {name}: nothing says that it is needed here; add it to the line of this job in "
                 "rocking.study.made_from.TABLE or, of a product, in rocking.study.products.",
+                **{name: None},
             )
         return object.__getattribute__(self, name)
 

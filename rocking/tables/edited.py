@@ -44,13 +44,12 @@ def read_edited(
         names = [name for name in reader.fieldnames or () if name]
     except (ValueError, csv.Error) as fault:
         sentence = f"{path}: the {path.stem} cannot be read as UTF-8 CSV, {fault}."
-        raise error.naming("file", path.name, sentence) from None
+        raise error(sentence, file=path.name) from None
     if names and not set(names) & set(columns):
-        raise error.naming(
-            "columns",
-            names,
+        raise error(
             f"{path.name}: its first line, which begins with {shown(names[0])}, names no column; write the names of "
             f"the columns above the rows, as in {','.join(required)}.",
+            columns=names,
         )
     defects = [_unknown(name, columns) for name in names if name not in columns]
     defects += [f"column {shown(name)} stands {n} times" for name, n in Counter(names).items() if n > 1]
@@ -62,7 +61,7 @@ def read_edited(
     ]
     if defects:
         allowed = f"; the columns are {', '.join(columns)}" if len(columns) <= _MOST_NAMED else ""
-        raise error.naming("columns", defects, f"{path.name}: {'; '.join(defects)}{allowed}.")
+        raise error(f"{path.name}: {'; '.join(defects)}{allowed}.", columns=defects)
     if separator == ";":
         for _, row in rows:
             row |= {name: row[name].replace(",", ".") for name in numbers if row.get(name)}

@@ -43,10 +43,10 @@ def read_whole(path: Path, largest: int, error: type[RockingError], name: str = 
     except (OSError, ValueError) as reason:
         why = getattr(reason, "strerror", None) or reason
         sentence = f"{name}: the file cannot be opened, {why}; give the path of a file."
-        raise error.naming("file", path.name, sentence) from None
+        raise error(sentence, file=path.name) from None
     if len(content) > largest:
         sentence = f"{name}: the file is larger than {largest} bytes, the most that is read."
-        raise error.naming("size", len(content), sentence)
+        raise error(sentence, size=len(content))
     return content
 
 
@@ -91,17 +91,15 @@ def check_target(path: str | Path, document: Document) -> Path:
     if os.path.lexists(path):
         content = b"" if path.is_dir() else read_start(path, _LARGEST_REPLACED)
         if not document.is_own(content):
-            raise ConfigurationError.naming(
-                "file",
-                path.name,
+            raise ConfigurationError(
                 f"{path} exists and is no {document.name} written by rocking, so it is not replaced; name another file "
                 "(the shell puts every file that a pattern like *.smc matches in its place).",
+                file=path.name,
             )
     if path.suffix.lower() != document.ending:
-        raise ConfigurationError.naming(
-            "file",
-            path.name,
+        raise ConfigurationError(
             f"{path} is to hold a {document.name}; give a name that ends in {document.ending}.",
+            file=path.name,
         )
     return path
 
@@ -184,4 +182,4 @@ def _sync(path: Path) -> None:
 def _unwritten(path: Path, error: OSError) -> RockingError:
     reason = error.strerror or str(error)
     sentence = f"{path} cannot be written: {reason}; mend that, then start again."
-    return RockingError.naming("file", path.name, sentence)
+    return RockingError(sentence, file=path.name)

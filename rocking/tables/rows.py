@@ -306,7 +306,7 @@ def csv_lines(row_class: type[R], rows: Iterable[R]) -> Iterator[str]:
         if type(table_row) is not row_class:
             kind = type(table_row).__name__
             sentence = f"{row_class.table.file_name}: {kind} is not {row_class.__name__}."
-            raise RockingError.naming("row", kind, sentence)
+            raise RockingError(sentence, row=kind)
         writer.writerow([cell(getattr(table_row, name)) for name in names])
         yield line.pop()
 
@@ -337,7 +337,7 @@ def _read_values(row_class: type[Row], path: Path, names: Collection[str]) -> It
             if len(cells) != len(columns):
                 counts = f"has {len(cells)} cells, but must have {len(columns)}"
                 sentence = f"{path}, line {lines.line_num}, {counts}."
-                raise RockingError.naming("cells", len(cells), sentence)
+                raise RockingError(sentence, cells=len(cells))
             values: list[Any] = []
             try:
                 for place, wanted in chosen:
@@ -345,7 +345,7 @@ def _read_values(row_class: type[Row], path: Path, names: Collection[str]) -> It
             except ValueError as error:
                 place, wanted = chosen[len(values)]
                 sentence = f"{path}, line {lines.line_num}, {error}."
-                raise RockingError.naming(wanted.name, cells[place], sentence) from None
+                raise RockingError(sentence, **{wanted.name: cells[place]}) from None
             yield values
 
 
@@ -361,7 +361,7 @@ def readable(path: Path) -> Iterator[Any]:
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         reason = getattr(error, "strerror", None) or str(error)
         sentence = f"{path} cannot be read: {reason}; make the table again."
-        raise RockingError.naming("file", path.name, sentence) from error
+        raise RockingError(sentence, file=path.name) from error
 
 
 def check_columns(table: Table, names: Iterable[str], path: Path) -> None:
@@ -369,11 +369,10 @@ def check_columns(table: Table, names: Iterable[str], path: Path) -> None:
     expected = list(table.column_names)
     if columns != expected:
         wrong = sorted(set(columns) ^ set(expected)) or ["in another order"]
-        raise RockingError.naming(
-            "columns",
-            wrong,
+        raise RockingError(
             f"{path}, line 1: the columns are not those of {table.name} ({', '.join(wrong[:6])}); make the table "
             "again.",
+            columns=wrong,
         )
 
 

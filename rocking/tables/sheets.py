@@ -35,18 +35,17 @@ def sheets(
     try:
         parts = zipfile.ZipFile(io.BytesIO(raw)).infolist()
         if max(part.file_size for part in parts) > _LARGEST_PART:
-            raise error.naming(
-                "size",
-                _LARGEST_PART,
+            raise error(
                 f"a part of the workbook unpacks to more than {_LARGEST_PART} bytes; {advice}.",
+                size=_LARGEST_PART,
             )
         book = load_workbook(io.BytesIO(raw), read_only=True, data_only=True)
         yield {sheet.title: sheet.iter_rows(values_only=True) for sheet in book.worksheets}
     except RockingError:
         raise
     except Exception as fault:  # zipfile and openpyxl raise what they like for what is damaged
-        raise error.naming(
-            "format", "workbook", f"the workbook cannot be read, {type(fault).__name__}; {advice}."
+        raise error(
+            f"the workbook cannot be read, {type(fault).__name__}; {advice}.", format="workbook"
         ) from fault
 
 

@@ -20,7 +20,7 @@ def test_the_places_of_an_error_stand_before_its_sentence_and_no_place_is_read_o
 
 
 def test_an_error_keeps_its_places_from_one_process_to_another():
-    error = UndeclaredError("unit is not declared.", "unit")
+    error = UndeclaredError("unit is not declared.", unit=None)
     error.places = ("one", "a.AT2")
     again = pickle.loads(pickle.dumps(error))
     assert (str(again), again.field) == ("one: a.AT2: unit is not declared.", "unit")

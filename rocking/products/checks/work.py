@@ -122,10 +122,9 @@ def write_checks(
     asked = study.settings.checks
     spectrum = design.spectrum()
     if spectrum is None:
-        raise ConfigurationError.naming(
-            "design_spectrum",
-            None,
+        raise ConfigurationError(
             "setting design_spectrum.ag_g is null, and so is points, but checks need a design level; give one.",
+            design_spectrum=None,
         )
     worst = {
         conclusion.verdict.structure: conclusion for conclusion in worst_of_each(conclusions(verdicts, []))

@@ -84,11 +84,10 @@ def write_fragility(
         with net("its fragility", name):
             never_because[name] = never_overturns_because(scene.structure)
     if all(never_because.values()) and not faults:
-        raise ConfigurationError.naming(
-            "structures",
-            list(never_because),
+        raise ConfigurationError(
             "no structure of the list can overturn, so that none has a fragility; give ties a tie_strength at which "
             "they fail, or leave the fragility out.",
+            structures=list(never_because),
         )
     opened, reasons = _opened(records, study, net)
     if not (opened or faults):

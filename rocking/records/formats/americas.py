@@ -46,14 +46,12 @@ def _read_unam(content: bytes, options: Options) -> list[Accelerogram]:
     head, rows = parted(content, re.compile(_DATA, re.I).match, f"begins with {_DATA}", _UNAM_HEADER)
     rules = [i for i, line in enumerate(rows[:10]) if _RULE.match(line)]
     if len(rules) < 2:
-        raise RecordError.naming("header", _DATA, f"no heading {_DATA} above two rules; the file is cut.")
+        raise RecordError(f"no heading {_DATA} above two rules; the file is cut.", header=_DATA)
     every = (_of_channel(head.split("\n"), channel) for channel in range(12))
     heads = [own for own in every if _UNAM.text("orientation", own).strip(" ;")]
     sizes = sorted({_UNAM.text("samples", own) for own in heads} - {""})
     if len(sizes) != 1:
-        raise RecordError.naming(
-            "samples", sizes, f"the channels declare {sizes} samples, but must be equally long."
-        )
+        raise RecordError(f"the channels declare {sizes} samples, but must be equally long.", samples=sizes)
     samples = text.count("NUM. TOTAL DE MUESTRAS", sizes[0])
     width = optional_number(r"^FORMATO DATOS.*\d+F(\d+)", head)
     table = text.table(rows[rules[1] + 1 :], len(heads), max(1, int(width or 10)))
@@ -139,16 +137,13 @@ def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
     head, rows = parted(content, _SMC_TEXT)
     kind = head.partition("\n")[0].strip()
     if kind[:1] not in ("0", "1", "2"):
-        raise RecordError.naming(
-            "quantity", kind, f"this SMC file is of kind {kind[:40]!r}, not of acceleration."
-        )
+        raise RecordError(f"this SMC file is of kind {kind[:40]!r}, not of acceleration.", quantity=kind)
     integers = text.fields(rows[:_SMC_INTEGERS], 10)
     reals = text.fields(rows[_SMC_INTEGERS:_SMC_REALS], 15)
     if integers.size < 48 or reals.size < 50:
-        raise RecordError.naming(
-            "header",
-            (integers.size, reals.size),
+        raise RecordError(
             f"the header holds {integers.size} integers and {reals.size} reals, not 48 and 50.",
+            header=(integers.size, reals.size),
         )
     counts = (f"{integers[at]:.0f}" for at in (_COMMENTS, _SAMPLES))
     comments, samples = (text.count("a count in the header", size) for size in counts)
@@ -158,8 +153,8 @@ def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
     seam = next((at for at, row in enumerate(body) if row.startswith("|")), None) if is_film else None
     own = body if seam is None else body[:seam]
     if any(not row.startswith("|") for row in rows[_SMC_REALS:first]) or any(row[0] == "|" for row in own):
-        raise RecordError.naming(
-            "comments", comments, f"the header declares {comments} lines of comment, but others begin with |."
+        raise RecordError(
+            f"the header declares {comments} lines of comment, but others begin with |.", comments=comments
         )
     width = text.column_width(own[0]) if own else 10
     numbers = text.fields(own, width)
@@ -168,8 +163,8 @@ def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
         return [_SMC.through(head, times, values, options, warnings=notes, **_smc_facts(head, reals))]
     rate = float(reals[_RATE])
     if not 0 < rate < 1e6:
-        raise RecordError.naming(
-            "rate", rate, f"samples per second is {rate:g}, but must be greater than 0 and below 1e6."
+        raise RecordError(
+            f"samples per second is {rate:g}, but must be greater than 0 and below 1e6.", rate=rate
         )
     values, notes = text.whole(numbers, samples, 80 // width)
     return [_SMC.channel(head, values, options, step=1 / rate, warnings=notes, **_smc_facts(head, reals))]

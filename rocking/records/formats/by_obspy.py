@@ -51,20 +51,17 @@ def _stream(content: bytes, form: str, **options: Any) -> Any:
         except Exception as error:
             reason, _, _ = first_line(error).partition(": <_io")  # what an address in memory follows
             reason = re.sub(r" '/[^']*'", "", reason)  # nor a name of our own
-            raise RecordError.naming(
-                "format", form, f"damaged {form} file, {reason}; fetch it again."
-            ) from error
+            raise RecordError(f"damaged {form} file, {reason}; fetch it again.", format=form) from error
     messages = [first_line(warning.message) for warning in caught] + [first_line(line) for line in lines]
     if form == "MSEED" and (damage := [text for text in messages if _DAMAGE.search(text)]):
-        raise RecordError.naming("format", form, f"damaged {form} file, {damage[0]}; fetch it again.")
+        raise RecordError(f"damaged {form} file, {damage[0]}; fetch it again.", format=form)
     samples = sum(trace.stats.npts for trace in result)
     if not samples:
-        raise RecordError.naming("samples", 0, f"the {form} file holds no samples.")
+        raise RecordError(f"the {form} file holds no samples.", samples=0)
     if samples > LARGEST_SERIES:
-        raise RecordError.naming(
-            "samples",
-            samples,
+        raise RecordError(
             f"the file unpacks to {samples} samples, more than {LARGEST_SERIES}; cut it first.",
+            samples=samples,
         )
     notes += [Remark.of(RecordKind.WARNING_OF_OBSPY, text=text) for text in messages]
     for _, station, _, channel, _, begin, length, _ in result.get_gaps():
@@ -73,7 +70,7 @@ def _stream(content: bytes, form: str, **options: Any) -> Any:
             notes.append(Remark.of(RecordKind.BLOCKS_OVERLAP, of, overlap_s=float(-length), time=str(begin)))
     whole = joined(result)
     if not whole:
-        raise RecordError.naming("samples", 0, f"the {form} file holds no samples.")
+        raise RecordError(f"the {form} file holds no samples.", samples=0)
     return whole, tuple(sorted(set(notes), key=str))
 
 
@@ -92,17 +89,15 @@ def _check_blocks(content: bytes) -> list[Remark]:
             at += get_record_information(io.BytesIO(content), offset=at)["record_length"]
     if at != len(content):
         record = f"the last record of {notes['record_length']} bytes"
-        raise RecordError.naming(
-            "record",
-            notes["excess_bytes"],
+        raise RecordError(
             f"{record} is cut after {notes['excess_bytes']}; fetch the whole file.",
+            record=notes["excess_bytes"],
         )
     samples = sum(trace.stats.npts for trace in heads)
     if samples > LARGEST_SERIES:
-        raise RecordError.naming(
-            "samples",
-            samples,
+        raise RecordError(
             f"the file unpacks to {samples} samples, more than {LARGEST_SERIES}; cut it first.",
+            samples=samples,
         )
     marks = (content[place : place + 6] for place in range(0, len(content), notes["record_length"]))
     numbers = np.array([int(mark) for mark in marks if mark.isdigit()])
@@ -132,10 +127,8 @@ _KNET_FIRST = re.compile("".join(f"{re.escape(name)}.*\n" for name in _KNET_KEYS
 def _read_knet(content: bytes, options: Options) -> list[Accelerogram]:
     rows = text.lines(content, len(_KNET_KEYS))
     if missing := [name for name in _KNET_KEYS if not any(row.startswith(name) for row in rows)]:
-        raise RecordError.naming(
-            "header",
-            missing[0],
-            f"the header has no line {missing[0]!r}; K-NET's has {len(_KNET_KEYS)} lines.",
+        raise RecordError(
+            f"the header has no line {missing[0]!r}; K-NET's has {len(_KNET_KEYS)} lines.", header=missing[0]
         )
     head = "\n".join(rows)
     # Of "3920.5(gal)" obspy would take the whole part, and "1_0" for a number.
@@ -181,7 +174,7 @@ def _read_sac(content: bytes, options: Options) -> list[Accelerogram]:
         try:
             inventory = None if options.unit else _inventory(trace.stats, options)
         except UndeclaredError as error:
-            raise UndeclaredError(_SAC_SILENT.format(error), "unit") from None
+            raise UndeclaredError(_SAC_SILENT.format(error), unit=None) from None
         unit = None if inventory else options.unit_of(None)
         records += _taken([trace], inventory, unit, options, warnings)
     return records
@@ -208,8 +201,9 @@ def _check_sac(header: dict[str, float], data: np.ndarray, step: float) -> None:
     for key, value in measured.items():
         if allowed and key in header and not abs(header[key] - value) <= allowed:
             stated = f"the header states {key.upper()} = {header[key]:g}, but the samples reach {value:g}"
-            raise RecordError.naming(
-                key, header[key], f"{stated}; the file is damaged or its header another's; fetch it again."
+            raise RecordError(
+                f"{stated}; the file is damaged or its header another's; fetch it again.",
+                **{key: header[key]},
             )
     begin = header.get("b", 0.0)
     end = header.get("e", 0.0)
@@ -217,8 +211,8 @@ def _check_sac(header: dict[str, float], data: np.ndarray, step: float) -> None:
     allowed = 0.5 * step + 3e-7 * max(abs(begin), abs(end))
     if {"b", "e"} <= header.keys() and begin != end and abs(end - begin - step * (data.size - 1)) > allowed:
         stated = f"the header states an end at {end:g} s, but {data.size} samples every {step:g} s"
-        raise RecordError.naming(
-            "e", header["e"], f"{stated} from {begin:g} s end elsewhere; the file is damaged; fetch it again."
+        raise RecordError(
+            f"{stated} from {begin:g} s end elsewhere; the file is damaged; fetch it again.", e=header["e"]
         )
 
 
@@ -242,22 +236,20 @@ def _check_frames(content: bytes) -> None:
         _, _, _, _, kind, head, body, _, checksum = _TAG.unpack_from(content, at)
         frame = content[at + _TAG.size : at + _TAG.size + head + body]
         if len(frame) < head + body or checksum not in (0, sum(frame) & 0xFFFF) or (kind == 1) != (at == 0):
-            raise RecordError.naming(
-                "frame", at, f"the frame at byte {at} is cut or damaged: its sum differs; fetch it again."
+            raise RecordError(
+                f"the frame at byte {at} is cut or damaged: its sum differs; fetch it again.", frame=at
             )
         if kind == 2 and head >= _FRAME.size:
             seconds, milliseconds = _FRAME.unpack_from(frame)
             now = 1000 * seconds + milliseconds
             if before is not None and now - before != _FRAME_LENGTH:
                 late = f"the frame at byte {at} begins {now - before} ms after the one before, not {_FRAME_LENGTH} ms"
-                raise RecordError.naming(
-                    "frame", at, f"{late}: frames are missing, repeated or out of order."
-                )
+                raise RecordError(f"{late}: frames are missing, repeated or out of order.", frame=at)
             before = now
         at += _TAG.size + head + body
     if content[at:].strip(b"\0"):
-        raise RecordError.naming(
-            "frame", at, f"what stands at byte {at} is no frame; the file is damaged, fetch it again."
+        raise RecordError(
+            f"what stands at byte {at} is no frame; the file is damaged, fetch it again.", frame=at
         )
 
 
@@ -274,11 +266,10 @@ def _read_counts(form: str, content: bytes, options: Options) -> list[Accelerogr
     traces, warnings = _stream(content, form)
     for trace in traces if seconds else ():
         if trace.stats.npts != round(seconds * trace.stats.sampling_rate):
-            raise RecordError.naming(
-                "samples",
-                trace.stats.npts,
+            raise RecordError(
                 f"channel {trace.stats.channel} holds {trace.stats.npts} samples in {seconds} s at "
                 f"{trace.stats.sampling_rate:g} Hz: seconds of it are missing; fetch the file again.",
+                samples=trace.stats.npts,
             )
     unit = _stated_unit(traces, options)
     inventory = None if unit else _inventory(traces[0].stats, options)
@@ -298,11 +289,10 @@ def _read_gse(content: bytes, options: Options) -> list[Accelerogram]:
     lines = content.split(b"\n") if is_compressed else []
     bodies = (line for line in lines if not line.startswith(_GSE_HEADS))
     if longest := next((line for line in bodies if len(line) > _GSE_LINE), b""):
-        raise RecordError.naming(
-            "line",
-            len(longest),
+        raise RecordError(
             f"a line of the samples has {len(longest)} characters, but must have at most 80: the file is damaged; "
             "fetch it again.",
+            line=len(longest),
         )
     return _read_counts("GSE2" if content.lstrip().startswith(b"WID2") else "GSE1", content, options)
 
@@ -327,11 +317,10 @@ def _check_lists(content: bytes, is_of_pairs: bool) -> None:
         text.check_plain(numbers)
         found = len(numbers.split())
         if found != declared:
-            raise RecordError.naming(
-                "samples",
-                found,
+            raise RecordError(
                 f"a head declares {declared} samples, but {found} stand below it: the file is cut or damaged; fetch "
                 "the whole file.",
+                samples=found,
             )
 
 
@@ -347,7 +336,7 @@ def _stated_unit(traces: Any, options: Options) -> str | None:
         if acceleration_unit(unit) is None and options.unit is None:
             raise UndeclaredError(
                 f"unit is {unit!r} in the file, which is none of acceleration; {advice('unit')} if it is one.",
-                "unit",
+                unit=unit,
             )
     return next((unit for unit in units if acceleration_unit(unit)), None)
 
@@ -363,7 +352,8 @@ def _inventory(stats: Any, options: Options) -> Any:
         several = f"several do: {', '.join(p.name for p in naming)}" if naming else "none beside it does"
         missing = f"no single StationXML describes {stats.network}.{stats.station} ({several})"
         raise UndeclaredError(
-            f"{missing}; {advice('inventory')}; if the samples are acceleration, {advice('unit')}."
+            f"{missing}; {advice('inventory')}; if the samples are acceleration, {advice('unit')}.",
+            unit=None,
         )
     return _parse(naming[0])
 
@@ -411,14 +401,14 @@ def parsed_inventory(content: bytes, name: str) -> Any:
     from obspy import read_inventory  # which takes a second to import
 
     if b"FDSNStationXML" not in content[:2000] or b"<!DOCTYPE" in content:
-        raise RecordError.naming("inventory", name, f"{name} is not a plain StationXML file; give one.")
+        raise RecordError(f"{name} is not a plain StationXML file; give one.", inventory=name)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             return read_inventory(io.BytesIO(content), format="STATIONXML")
     except Exception as error:
-        raise RecordError.naming(
-            "inventory", name, f"damaged StationXML {name}, {str(error)[:200]}; fetch it again."
+        raise RecordError(
+            f"damaged StationXML {name}, {str(error)[:200]}; fetch it again.", inventory=name
         ) from error
 
 
@@ -460,17 +450,15 @@ def _seconds_of_win(content: bytes) -> int:
         try:
             times.append(datetime.strptime(time, "%y%m%d%H%M%S").timestamp())
         except ValueError:
-            raise RecordError.naming(
-                "time",
-                time,
+            raise RecordError(
                 f"the block at byte {at} has the time {time!r}, which is none; fetch the file again.",
+                time=time,
             ) from None
         at += length
     if at > len(content) or content[at:].strip(b"\0") or (np.diff(times) != 1).any():
-        raise RecordError.naming(
-            "seconds",
-            len(times),
+        raise RecordError(
             "the seconds of the file do not follow one another, or the last is cut; fetch it again.",
+            seconds=len(times),
         )
     return len(times)
 

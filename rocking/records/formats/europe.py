@@ -115,8 +115,8 @@ def _read_esd(content: bytes, options: Options) -> list[Accelerogram]:
     of_motion = [lines for lines in sections if re.match(r"\s*-> *corrected acc", lines[0], re.I)]
     if len(of_motion) != 1:
         titles = ", ".join(lines[0].strip(" \t->")[:40] for lines in sections)
-        raise RecordError.naming(
-            "quantity", titles, f"the file holds {titles}; use the file of corrected acceleration (.cor)."
+        raise RecordError(
+            f"the file holds {titles}; use the file of corrected acceleration (.cor).", quantity=titles
         )
     (title, *numbers) = of_motion[0]
     start = _ESD_START.search(head)

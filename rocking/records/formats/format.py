@@ -77,10 +77,8 @@ class Options:
         if self.time_step is not None:
             positive(RecordError, "time_step", self.time_step, "s")
         if self.response not in ("sensitivity", "full"):
-            raise RecordError.naming(
-                "response",
-                self.response,
-                f"response is {self.response!r}, but must be 'sensitivity' or 'full'.",
+            raise RecordError(
+                f"response is {self.response!r}, but must be 'sensitivity' or 'full'.", response=self.response
             )
 
     def unit_of(self, in_file: str | None) -> str:
@@ -91,7 +89,7 @@ class Options:
         claims = _claims("unit", in_file, self.unit)
         unit = agreed("unit", claims)
         if unit is None:
-            raise UndeclaredError(_UNDECLARED.format("unit", advice("unit")), "unit")
+            raise UndeclaredError(_UNDECLARED.format("unit", advice("unit")), unit=None)
         acceleration_factor(unit)
         return acceleration_unit(unit) or unit
 
@@ -101,7 +99,7 @@ class Options:
             _check_step(in_file)
         step = agreed("time_step", _claims("time_step", in_file, self.time_step))
         if step is None:
-            raise UndeclaredError(_UNDECLARED.format("time_step", advice("time_step")), "time_step")
+            raise UndeclaredError(_UNDECLARED.format("time_step", advice("time_step")), time_step=None)
         return _check_step(step)
 
     def accelerogram(
@@ -130,8 +128,8 @@ def _check_step(step: float) -> float:
     """Return a time step, s. Raises RecordError for one that no recorder has."""
     step = positive(RecordError, "time_step", float(step), "s")
     if not _STEPS[0] <= step <= _STEPS[1]:
-        raise RecordError.naming(
-            "time_step", step, f"time_step is {step!r} s, but must be from {_STEPS[0]:g} to {_STEPS[1]:g} s."
+        raise RecordError(
+            f"time_step is {step!r} s, but must be from {_STEPS[0]:g} to {_STEPS[1]:g} s.", time_step=step
         )
     return step
 
@@ -188,9 +186,7 @@ def without_offset(values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
             f"above the 5 g that no recorder is off by; {advice('unit')} as it truly is, or, of counts of miniSEED and "
             f"SAC, {advice('inventory')}"
         )
-        raise RecordError.naming(
-            "mean", float(offset), f"the mean of the record is {offset:.6g} {unit}, {limit}."
-        )
+        raise RecordError(f"the mean of the record is {offset:.6g} {unit}, {limit}.", mean=float(offset))
     sentence = f"Mean of the whole record removed, {offset:.6g} {unit}: the offset of the recorder."
     return values - offset, sentence
 
@@ -368,19 +364,16 @@ class Layout:
         if "quantity" in self.patterns:
             quantity = self.required("quantity", head)
             if quantity.lower() not in ("acceleration", "accelaration"):  # as RESORCE spells it
-                raise RecordError.naming(
-                    "quantity",
-                    quantity,
+                raise RecordError(
                     f"the file holds {quantity}; use the acceleration file of the same record.",
+                    quantity=quantity,
                 )
         if "unit" not in self.patterns:
             return self.unit
         unit = self.required("unit", head)
         refuse_other_quantity("", unit)
         if acceleration_factor(unit) != acceleration_factor(self.unit or unit):
-            raise RecordError.naming(
-                "unit", unit, f"unit is {unit!r}, but must be {self.unit!r} in this format."
-            )
+            raise RecordError(f"unit is {unit!r}, but must be {self.unit!r} in this format.", unit=unit)
         return self.unit or unit
 
     def _facts(self, head: str) -> dict[str, Any]:
@@ -412,7 +405,7 @@ def parted(
     text = lines(content)
     at = next((i for i, line in enumerate(text[:longest]) if end(line)), None) if callable(end) else end
     if at is None:
-        raise RecordError.naming("header", what, f"no line {what}; the file is cut.")
+        raise RecordError(f"no line {what}; the file is cut.", header=what)
     return "\n".join(text[:at]), text[at:]
 
 
@@ -439,10 +432,9 @@ def required(what: str, pattern: str, text: str) -> re.Match[str]:
     """Return the first match of `pattern` in `text`. Raises RecordError saying `what` the header lacks."""
     match = re.search(pattern, text, re.I | re.M) if pattern else None
     if not match or not match[1].strip():
-        raise RecordError.naming(
-            "header",
-            what,
+        raise RecordError(
             f"the header does not declare {what}; the file is damaged or another; fetch it again.",
+            header=what,
         )
     return match
 
@@ -540,26 +532,24 @@ def check_duration(declared: float, samples: int, time_step: float, steps: float
     lasts = samples * time_step
     if abs(lasts - declared) > steps * time_step + rounding:
         stated = f"the header declares a duration of {declared:g} s, but {samples} samples last {lasts:g} s"
-        raise RecordError.naming(
-            "duration", declared, f"{stated}: the file is truncated or its header another's; fetch it again."
+        raise RecordError(
+            f"{stated}: the file is truncated or its header another's; fetch it again.", duration=declared
         )
 
 
 def check_equal(field: str, first: float, second: float, relative: float = 1e-3) -> None:
     """Check that two places of a header give the same number. Raises RecordError when they do not."""
     if abs(first - second) > relative * abs(first):
-        raise RecordError.naming(
-            field,
-            (first, second),
+        raise RecordError(
             f"the header gives {field} as {first:g} and {second:g}; fetch the file again.",
+            **{field: (first, second)},
         )
 
 
 def check_end(rows: list[str]) -> None:
     """Check that nothing but blanks follows the last channel. Raises RecordError: a channel is cut."""
     if any(row.strip() for row in rows):
-        raise RecordError.naming(
-            "lines",
-            len(rows),
+        raise RecordError(
             f"{len(rows)} lines follow the last whole channel: another is cut; fetch it again.",
+            lines=len(rows),
         )

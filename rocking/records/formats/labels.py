@@ -86,10 +86,9 @@ class ColumnLabel:
         if match is None:
             return 1.0
         if match[1] and match[1].lower() not in _TIMES:
-            raise RecordError.naming(
-                "unit",
-                match[1],
+            raise RecordError(
                 f"the times are in {match[1][:20]!r}, but must be in s, ms or min; convert them.",
+                unit=match[1],
             )
         return _TIMES.get((match[1] or match[2] or "s").lower(), 1.0)
 

@@ -94,8 +94,8 @@ class TableLayout:
         for item in items:
             layout = _with_item(layout, item)
         if not any(column.role == "acceleration" for column in layout.columns):
-            raise RecordError.naming(
-                "answer", answer, f"no column of {answer!r} is of acceleration; answer like {_EXAMPLES}."
+            raise RecordError(
+                f"no column of {answer!r} is of acceleration; answer like {_EXAMPLES}.", answer=answer
             )
         if unit := [column for column in layout.columns if column.role == "acceleration"][-1].unit:
             is_bare = [column.role == "acceleration" and not column.unit for column in layout.columns]
@@ -152,16 +152,14 @@ def _with_item(layout: TableLayout, item: str) -> TableLayout:
     if word == "one" and rest.split(" ")[0] == "series":
         return replace(layout, columns=(_acceleration("a", rest.partition(" ")[2]),))
     if layout.is_series:
-        raise RecordError.naming(
-            "answer", item, f"{item!r} stands in no answer of one series; answer like {_EXAMPLES}."
+        raise RecordError(
+            f"{item!r} stands in no answer of one series; answer like {_EXAMPLES}.", answer=item
         )
     if item == "-":
         return replace(layout, columns=(*layout.columns, Column("other")))
     if word in _TIME_WORDS:
         if (rest or "s") not in _TIMES:
-            raise RecordError.naming(
-                "answer", rest, f"the times are in {rest!r}, but must be in s, ms or min."
-            )
+            raise RecordError(f"the times are in {rest!r}, but must be in s, ms or min.", answer=rest)
         return replace(layout, columns=(*layout.columns, Column("time", seconds=_TIMES[rest or "s"])))
     if unit_alone := acceleration_unit(item):
         return replace(layout, columns=(*layout.columns, Column("acceleration", unit=unit_alone)))
@@ -171,15 +169,15 @@ def _with_item(layout: TableLayout, item: str) -> TableLayout:
 
 def _acceleration(name: str, unit: str) -> Column:
     if not _NAME.fullmatch(name):
-        raise RecordError.naming("answer", name, f"{name!r} names no component; answer like {_EXAMPLES}.")
+        raise RecordError(f"{name!r} names no component; answer like {_EXAMPLES}.", answer=name)
     if quantity := other_quantity(name):
-        raise RecordError.naming(
-            "answer", name, f"{name!r} is {quantity}; write - for a column that is no acceleration."
+        raise RecordError(
+            f"{name!r} is {quantity}; write - for a column that is no acceleration.", answer=name
         )
     known = acceleration_unit(unit)
     if unit.strip() and known is None:
-        raise RecordError.naming(
-            "answer", unit.strip(), f"{unit.strip()!r} is no unit of acceleration; answer like {_EXAMPLES}."
+        raise RecordError(
+            f"{unit.strip()!r} is no unit of acceleration; answer like {_EXAMPLES}.", answer=unit.strip()
         )
     return Column("acceleration", "" if name.lower() in _PLAIN else name, known)
 
@@ -333,7 +331,7 @@ class AskedError(UndeclaredError):
     """A table that leaves its unit, its step or its columns open; `question`: what layouts.csv asks of it."""
 
     def __init__(self, message: str, field: str, question: Question) -> None:
-        super().__init__(message, field)
+        super().__init__(message, **{field: None})
         self.question = question
 
 
@@ -358,7 +356,7 @@ class LayoutAnswer:
         """Return the error that says why it cannot hold."""
         drawn = f", drawn from {self.file}" if self.file else ""
         place = f"{self.whose}, line {self.line}, column answer, {self.text!r}{drawn}"
-        return RecordError.naming("answer", self.text, f"{place}: {why}")
+        return RecordError(f"{place}: {why}", answer=self.text)
 
 
 class Layouts:
@@ -409,11 +407,10 @@ class Layouts:
         found = {answer.text: answer for answer in self._matching(signature)}
         if len(found) > 1:
             first, second = list(found.values())[:2]
-            raise RecordError.naming(
-                "answer",
-                (first.text, second.text),
+            raise RecordError(
                 f"{first.whose}, lines {first.line} and {second.line}, column answer, hold for this file both, and say "
                 f"{first.text!r} and {second.text!r}; remove one of them.",
+                answer=(first.text, second.text),
             )
         return next(iter(found.values()), None)
 

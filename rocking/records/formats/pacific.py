@@ -65,10 +65,8 @@ def _read_jma(content: bytes, options: Options) -> list[Accelerogram]:
     head, rows = parted(content, _JMA_HEADER)
     labels = _JMA_NAMES.split(",")
     if broken := next((row for row in rows if row.strip() and row.count(",") != len(labels) - 1), ""):
-        raise RecordError.naming(
-            "samples",
-            broken,
-            f"a line of the samples is {broken[:40]!r}, but must hold {len(labels)} numbers.",
+        raise RecordError(
+            f"a line of the samples is {broken[:40]!r}, but must hold {len(labels)} numbers.", samples=broken
         )
     table = text.table([row.replace(",", " ") for row in rows], len(labels))
     return _JMA.channels(head, table, labels, options)

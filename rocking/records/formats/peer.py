@@ -49,16 +49,16 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     steps = ((place, pattern.search(line[:200])) for place, line in enumerate(head) for pattern in _STEPS)
     found = next(((place, match) for place, match in steps if match), None)
     if found is None:
-        raise RecordError.naming(
-            "header", "NPTS, DT", "the header holds no line with NPTS and DT; give a PEER AT2 file."
+        raise RecordError(
+            "the header holds no line with NPTS and DT; give a PEER AT2 file.", header="NPTS, DT"
         )
     place, size = found
     head = head[: place + 1]
     text = "\n".join(head)
     # What a line of its own says counts more than a title that speaks of an accelerogram.
     if quantity := next((other for line in head if (other := other_quantity(line))), None):
-        raise RecordError.naming(
-            "quantity", quantity, f"this is a PEER {quantity} file; use the AT2 file of the same record."
+        raise RecordError(
+            f"this is a PEER {quantity} file; use the AT2 file of the same record.", quantity=quantity
         )
     said = Declarations.of(head)
     declared = count("NPTS", size["npts"])

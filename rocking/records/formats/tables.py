@@ -266,18 +266,15 @@ def _refuse_others(table: NumberTable, file: str) -> None:
     names = [label.text for label in table.labels]
     if names and (_SPECTRAL.fullmatch(names[0]) or any(map(_ORDINATE.fullmatch, names[1:]))):
         heads = ", ".join(names[:4])
-        raise RecordError.naming(
-            "quantity",
-            "spectrum",
-            f"this is a spectrum ({heads}); use the record of acceleration against time.",
+        raise RecordError(
+            f"this is a spectrum ({heads}); use the record of acceleration against time.", quantity="spectrum"
         )
     above = "\n".join((*table.comments, *table.words))
     refuse_other_quantity(file, above)
     if (word := _OTHER_TITLE.search(above)) and not _SPEAKS_OF_MOTION.search(above):
-        raise RecordError.naming(
-            "quantity",
-            word[1].lower(),
+        raise RecordError(
             f"this is a file of {word[1].lower()}; use the acceleration of the same record.",
+            quantity=word[1].lower(),
         )
     if not any(label.unit for label in table.labels):
         refuse_by_name(file)
@@ -391,8 +388,8 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     table, pointed = _table_of(content)
     seen = _seen_of(content)
     if pointed is None or table is None or seen is None:
-        raise RecordError.naming(
-            "decimals", ",", "the commas are decimal signs or part columns; write points, or semicolons."
+        raise RecordError(
+            "the commas are decimal signs or part columns; write points, or semicolons.", decimals=","
         )
     _refuse_others(table, options.file)
 
@@ -469,10 +466,9 @@ def _above(table: NumberTable, layout: TableLayout | None, content: bytes) -> tu
         at += 1
     if len(found) != len(roles) or not all(map(text.is_number, found)):
         named = ", ".join(roles)
-        raise RecordError.naming(
-            "above",
-            " ".join(found),
+        raise RecordError(
             f"above its samples stand {' '.join(found)[:40]!r}, and not the numbers {named}.",
+            above=" ".join(found),
         )
     return dict(zip(roles, map(float, found), strict=True)), max(at, table.start if table.counts else at)
 
@@ -537,7 +533,7 @@ def _plain_rows(table: NumberTable, below: bytes) -> tuple[NumberTable, bytes, t
     if _EMPTY_LAST.search(bare):
         bare = _EMPTY_END.sub(b"", bare)
     if _EMPTY_CELL.search(bare):
-        raise RecordError.naming("cell", "", "a cell is empty; every column needs a number on every line.")
+        raise RecordError("a cell is empty; every column needs a number on every line.", cell="")
     return replace(table, tail=tail), bare, notes
 
 
@@ -801,10 +797,9 @@ def _values(body: bytes, table: NumberTable, layout: TableLayout | None) -> np.n
         values = text.numbers(spaced)
         _check_rows(spaced, table.width, may_end_short=not table.labels)
     if values.size < 2:
-        raise RecordError.naming(
-            "samples",
-            int(values.size),
+        raise RecordError(
             f"{values.size} numbers stand below what is passed over, but at least 2 are needed.",
+            samples=int(values.size),
         )
     return values
 
@@ -816,8 +811,8 @@ def _check_rows(spaced: bytes, width: int, may_end_short: bool) -> None:
         del counts[-1]
     for at, count in enumerate(counts, 1):
         if count != width:
-            raise RecordError.naming(
-                "columns", count, f"row {at} of the samples has {count} columns, but the first has {width}."
+            raise RecordError(
+                f"row {at} of the samples has {count} columns, but the first has {width}.", columns=count
             )
 
 
@@ -835,10 +830,9 @@ def _channels(
     """Return the channels of a table: each column of acceleration, with the times left of it, else the first ones."""
     columns = layout.columns
     if values.size % len(columns):
-        raise RecordError.naming(
-            "columns",
-            values.size % len(columns),
+        raise RecordError(
             f"the last row of the samples has {values.size % len(columns)} of {len(columns)} columns.",
+            columns=values.size % len(columns),
         )
     rows = values.reshape(-1, len(columns))
     said = table.said
@@ -884,14 +878,13 @@ def _refuse_all(labels: Sequence[ColumnLabel]) -> None:
         "velocity",
         "displacement",
     ):
-        raise RecordError.naming(
-            "quantity", quantity, f"this is a file of {quantity}; use the acceleration of the same record."
+        raise RecordError(
+            f"this is a file of {quantity}; use the acceleration of the same record.", quantity=quantity
         )
     contents = "; ".join(f"{name[:40]!r} is {what}" for name, what in others.items())
-    raise RecordError.naming(
-        "columns",
-        others,
+    raise RecordError(
         f"no column is of acceleration in a unit that is known: {contents}; convert the column, or use another file.",
+        columns=others,
     )
 
 

@@ -43,13 +43,13 @@ def is_number(token: str) -> bool:
 def number(field: str, token: str) -> float:
     """Return `token` as a float. Raises RecordError naming file and field."""
     if not is_number(token.strip()):
-        raise RecordError.naming(
-            field, token.strip(), f"{field} is {token.strip()[:40]!r}, but must be a number."
+        raise RecordError(
+            f"{field} is {token.strip()[:40]!r}, but must be a number.", **{field: token.strip()}
         )
     value = float(token)
     if value and not 1 / _LARGEST < abs(value) < _LARGEST:
-        raise RecordError.naming(
-            field, token.strip(), f"{field} is {token.strip()[:40]!r}, beyond what any header holds."
+        raise RecordError(
+            f"{field} is {token.strip()[:40]!r}, beyond what any header holds.", **{field: token.strip()}
         )
     return value
 
@@ -58,10 +58,9 @@ def count(field: str, token: str) -> int:
     """Return `token` as a whole number, zero or more. Raises RecordError naming file and field."""
     value = number(field, token)
     if value < 0 or value != int(min(value, 1e9)):
-        raise RecordError.naming(
-            field,
-            token.strip(),
+        raise RecordError(
             f"{field} is {token.strip()[:40]!r}, but must be a whole number from 0 to 1e9.",
+            **{field: token.strip()},
         )
     return int(value)
 
@@ -75,15 +74,14 @@ def numbers(text: bytes | str) -> np.ndarray:
             values = np.fromstring(text, sep=" ") if text.strip() else np.empty(0)
             if values.size and not np.abs(values).max() < _LARGEST:
                 at = int(np.argmax(~(np.abs(values) < _LARGEST)))
-                raise RecordError.naming(
-                    "samples",
-                    float(values[at]),
+                raise RecordError(
                     f"number {at + 1} of the samples is {values[at]:g}, beyond {_LARGEST:g}.",
+                    samples=float(values[at]),
                 )
             return values
     check_plain(text)
-    raise RecordError.naming(
-        "samples", None, "the samples cannot be told apart; every sample must be a plain decimal number."
+    raise RecordError(
+        "the samples cannot be told apart; every sample must be a plain decimal number.", samples=None
     )
 
 
@@ -96,9 +94,7 @@ def check_plain(text: bytes) -> None:
         for token in row.split():
             if not is_number(token):
                 defect = f"line {line} of the samples holds {token[:40]!r}"
-                raise RecordError.naming(
-                    "samples", token, f"{defect}; every sample must be a plain decimal number."
-                )
+                raise RecordError(f"{defect}; every sample must be a plain decimal number.", samples=token)
 
 
 def fields(rows: list[str], width: int = 0, margin: int = 0) -> np.ndarray:
@@ -114,10 +110,9 @@ def fields(rows: list[str], width: int = 0, margin: int = 0) -> np.ndarray:
     bare = (row.rstrip()[margin:] for row in rows)
     cells = [row[at : at + width] for row in bare for at in range(0, len(row), width)]
     if broken := next((cell for cell in cells if len(cell.split()) != 1), ""):
-        raise RecordError.naming(
-            "samples",
-            broken.strip(),
+        raise RecordError(
             f"a column of {width} characters holds {broken.strip()!r}, not one number.",
+            samples=broken.strip(),
         )
     return numbers(" ".join(cells))
 
@@ -126,10 +121,9 @@ def table(rows: list[str], columns: int, width: int = 0, margin: int = 0) -> np.
     """Return the numbers of `rows` in columns, (n, columns), as fields() reads them; RecordError if one lacks."""
     values = fields(rows, width, margin)
     if not columns or not values.size or values.size % columns:
-        raise RecordError.naming(
-            "samples",
-            int(values.size),
+        raise RecordError(
             f"{values.size} numbers do not fill {columns} columns; the file is truncated.",
+            samples=int(values.size),
         )
     return values.reshape(-1, columns)
 
@@ -146,21 +140,19 @@ def whole(values: np.ndarray, declared: int, per_line: int) -> tuple[np.ndarray,
     Raises RecordError when there are fewer (the file is cut) or many more (something else stands in it).
     """
     if declared < 2:
-        raise RecordError.naming(
-            "samples", declared, f"the header declares {declared} samples, but must declare at least 2."
+        raise RecordError(
+            f"the header declares {declared} samples, but must declare at least 2.", samples=declared
         )
     if values.size == declared:
         return values, ()
     stated = f"the header declares {declared} samples, but the file holds {values.size}"
     if values.size < declared:
-        raise RecordError.naming(
-            "samples",
-            declared,
-            f"{stated}: it is truncated or its header is another's; fetch the whole file.",
+        raise RecordError(
+            f"{stated}: it is truncated or its header is another's; fetch the whole file.", samples=declared
         )
     if values.size > declared + per_line:
-        raise RecordError.naming(
-            "samples", declared, f"{stated}: more than one line too many; mend the header or cut the file."
+        raise RecordError(
+            f"{stated}: more than one line too many; mend the header or cut the file.", samples=declared
         )
     return values, (Remark.of(RecordKind.SAMPLES_SURPLUS, declared=declared, held=values.size),)
 
@@ -175,10 +167,8 @@ def filled(rows: list[str], declared: int, per_line: int, width: int, margin: in
     if len(rows) < line_count or (len(rows) > line_count and declared > 1):
         state = "truncated" if len(rows) < line_count else "damaged"
         stated = f"the header declares {declared} samples, or {line_count} lines, but {len(rows)} stand there"
-        raise RecordError.naming(
-            "samples",
-            declared,
-            f"{stated}: lines are missing or repeated, the file is {state}; fetch it again.",
+        raise RecordError(
+            f"{stated}: lines are missing or repeated, the file is {state}; fetch it again.", samples=declared
         )
     return whole(fields(rows, width, margin), declared, per_line=0)[0]
 
@@ -195,21 +185,18 @@ def even_step(times: np.ndarray) -> float | None:
     Raises RecordError when they do not increase.
     """
     if times.size < 2 or not np.all(np.isfinite(times)):
-        raise RecordError.naming(
-            "times", int(times.size), f"{times.size} finite times, but at least 2 are needed."
-        )
+        raise RecordError(f"{times.size} finite times, but at least 2 are needed.", times=int(times.size))
     steps = np.diff(times)
     if steps.min() <= 0:
         at = int(np.flatnonzero(steps <= 0)[0])
-        raise RecordError.naming(
-            "times",
-            float(times[at + 1]),
+        raise RecordError(
             f"time {times[at + 1]:g} s follows {times[at]:g} s, but times must increase.",
+            times=float(times[at + 1]),
         )
     step = (times[-1] - times[0]) / (times.size - 1)
     if step < _SMALLEST_STEP:
-        raise RecordError.naming(
-            "times", step, f"the times are {step:g} s apart, less than any recorder's {_SMALLEST_STEP:g} s."
+        raise RecordError(
+            f"the times are {step:g} s apart, less than any recorder's {_SMALLEST_STEP:g} s.", times=step
         )
     off = np.abs(times - (times[0] + step * np.arange(times.size))).max()
     shifted = (times * 10.0**digits for digits in range(9))
@@ -232,10 +219,9 @@ def even_step(times: np.ndarray) -> float | None:
 def only_even_step(times: np.ndarray) -> float:
     """Return the step of `times` (n,) s. Raises RecordError where they are uneven."""
     if (step := even_step(times)) is None:
-        raise RecordError.naming(
-            "times",
-            "uneven",
+        raise RecordError(
             "the times are not even, but this format's are; the file is damaged; fetch it again.",
+            times="uneven",
         )
     return step
 
@@ -249,8 +235,8 @@ def resampled(times: np.ndarray) -> tuple[float, np.ndarray, Remark]:
     check_no_gap(times, _LONGEST_GAP * step)
     number = int(min((times[-1] - times[0]) / step, 1e12)) + 1 if step > 0 else 0
     if not 2 <= number <= LARGEST_SERIES:
-        raise RecordError.naming(
-            "times", number, f"the times are uneven and would make {number} samples {step:g} s apart."
+        raise RecordError(
+            f"the times are uneven and would make {number} samples {step:g} s apart.", times=number
         )
     remark = Remark.of(RecordKind.UNEVEN, samples=times.size, number=number, time_step_s=step)
     return step, times[0] + step * np.arange(number), remark
@@ -282,10 +268,9 @@ def check_no_gap(times: np.ndarray, longest: float) -> None:
     at = int(gaps.argmax())
     if gaps[at] > longest * (1 + 1e-9):
         gap = f"no samples between {times[at]:g} and {times[at + 1]:g} s, more than {longest:g} s apart"
-        raise RecordError.naming(
-            "times",
-            (float(times[at]), float(times[at + 1])),
+        raise RecordError(
             f"{gap}; cut the record there, a gap is not bridged.",
+            times=(float(times[at]), float(times[at + 1])),
         )
 
 

@@ -65,33 +65,28 @@ def _cosmos(block: list[str], options: Options, total: int) -> Accelerogram | No
     """Return the accelerogram of a block, or None where it is of another quantity."""
     at, data = next(((i, m) for i, line in enumerate(block) if (m := _DATA.match(line))), (0, None))
     if data is None:
-        raise RecordError.naming(
-            "header",
-            "points, units and Format",
+        raise RecordError(
             "no line gives points, units and Format of the samples; the file is truncated.",
+            header="points, units and Format",
         )
     by_code = _CODES.get(data["code"] or "")
     if not data["quantity"].lower().startswith("accel"):
         if by_code:
-            raise RecordError.naming(
-                "quantity",
-                data["quantity"],
+            raise RecordError(
                 f"a channel of {data['quantity']} has units of {by_code} by its code.",
+                quantity=data["quantity"],
             )
         return None
     if acceleration_factor(by_code or data["unit"]) != acceleration_factor(data["unit"]):
-        raise RecordError.naming(
-            "unit",
-            data["unit"],
+        raise RecordError(
             f"the units are {data['unit']!r}, but their code {data['code']} says {by_code}.",
+            unit=data["unit"],
         )
     head = "\n".join(block[:at])
     end = next((i for i, row in enumerate(block) if i > at and _END.match(row)), None)
     if end is None:
-        raise RecordError.naming(
-            "header",
-            "End-of-data",
-            "no line End-of-data ends a channel: the file is truncated; fetch it again.",
+        raise RecordError(
+            "no line End-of-data ends a channel: the file is truncated; fetch it again.", header="End-of-data"
         )
     check_end(block[end + 1 :])
     per_line, width = (max(1, int(data[name])) for name in ("per_line", "width"))
@@ -119,10 +114,9 @@ def _reals(head: list[str]) -> list[float]:
             values = text.fields(rows, int(match[3]) or 1)
             if values.size == text.count("real-header values", match[1]) > _PEAK_TIME:
                 return [float(value) for value in values]
-    raise RecordError.naming(
-        "header",
-        "reals",
+    raise RecordError(
         "the real header does not hold the values it announces: it is damaged; fetch it again.",
+        header="reals",
     )
 
 
@@ -202,8 +196,8 @@ def _digitised(
     # The length may count a last step or not.
     if abs(duration - times[-1]) > 2 * np.ptp(times) / (times.size - 1) + 0.001:
         stated = f"the header declares a length of {duration:g} s, but the last sample is at {times[-1]:g} s"
-        raise RecordError.naming(
-            "duration", duration, f"{stated}; the file is damaged or its header is another's; fetch it again."
+        raise RecordError(
+            f"{stated}; the file is damaged or its header is another's; fetch it again.", duration=duration
         )
     if is_even:
         text.only_even_step(times)
@@ -267,11 +261,10 @@ def _csmip(block: list[str], options: Options, total: int) -> Accelerogram:
         return _digitised(_FILM, block, options, total)
     facts: dict[str, Any] = announced[0][1].groupdict() if announced else {}
     if not announced or (facts.get("quantity") or "acc").lower() != "acc":
-        raise RecordError.naming(
-            "header",
-            "POINTS OF ACC DATA",
+        raise RecordError(
             "no line like '1500 POINTS OF ACC DATA EQUALLY SPACED AT .020 SEC.' announces its acceleration: the file "
             "is cut, of velocity, or of another layout; use the file of the same record from another agency.",
+            header="POINTS OF ACC DATA",
         )
     parts = []
     for (i, data), end in zip(announced, [*(i for i, _ in announced[1:]), len(block)], strict=True):

@@ -49,21 +49,19 @@ def opened(source: str | BytesIO) -> Any:
     try:
         import h5py  # of the extra `asdf`
     except ImportError:
-        raise RecordError.naming(
-            "format",
-            "HDF5",
+        raise RecordError(
             "this is an HDF5 file, which a workspace of gmprocess (ASDF) is, and which h5py reads: pip install "
             "'rocking[asdf]'.",
+            format="HDF5",
         ) from None
     file = h5py.File(source, "r")
     form = file.attrs.get("file_format", b"")
     if (form.decode("latin-1") if isinstance(form, bytes) else str(form)).strip("\0 ") != "ASDF":
         file.close()
-        raise RecordError.naming(
-            "format",
-            "HDF5",
+        raise RecordError(
             "this is an HDF5 file, but no ASDF file as the workspaces of gmprocess are; export time and acceleration "
             "as text, with their units as names.",
+            format="HDF5",
         )
     return file
 
@@ -96,10 +94,9 @@ def station_content(file: Any, name: str, largest: int) -> bytes:
         data = _dataset(file, "Waveforms", station, series)
         size += data.size * data.dtype.itemsize
         if size > largest:
-            raise RecordError.naming(
-                "size",
-                size,
+            raise RecordError(
                 f"the station holds more than {largest} bytes, the most that is read; cut it first.",
+                size=size,
             )
         code = f"{match[1]}.{match[2]}.{match[3]}.{match[4]}_{tag}"
         values = np.ascontiguousarray(data[()])
@@ -160,10 +157,8 @@ def _dataset(file: Any, *names: str) -> Any:
     found = _member(file, *names)
     is_plain = isinstance(found, h5py.Dataset) and found.ndim == 1 and found.dtype.kind in "iuf"
     if not is_plain or found.external or found.is_virtual:
-        raise RecordError.naming(
-            "samples",
-            names[-1],
-            f"{names[-1]} is no series of numbers in this file; fetch the workspace again.",
+        raise RecordError(
+            f"{names[-1]} is no series of numbers in this file; fetch the workspace again.", samples=names[-1]
         )
     return found
 
@@ -174,8 +169,8 @@ def _text(file: Any, *names: str) -> str:
         return ""
     data = _dataset(file, *names)
     if data.size > _LARGEST_TEXT:
-        raise RecordError.naming(
-            "size", int(data.size), f"{names[-1]} holds {data.size} bytes, more than {_LARGEST_TEXT}."
+        raise RecordError(
+            f"{names[-1]} holds {data.size} bytes, more than {_LARGEST_TEXT}.", size=int(data.size)
         )
     return bytes(data[()].astype(np.uint8)).decode("utf-8", "replace").strip("\0")
 
@@ -235,7 +230,9 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
         unit = _unit_of(noted, own, trace, is_raw, options)
         inventory = inventory_of(options) or own if unit is None else own
         if unit is None and inventory is None:
-            raise UndeclaredError(f"the workspace holds no StationXML of {trace.id}; {advice('inventory')}.")
+            raise UndeclaredError(
+                f"the workspace holds no StationXML of {trace.id}; {advice('inventory')}.", unit=None
+            )
         (record,) = from_traces([trace], inventory, unit, options.response, None)
         about = {
             name: facts[name]
@@ -266,10 +263,8 @@ def _parted(content: bytes) -> tuple[dict[str, Any], bytes, bytes]:
     length, checksum = _BEGIN.unpack_from(content.ljust(begin, b"\0"), len(_STATION))
     body = content[begin:]
     if not body or zlib.crc32(body) != checksum:
-        raise RecordError.naming(
-            "format",
-            "ASDF station",
-            "the station of a workspace is cut or damaged; fetch the workspace again.",
+        raise RecordError(
+            "the station of a workspace is cut or damaged; fetch the workspace again.", format="ASDF station"
         )
     facts: dict[str, Any] = json.loads(body[:length])
     return facts, b64decode(facts["stationxml"]), body[length:]
@@ -314,7 +309,7 @@ def _unit_of(noted: dict[str, Any], own: Any, trace: Any, is_raw: bool, options:
     if known is None and options.unit is None:
         raise UndeclaredError(
             f"unit is {unit!r} in the workspace, which is none of acceleration; {advice('unit')} if it is one.",
-            "unit",
+            unit=unit,
         )
     return options.unit_of(known)
 
