@@ -4,8 +4,9 @@ from pathlib import Path
 
 from docs.paper.report import EquationRow, equation_rows, paper_figures, paper_report
 from docs.paper.response import PredictionRow, prediction_rows
+from rocking.catalogue import load_catalogue, open_record
 from rocking.errors import RecordError
-from rocking.records import load_catalogue, open_record, read
+from rocking.records import read
 from rocking.reports.style import svg
 from rocking.tables import write_rows, write_whole
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from docs.research.report import Target
     from docs.research.sites import NamedRecord, Records
-    from rocking.records import CatalogueRecord
+    from rocking.catalogue import CatalogueRecord
 
 
 def targets() -> "dict[str, Callable[[Target], None]]":
@@ -78,7 +78,7 @@ def run(name: str, catalogues: Sequence[str], config: Mapping[str, Any], folder:
     from docs.research.shake_table import Campaign
     from docs.research.sites import spread
     from rocking.assessment.scene import load_scenes
-    from rocking.records import load_catalogue
+    from rocking.catalogue import load_catalogue
     from rocking.study.progress import line_writer
     from rocking.study.settings import read_settings
 
@@ -103,7 +103,7 @@ def motions_of(
     catalogue: "Sequence[CatalogueRecord]", mirror: str | None, tell: Callable[[str], None]
 ) -> "Iterator[NamedRecord]":
     """Yield identifier and accelerogram of every component of the records, after a line for each record."""
-    from rocking.records import open_record
+    from rocking.catalogue import open_record
 
     for count, record in enumerate(catalogue, start=1):
         tell(f"{count} of {len(catalogue)}: {record.id}")

@@ -13,11 +13,11 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from rocking.catalogue.files import download
 from rocking.errors import RecordError
 from rocking.hashes import sha256_of_bytes
 from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram, Source
-from rocking.records.files import download
 from rocking.tables import Row, column, read_rows, row
 
 REPOSITORY = "ZhiangChen/virtual_shake_robot_pybullet"

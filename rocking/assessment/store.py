@@ -27,7 +27,17 @@ T = TypeVar("T")
 
 LARGEST = 200_000_000
 """Bytes of the largest file that is read."""
-_WINGS = ("records", "floors", "structures", "pulses", "sine_pulse", "motion", "contacts", "assessment")
+_WINGS = (
+    "records",
+    "catalogue",
+    "floors",
+    "structures",
+    "pulses",
+    "sine_pulse",
+    "motion",
+    "contacts",
+    "assessment",
+)
 """The parts of the package on which a result depends."""
 _LIBRARIES = ("numpy", "scipy", "numba")
 _PLAIN = {bool, int, float, str}

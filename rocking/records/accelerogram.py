@@ -29,6 +29,9 @@ LONGEST_STEP = 0.1
 _AT_BIRTH = (RecordKind.STEP_UNUSUAL, RecordKind.PEAK_IMPOSSIBLE)
 """The doubts that an accelerogram has by its own step and peak."""
 
+SAME_STEP = 1e-6
+"""Share by which the time steps of one station's components may differ: the rounding of their headers."""
+
 Calibration = Literal["apply", "done"]
 """Whether the samples of a trace are still to be multiplied by its calibration, or are: obspy never resets it."""
 

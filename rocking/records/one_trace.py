@@ -8,10 +8,9 @@ import numpy as np
 
 from rocking.errors import RecordError, UndeclaredError, about
 from rocking.quantities import GRAVITY, acceleration_factor
-from rocking.records.accelerogram import OBSPY_EXTRAS, Accelerogram, Calibration, Source
+from rocking.records.accelerogram import OBSPY_EXTRAS, SAME_STEP, Accelerogram, Calibration, Source
 from rocking.records.direction import Direction, directed
 from rocking.records.formats.format import plain, without_offset
-from rocking.records.joining import SAME_STEP
 from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import BURIED
 from rocking.records.traces import STEEP, calibrated, names, quantity_order, site, unit_left_by

@@ -33,14 +33,15 @@ from rocking.assessment.rows import (
 from rocking.assessment.scene import Scene, on_friction
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.store import RecordStore, computation_version
+from rocking.catalogue import CatalogueRecord, open_station
+from rocking.catalogue.place import Place
+from rocking.catalogue.station import station_of
 from rocking.errors import ConfigurationError, RockingError, about, fault_in_words, one_structure
 from rocking.quantities import counted
-from rocking.records import Accelerogram, CatalogueRecord, aligned, open_station
-from rocking.records.place import Place
+from rocking.records import Accelerogram, aligned
 from rocking.records.processing import process
 from rocking.records.read import LARGEST_FILE
 from rocking.records.scaling import ScalingTarget, scaled_to
-from rocking.records.station import station_of
 from rocking.structures import Structure
 from rocking.study.contents import ContentHashes
 from rocking.study.folder import locked

@@ -17,9 +17,9 @@ from urllib.parse import quote
 
 from rocking.assessment.scene import Scene
 from rocking.assessment.settings import Heading
+from rocking.catalogue.catalogue import CatalogueRecord, load_catalogue
 from rocking.errors import ConfigurationError, RockingError
 from rocking.hashes import sha256_of
-from rocking.records.catalogue import CatalogueRecord, load_catalogue
 from rocking.study.contents import ContentHashes
 from rocking.study.product import TOLD, Line
 from rocking.study.products import BY_NAME, PRODUCTS

@@ -10,8 +10,8 @@ from functools import cache
 from pathlib import Path
 
 from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, TimingRow
+from rocking.catalogue.catalogue import is_safe_id
 from rocking.hashes import sha256_of_file
-from rocking.records.catalogue import is_safe_id
 from rocking.study.product import KEPT, Output, draws
 from rocking.study.products import PRODUCTS
 from rocking.study.settings import Settings

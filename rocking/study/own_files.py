@@ -20,14 +20,14 @@ from rocking.assessment.rows import (
     structure_rows,
 )
 from rocking.assessment.scene import Scene, load_scenes, placed
+from rocking.catalogue.catalogue import CatalogueRecord, record_of_row
+from rocking.catalogue.folder import files_in, rows_of_files
+from rocking.catalogue.grouping import stations
+from rocking.catalogue.listing import ListedFile, listed_file, reading_of
 from rocking.errors import ConfigurationError, RecordError
 from rocking.records import Accelerogram
 from rocking.records.archive import archive_of, is_archive, members
-from rocking.records.catalogue import CatalogueRecord, record_of_row
-from rocking.records.folder import files_in, rows_of_files
 from rocking.records.formats import Options
-from rocking.records.grouping import stations
-from rocking.records.listing import ListedFile, listed_file, reading_of
 from rocking.records.read import bytes_of, read_raw
 from rocking.remarks import Remark
 from rocking.study.kinds import StudyKind

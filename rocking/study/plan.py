@@ -11,13 +11,13 @@ from typing import Any, TypeVar
 
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.scene import Scene, load_scenes
+from rocking.catalogue.catalogue import CatalogueRecord, load_catalogue, repeated
+from rocking.catalogue.files import answers_of, files_by_name, fill_hashes, local_files, with_hashes
+from rocking.catalogue.folder import unlisted
 from rocking.described import kind_in_words
 from rocking.errors import ConfigurationError, RockingError
 from rocking.hashes import sha256_of_bytes
 from rocking.quantities import shown
-from rocking.records.catalogue import CatalogueRecord, load_catalogue, repeated
-from rocking.records.files import answers_of, files_by_name, fill_hashes, local_files, with_hashes
-from rocking.records.folder import unlisted
 from rocking.records.formats.layouts import NAME as ANSWERS
 from rocking.records.formats.layouts import Layouts
 from rocking.records.read import LARGEST_FILE

@@ -5,11 +5,12 @@ from collections.abc import Mapping, Sequence
 from contextlib import chdir
 from pathlib import Path
 
+from rocking.catalogue import CatalogueRecord, load_catalogue
+from rocking.catalogue.catalogue import COLUMNS, catalogue_text, read_rows
 from rocking.codes.selection import Selection, select
 from rocking.errors import ConfigurationError, RecordError, RockingError
 from rocking.quantities import four_digits
-from rocking.records import Accelerogram, CatalogueRecord, load_catalogue
-from rocking.records.catalogue import COLUMNS, catalogue_text, read_rows
+from rocking.records import Accelerogram
 from rocking.reports.panels import svg_of
 from rocking.reports.style import PICTURE
 from rocking.study.job import Study

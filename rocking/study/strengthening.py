@@ -9,11 +9,12 @@ from pathlib import Path
 
 from rocking.assessment.scene import Scene
 from rocking.assessment.store import RecordStore
+from rocking.catalogue import load_catalogue
 from rocking.codes.check import CodeTerms
 from rocking.codes.selection import scaled_pool
 from rocking.errors import ConfigurationError
 from rocking.quantities import counted, shown
-from rocking.records import Accelerogram, load_catalogue
+from rocking.records import Accelerogram
 from rocking.records.sample import Sample
 from rocking.reports.panels import svg_of
 from rocking.reports.style import PICTURE

@@ -4,12 +4,12 @@ from functools import partial
 from itertools import chain
 from pathlib import Path
 
+from rocking.catalogue.catalogue import COLUMNS, catalogue_text, read_rows
+from rocking.catalogue.folder import catalogue_of_folder
+from rocking.catalogue.listing import listing_text
 from rocking.errors import ConfigurationError, RecordError
 from rocking.quantities import counted
-from rocking.records.catalogue import COLUMNS, catalogue_text, read_rows
-from rocking.records.folder import catalogue_of_folder
 from rocking.records.formats.layouts import NAME
-from rocking.records.listing import listing_text
 from rocking.study.flow import OWN_SNAKEFILE, workflow_folder
 from rocking.study.plan import check_config_file, config_file
 from rocking.study.progress import bar

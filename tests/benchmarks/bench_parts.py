@@ -38,9 +38,10 @@ from rocking.assessment.ensemble import ensemble
 from rocking.assessment.methods import Method
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.scene import load_scenes
+from rocking.catalogue import load_catalogue
 from rocking.codes.static_check import kinematic_check
 from rocking.pulses import extract_pulses
-from rocking.records import load_catalogue, read
+from rocking.records import read
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.reports.record import RecordReport
 from rocking.sine_pulse import predict_maxima, pulse_spectrum

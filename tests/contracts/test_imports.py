@@ -23,6 +23,7 @@ FLOORS = [
     {"described"},
     {"tables"},
     {"records"},
+    {"catalogue"},
     {"floors"},
     {"structures"},
     {"pulses"},
@@ -36,8 +37,8 @@ FLOORS = [
     {"products"},
 ]
 ONLY_IN = {
-    "pydantic": ("described.py", "records/readings.py"),
-    "obspy": ("records/",),
+    "pydantic": ("described.py", "catalogue/readings.py"),
+    "obspy": ("records/", "catalogue/files.py"),
     "numba": ("motion/", "pulses/", "sine_pulse/", "contacts/"),
     "matplotlib": ("reports/", "products/"),
     "typst": ("reports/",),

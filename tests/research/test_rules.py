@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from rocking.catalogue import load_catalogue
 from rocking.errors import CatalogueError
-from rocking.records import load_catalogue
 from tests.refusals import refused
 
 ROOT = Path(__file__).parents[2]

@@ -11,9 +11,9 @@ from made_campaign import made_motion, write_campaign
 from docs.research import shake_table
 from docs.research.shake_table import Campaign
 from docs.research.validation import IDENTIFIED, PRIOR, Measured, left_out, measure
+from rocking.catalogue import files
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY
-from rocking.records import files
 from tests.refusals import refused
 
 CATALOGUE = Path(__file__).parents[2] / "records" / "shake_table.csv"

@@ -8,8 +8,8 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from rocking.assessment.settings import EnsembleSettings
+from rocking.catalogue import CatalogueRecord
 from rocking.described import Described, described_values, parts_of
-from rocking.records import CatalogueRecord
 from rocking.study.settings import Settings
 
 

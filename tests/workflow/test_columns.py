@@ -6,10 +6,10 @@ from pathlib import Path
 
 from rocking.assessment.scene import load_scenes, on_the_ground
 from rocking.assessment.settings import EnsembleSettings
+from rocking.catalogue.catalogue import CatalogueRecord
 from rocking.floors.place import Place
 from rocking.floors.support import Mode, Support
 from rocking.products.fragility.work import write_fragility
-from rocking.records.catalogue import CatalogueRecord
 from rocking.study.job import Study
 from rocking.study.settings import Settings, StudyFragility
 from rocking.study.summary_tables import write_summary

@@ -16,9 +16,9 @@ from rocking.assessment.cracks import cracked
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.rows import ComparisonRow, VerdictRow
 from rocking.assessment.scene import load_scenes
+from rocking.catalogue.catalogue import load_catalogue
 from rocking.motion.integration import integrate
 from rocking.pulses import extract_pulses
-from rocking.records.catalogue import load_catalogue
 from rocking.records.processing import displacement
 from rocking.remarks import Remark
 from rocking.reports.against import in_words

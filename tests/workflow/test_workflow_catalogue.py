@@ -10,8 +10,8 @@ import pytest
 import yaml
 
 import rocking
+from rocking.catalogue.catalogue import CatalogueRecord
 from rocking.errors import CatalogueError
-from rocking.records.catalogue import CatalogueRecord
 from rocking.structures.structure_list import TYPES
 from rocking.study.outputs import OUTPUTS
 

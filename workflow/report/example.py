@@ -9,7 +9,7 @@ from PIL import Image
 
 from rocking.assessment.assessor import with_histories
 from rocking.assessment.scene import load_scenes
-from rocking.records import load_catalogue
+from rocking.catalogue import load_catalogue
 from rocking.reports.pages import as_data
 from rocking.reports.record import RecordReport
 from rocking.study.job import Study, assess_catalogued, rows_of

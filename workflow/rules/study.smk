@@ -10,7 +10,7 @@ from rocking.study import close_doors
 close_doors()  # before the imports that open them
 
 from rocking.hashes import sha256_of
-from rocking.records.catalogue import NAME_OF_RECORD
+from rocking.catalogue.catalogue import NAME_OF_RECORD
 from rocking.study.apart import run_apart
 from rocking.study.flow import workflow_folder
 from rocking.study.made_from import OF_RECORDS, inputs_of, of_kind, of_records

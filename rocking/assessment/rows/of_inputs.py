@@ -6,11 +6,11 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
+from rocking.catalogue.place import Place
 from rocking.errors import StructureError
 from rocking.pulses import Pulse, PulseEvidence, VelocityPulse
 from rocking.pulses.pulse import PulseAnalysis, worth_of
 from rocking.records.measures import RecordMeasures, record_measures
-from rocking.records.place import Place
 from rocking.remarks import Kind
 from rocking.structures import Side, Structure
 from rocking.structures.capacity import StaticCurve

@@ -31,9 +31,9 @@ from rocking.assessment.rows.of_inputs import (
     RecordRow,
     pulses_found,
 )
+from rocking.catalogue.place import Place
 from rocking.errors import RockingError, one_structure
 from rocking.floors.place import FloorMeasures
-from rocking.records.place import Place
 from rocking.remarks import Kind, Remark
 from rocking.sine_pulse import Regime
 from rocking.structures.linkage import Reaction

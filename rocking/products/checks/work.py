@@ -15,6 +15,7 @@ from rocking.assessment.cracks import mechanisms_of
 from rocking.assessment.decide import Verdict, worse
 from rocking.assessment.rows import MechanismRow, RecordRow, VerdictRow, named_records
 from rocking.assessment.scene import Scene, placed
+from rocking.catalogue import load_catalogue
 from rocking.codes.check import CodeTerms, StructureCheck
 from rocking.codes.dynamic_check import check
 from rocking.codes.selection import Selection
@@ -23,7 +24,6 @@ from rocking.floors.support import Support
 from rocking.products.checks.conclusion import CodeConclusion, code_conclusion_in_words, code_conclusions
 from rocking.products.checks.report import CheckedStructure, structures_data
 from rocking.products.checks.rows import KINDS, CodeCheckRow, code_check_rows
-from rocking.records import load_catalogue
 from rocking.records.sample import Sample
 from rocking.remarks import Remark
 from rocking.reports.pages import Panel, Part

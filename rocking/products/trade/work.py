@@ -8,11 +8,12 @@ from textwrap import wrap
 import numpy as np
 
 from rocking.assessment.rows import FailureRow
+from rocking.catalogue import CatalogueRecord
 from rocking.errors import RockingError
 from rocking.products.trade.measure import trade, what_follows
 from rocking.products.trade.report import trade_panel, write_trade_report
 from rocking.products.trade.rows import TradeRow
-from rocking.records import Accelerogram, CatalogueRecord
+from rocking.records import Accelerogram
 from rocking.reports.pages import Panel
 from rocking.study.job import Job, Study, costs_no_other
 from rocking.study.kept import Rows

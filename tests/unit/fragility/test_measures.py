@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import rocking
+from rocking.catalogue import load_catalogue, open_record
 from rocking.errors import ConfigurationError
 from rocking.fragility.measures import (
     CORNER,
@@ -23,7 +24,7 @@ from rocking.fragility.measures import (
 )
 from rocking.products.fragility.rows import stations_for
 from rocking.quantities import GRAVITY
-from rocking.records import Accelerogram, load_catalogue, open_record
+from rocking.records import Accelerogram
 from rocking.structures import Block, EquivalentBlock
 from tests.oracles.incremental_velocity import fiv3
 from tests.refusals import refused

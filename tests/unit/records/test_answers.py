@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from rocking.catalogue.folder import catalogue_of_folder, list_folder
 from rocking.errors import RecordError
 from rocking.records import read
-from rocking.records.folder import catalogue_of_folder, list_folder
 from rocking.records.formats.layouts import (
     NAME,
     AskedError,

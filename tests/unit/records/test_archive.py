@@ -9,14 +9,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from rocking.catalogue import load_catalogue
+from rocking.catalogue.catalogue import catalogue_text
+from rocking.catalogue.files import fill_hashes, local_files
+from rocking.catalogue.folder import catalogue_of_folder, list_folder
+from rocking.catalogue.station import open_station
 from rocking.errors import RecordError
-from rocking.records import load_catalogue, read
+from rocking.records import read
 from rocking.records.archive import members
-from rocking.records.catalogue import catalogue_text
-from rocking.records.files import fill_hashes, local_files
-from rocking.records.folder import catalogue_of_folder, list_folder
 from rocking.records.kinds import RecordKind
-from rocking.records.station import open_station
 from rocking.remarks import Remark
 from tests.contracts.made_files import TRUE, knet, peer
 from tests.refusals import refused

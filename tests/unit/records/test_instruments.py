@@ -12,10 +12,11 @@ from obspy import Stream, Trace, UTCDateTime, read_inventory
 from obspy import read as obspy_read
 from obspy.core.util.base import get_example_file
 
+from rocking.catalogue import load_catalogue
+from rocking.catalogue.folder import list_folder
 from rocking.errors import RecordError, RockingError, UndeclaredError
-from rocking.records import Accelerogram, load_catalogue, read
+from rocking.records import Accelerogram, read
 from rocking.records.direction import Direction
-from rocking.records.folder import list_folder
 from rocking.records.formats import FORMATS
 from rocking.records.kinds import RecordKind
 from rocking.records.obspy_plugin import PLUGINS

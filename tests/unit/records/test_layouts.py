@@ -7,10 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from rocking.catalogue import load_catalogue, open_record
+from rocking.catalogue.files import answers_of
+from rocking.catalogue.folder import list_folder
 from rocking.errors import CatalogueError, RecordError
-from rocking.records import load_catalogue, open_record, read
-from rocking.records.files import answers_of
-from rocking.records.folder import list_folder
+from rocking.records import read
 from rocking.records.formats.layouts import COLUMNS, NAME, AskedError, Layouts, Question, TableLayout
 from rocking.records.kinds import RecordKind
 from rocking.study.workspace import write_catalogue

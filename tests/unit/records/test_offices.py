@@ -9,13 +9,14 @@ import numpy as np
 import pytest
 from openpyxl import Workbook
 
+from rocking.catalogue import folder as folder_of_records
+from rocking.catalogue import listing, load_catalogue, open_record, readings
+from rocking.catalogue.files import fill_hashes
+from rocking.catalogue.folder import list_folder
+from rocking.catalogue.listing import listing_text
 from rocking.errors import CatalogueError, RecordError
-from rocking.records import folder as folder_of_records
-from rocking.records import listing, load_catalogue, open_record, read, readings
-from rocking.records.files import fill_hashes
-from rocking.records.folder import list_folder
+from rocking.records import read
 from rocking.records.kinds import RecordKind
-from rocking.records.listing import listing_text
 from rocking.remarks import Remark
 from rocking.study.workspace import write_catalogue
 from tests.refusals import refused

@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from rocking.catalogue import CatalogueRecord, open_station
+from rocking.catalogue.catalogue import repeated
 from rocking.errors import CatalogueError, ConfigurationError, RecordError
 from rocking.quantities import GRAVITY
-from rocking.records import CatalogueRecord, open_station
-from rocking.records.catalogue import repeated
 from rocking.records.kinds import RecordKind
 from rocking.records.scaling import ScalingTarget
 from rocking.study.job import Study

@@ -10,14 +10,15 @@ import pytest
 from obspy.core import inventory
 
 import rocking
+from rocking.catalogue import load_catalogue
+from rocking.catalogue.catalogue import catalogue_text
+from rocking.catalogue.folder import list_folder
+from rocking.catalogue.station import open_station
 from rocking.errors import RecordError, UndeclaredError
-from rocking.records import load_catalogue, read
+from rocking.records import read
 from rocking.records.archive import members
-from rocking.records.catalogue import catalogue_text
-from rocking.records.folder import list_folder
 from rocking.records.formats import workspace
 from rocking.records.kinds import RecordKind
-from rocking.records.station import open_station
 from tests.contracts.made_files import STEP, TRUE
 from tests.refusals import refused
 

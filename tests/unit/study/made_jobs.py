@@ -5,7 +5,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from rocking.records import CatalogueRecord
+from rocking.catalogue import CatalogueRecord
 from rocking.study.contents import ContentHashes
 from rocking.study.job import Job, Study, steps_of
 from rocking.study.outcomes import RecordOutcome, outcomes_written, read_outcomes

@@ -13,6 +13,7 @@ from scipy.signal import lsim
 
 from rocking.assessment.rows import FailureRow
 from rocking.assessment.scene import Scene, on_the_ground
+from rocking.catalogue.catalogue import CatalogueRecord
 from rocking.errors import ConfigurationError
 from rocking.floors.place import Place
 from rocking.floors.support import Mode, Support
@@ -23,7 +24,6 @@ from rocking.products.fragility.rows import FRAGILITY_TABLES, FragilityRow, Frag
 from rocking.products.fragility.work import write_fragility
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
-from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.structures import Block, Spire
 from rocking.study.job import Study

@@ -21,11 +21,11 @@ from rocking.assessment.rows import (
     TimingRow,
 )
 from rocking.assessment.scene import on_the_ground
+from rocking.catalogue.catalogue import CatalogueRecord
 from rocking.errors import RockingError
 from rocking.motion import integrate
 from rocking.products.trade.rows import TradeMethod, TradeRow
 from rocking.records import Accelerogram
-from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SHIPPED, SyntheticRecord, at2_text
 from rocking.structures import Block
 from rocking.study.job import Study, assess_catalogued, rows_of

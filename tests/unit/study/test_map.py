@@ -11,12 +11,12 @@ import pytest
 from rocking.assessment.rows import VerdictRow
 from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import EnsembleSettings
+from rocking.catalogue.catalogue import CatalogueRecord
+from rocking.catalogue.place import Place
 from rocking.products.map.geojson import geojson
 from rocking.products.map.report import drawn_together, map_figure, map_panel, origin_of, plane
 from rocking.products.map.rows import StationRow
 from rocking.products.map.work import Map
-from rocking.records.catalogue import CatalogueRecord
-from rocking.records.place import Place
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.structures import Block
 from rocking.study.job import Study

@@ -8,10 +8,11 @@ import pytest
 import xlsxwriter
 
 from rocking.assessment.scene import load_scenes
+from rocking.catalogue import load_catalogue
+from rocking.catalogue.station import open_record
 from rocking.errors import CatalogueError, ConfigurationError, RecordError
 from rocking.quantities import GRAVITY
-from rocking.records import load_catalogue, read
-from rocking.records.station import open_record
+from rocking.records import read
 from rocking.structures.kinds import StructureKind
 from rocking.study.cli import main
 from rocking.study.own_files import Declared, read_files

@@ -9,8 +9,8 @@ import pytest
 import rocking
 from rocking.assessment.decide import Verdict
 from rocking.assessment.rows import ExpectedFallsRow, RecordRow, VerdictRow
+from rocking.catalogue import load_catalogue
 from rocking.products.checks.work import write_checks
-from rocking.records import load_catalogue
 from rocking.records.sample import Sample
 from rocking.strengthening import sizes, strengthen_scene
 from rocking.study.job import Study

@@ -12,8 +12,8 @@ import pytest
 from made_files import TRUE, by_obspy, knet, peer
 
 from rocking.assessment.rows import RemarkRow
+from rocking.catalogue.folder import list_folder
 from rocking.errors import ConfigurationError, RecordError
-from rocking.records.folder import list_folder
 from rocking.structures.kinds import StructureKind
 from rocking.study.cli import main
 from rocking.study.kinds import StudyKind

@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rocking.assessment.kinds import AssessmentKind
+from rocking.catalogue import CatalogueRecord
 from rocking.errors import ConfigurationError
-from rocking.records import CatalogueRecord
 from rocking.structures.kinds import StructureKind
 from rocking.study import contents as contents_module
 from rocking.study import settings as settings_module

@@ -11,8 +11,8 @@ from rocking import Block
 from rocking.assessment.rows import FailureRow
 from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import EnsembleSettings
-from rocking.records import CatalogueRecord
-from rocking.records.catalogue import is_safe_id
+from rocking.catalogue import CatalogueRecord
+from rocking.catalogue.catalogue import is_safe_id
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.study.job import Study
 from rocking.study.kept import keep_rows, kept_conclusion, kept_rows

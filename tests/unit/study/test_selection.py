@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import yaml
 
-from rocking.records import load_catalogue, open_record
+from rocking.catalogue import load_catalogue, open_record
 from rocking.study.cli import main
 from rocking.study.selection import joined_by_station
 from rocking.study.settings import read_settings

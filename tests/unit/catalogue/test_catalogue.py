@@ -15,15 +15,16 @@ import numpy as np
 import pytest
 
 from rocking import Arch, extract_pulses, integrate, predict_maximum
+from rocking.catalogue import CatalogueRecord, files, load_catalogue, open_record
+from rocking.catalogue.catalogue import catalogue_text, repeated
+from rocking.catalogue.files import download, fill_hashes, path_of
+from rocking.catalogue.folder import list_folder
+from rocking.catalogue.listing import listing_text
 from rocking.described import described_values
 from rocking.errors import CatalogueError, RecordError
 from rocking.quantities import GRAVITY
-from rocking.records import Accelerogram, CatalogueRecord, files, load_catalogue, open_record
-from rocking.records.catalogue import catalogue_text, repeated
-from rocking.records.files import download, fill_hashes, path_of
-from rocking.records.folder import list_folder
+from rocking.records import Accelerogram
 from rocking.records.kinds import RecordKind
-from rocking.records.listing import listing_text
 from rocking.records.sample import earthquakes_of, stations_of
 from rocking.remarks import Remark
 from tests.refusals import refused

@@ -8,13 +8,11 @@ from typing import Protocol
 import numpy as np
 
 from rocking.errors import RecordError
-from rocking.records.accelerogram import Accelerogram
+from rocking.records.accelerogram import SAME_STEP, Accelerogram
 from rocking.records.direction import Channel
 from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
 
-SAME_STEP = 1e-6
-"""Share by which the time steps of one station's files may differ: the rounding of their headers."""
 LONGEST_TAIL = 0.02
 """Share of the longest file that it may last beyond the shortest one where no file says when it begins.
 

@@ -8,12 +8,12 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rocking.catalogue.listing import Reading, read_for_listing
 from rocking.errors import RecordError, RockingError, fault_in_words, log_fault
 from rocking.hashes import sha256_of_bytes, sha256_of_sources
 from rocking.records.formats.layouts import Layouts
 from rocking.records.formats.tables import COLUMNS
 from rocking.records.kinds import RecordKind
-from rocking.records.listing import Reading, read_for_listing
 from rocking.records.read import bytes_of, printable, signature_in
 from rocking.remarks import Remark
 from rocking.tables import read_whole, write_whole
@@ -161,5 +161,6 @@ def _version() -> str:
         package / "tables" / "files.py",
         package / "tables" / "edited.py",
     ]
-    sources += sorted(path for path in (package / "records").rglob("*") if path.suffix in (".py", ".csv"))
+    for part in ("records", "catalogue"):
+        sources += sorted(path for path in (package / part).rglob("*") if path.suffix in (".py", ".csv"))
     return sha256_of_sources(package, sources)

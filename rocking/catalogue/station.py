@@ -7,10 +7,13 @@ from datetime import date, timedelta
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+from rocking.catalogue.catalogue import CatalogueRecord, RecordFile
+from rocking.catalogue.files import in_catalogue_folder, path_of
+from rocking.catalogue.joining import joined
+from rocking.catalogue.place import Place, place_of
 from rocking.errors import RecordError, about
 from rocking.hashes import sha256_of_bytes
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.catalogue import CatalogueRecord, RecordFile
 from rocking.records.direction import (
     directed,
     doubts_of_channel,
@@ -19,13 +22,10 @@ from rocking.records.direction import (
     vertical_doubt,
 )
 from rocking.records.doors import through
-from rocking.records.files import in_catalogue_folder, path_of
 from rocking.records.formats import Options
 from rocking.records.formats.layouts import Layouts
 from rocking.records.formats.text import day_of, iso_date
-from rocking.records.joining import joined
 from rocking.records.kinds import RecordKind
-from rocking.records.place import Place, place_of
 from rocking.records.plausibility import same_motion, scaled
 from rocking.records.read import bytes_of, read_raw
 from rocking.records.scaling import ScalingTarget, scaled_to

@@ -10,21 +10,21 @@ from itertools import chain, count, islice
 from pathlib import Path
 from typing import Any
 
+from rocking.catalogue.catalogue import is_safe_id, read_rows
+from rocking.catalogue.grouping import named_channel, rsn_of, stations, without_direction
+from rocking.catalogue.joining import SQUARE
+from rocking.catalogue.listing import CELLS, ListedChannel, ListedFile, doubts_of, listed_file, unlike_motions
+from rocking.catalogue.readings import Readings
 from rocking.errors import CatalogueError, RecordError
 from rocking.quantities import acceleration_factor
 from rocking.records.archive import is_archive, members
-from rocking.records.catalogue import is_safe_id, read_rows
 from rocking.records.claims import without_ending
 from rocking.records.direction import angle_between, names_no_direction, pair_doubt
 from rocking.records.formats.format import plain
 from rocking.records.formats.layouts import NAME, Layouts
 from rocking.records.formats.text import day_of, is_number
-from rocking.records.grouping import named_channel, rsn_of, stations, without_direction
-from rocking.records.joining import SQUARE
 from rocking.records.kinds import RecordKind
-from rocking.records.listing import CELLS, ListedChannel, ListedFile, doubts_of, listed_file, unlike_motions
 from rocking.records.read import bare_text, bytes_of, printable, recognise, unpack
-from rocking.records.readings import Readings
 from rocking.remarks import Remark
 from rocking.tables import read_start
 

@@ -8,10 +8,10 @@ from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
+from rocking.catalogue.catalogue import few, stays_inside
 from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.catalogue import few, stays_inside
 from rocking.records.doors import through
 from rocking.records.formats import Options
 from rocking.records.formats.layouts import NAME, AskedError, Layouts, Question, Signature, families

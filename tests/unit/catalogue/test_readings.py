@@ -9,11 +9,11 @@ from typing import Any
 
 import pytest
 
-from rocking.records import listing, load_catalogue
-from rocking.records.catalogue import catalogue_text, read_rows
-from rocking.records.folder import catalogue_of_folder
+from rocking.catalogue import listing, load_catalogue
+from rocking.catalogue.catalogue import catalogue_text, read_rows
+from rocking.catalogue.folder import catalogue_of_folder
+from rocking.catalogue.readings import STORE
 from rocking.records.kinds import RecordKind
-from rocking.records.readings import STORE
 from rocking.remarks import Remark
 from rocking.study.workspace import write_catalogue
 

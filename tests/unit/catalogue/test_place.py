@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import rocking
-from rocking.records import CatalogueRecord, open_station
+from rocking.catalogue import CatalogueRecord, open_station
+from rocking.catalogue.place import Place, place_of
 from rocking.records.kinds import RecordKind
-from rocking.records.place import Place, place_of
 from rocking.remarks import Remark
 
 STEP = 0.01

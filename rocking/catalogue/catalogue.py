@@ -7,13 +7,13 @@ from dataclasses import MISSING, dataclass
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+from rocking.catalogue.place import Place, place_of
 from rocking.described import described, described_values, number_hint
 from rocking.errors import CatalogueError, RockingError
 from rocking.quantities import acceleration_factor, shown
 from rocking.records.formats.format import plain
 from rocking.records.formats.text import is_number
 from rocking.records.kinds import RecordKind
-from rocking.records.place import Place, place_of
 from rocking.records.scaling import ScalingTarget
 from rocking.remarks import Remark
 from rocking.tables import edited_text, read_edited

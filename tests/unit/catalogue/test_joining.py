@@ -5,12 +5,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rocking.records import CatalogueRecord, load_catalogue, open_station
-from rocking.records.catalogue import catalogue_text
+from rocking.catalogue import CatalogueRecord, load_catalogue, open_station
+from rocking.catalogue.catalogue import catalogue_text
+from rocking.catalogue.folder import catalogue_of_folder, list_folder
+from rocking.catalogue.listing import doubts_of
 from rocking.records.claims import direction_in_name
-from rocking.records.folder import catalogue_of_folder, list_folder
 from rocking.records.kinds import RecordKind
-from rocking.records.listing import doubts_of
 from rocking.remarks import Remark
 
 VALUES = 0.3 * np.sin(np.arange(4000) * 0.07) * np.hanning(4000)

@@ -7,11 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from rocking.catalogue import CatalogueRecord, open_station
+from rocking.catalogue.folder import catalogue_of_folder, list_folder, unlisted
+from rocking.catalogue.listing import doubts_of
 from rocking.errors import RecordError
-from rocking.records import Accelerogram, CatalogueRecord, aligned, open_station
-from rocking.records.folder import catalogue_of_folder, list_folder, unlisted
+from rocking.records import Accelerogram, aligned
 from rocking.records.kinds import RecordKind
-from rocking.records.listing import doubts_of
 from rocking.remarks import Remark
 from tests.refusals import refused
 

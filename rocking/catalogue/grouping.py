@@ -8,6 +8,8 @@ from itertools import combinations
 
 import numpy as np
 
+from rocking.catalogue.joining import SQUARE, why_apart
+from rocking.catalogue.listing import ListedChannel, ListedFile
 from rocking.records.claims import direction_in_name, without_ending
 from rocking.records.direction import (
     Direction,
@@ -15,9 +17,7 @@ from rocking.records.direction import (
     names_no_direction,
 )
 from rocking.records.formats.text import day_of
-from rocking.records.joining import SQUARE, why_apart
 from rocking.records.kinds import RecordKind
-from rocking.records.listing import ListedChannel, ListedFile
 from rocking.remarks import Remark
 
 _RSN = re.compile(r"(RSN\d+)_")

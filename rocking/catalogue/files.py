@@ -9,10 +9,10 @@ from pathlib import Path, PurePosixPath
 from typing import IO
 from urllib.parse import quote
 
+from rocking.catalogue.catalogue import CatalogueRecord, RecordFile, catalogue_text, load_catalogue, read_rows
 from rocking.errors import RecordError
 from rocking.hashes import sha256_of_bytes
 from rocking.records.archive import archive_of, ending_of
-from rocking.records.catalogue import CatalogueRecord, RecordFile, catalogue_text, load_catalogue, read_rows
 from rocking.records.formats.by_obspy import may_be_counts
 from rocking.records.formats.layouts import NAME, Layouts
 from rocking.records.read import LARGEST_FILE, bytes_of, signature_in
