@@ -68,6 +68,7 @@ from .structures import CapacityCurve as CapacityCurve
 from .structures import EquivalentBlock as EquivalentBlock
 from .structures import Facade as Facade
 from .structures import Frame as Frame
+from .structures import Joints as Joints
 from .structures import LoadedWall as LoadedWall
 from .structures import Mechanism as Mechanism
 from .structures import Outcome as Outcome

@@ -455,7 +455,7 @@ def strengthen_scene(
 ) -> Strengthening:
     """Return what `strengthen` does, for a scene: on a support its worst period counts.
 
-    size: one of its `sizes`. between: in SI. sample: of the records. settings: of the ensemble, friction and tolerance.
+    size: one of its `sizes`. between: in SI. sample: of the records. settings: of the ensemble and tolerance.
     spectrum, terms: at which a tie is sized by the code; without a spectrum, the mean peak of the records. store: keeps
     the outcome of each value under each record. show_line: takes what it will cost.
     """
@@ -528,7 +528,9 @@ def with_value(structure: Structure, size: Field, value: float) -> Structure | N
     """
     outside = size.outward((value,) if size.is_list else value)
     try:
-        return structure_from_config({**structure.described.entry, size.key: outside})
+        return structure_from_config({**structure.described.entry, size.key: outside}).on_joints(
+            structure.joints
+        )
     except DoesNotStandError:
         return None
     except StructureError as error:

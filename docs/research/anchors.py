@@ -36,9 +36,8 @@ from docs.research.sites import (
 )
 from docs.research.stacks import strong_part
 from rocking import Facade, Verdict, assess
-from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import RockingError, StructureWarning
-from rocking.structures.linkage import FRICTION
+from rocking.structures.joints import USUAL
 from rocking.structures.stack import Stack
 from rocking.tables import column, row
 
@@ -115,7 +114,7 @@ def sliding(wall: Facade) -> Stack:
             )
             hold = replace(hold, tie=tie)
         held.append(hold)
-    return replace(stack, held=tuple(held), friction=min(stack.friction, FRICTION))
+    return replace(stack, held=tuple(held), friction=min(stack.friction, USUAL.friction))
 
 
 def anchors(target: Target) -> None:
@@ -153,7 +152,7 @@ def anchor_trial(component: SiteRecord, place: int) -> AnchorTrial:
         multiplier = wall.static_multiplier
         factor = lifting_factor(record, multiplier, UPLIFTS, draw)
         motion = strong_part(record.scaled(factor), multiplier)
-        station = assess(motion, wall, settings=AssessmentSettings(friction_coefficient=FRICTION))
+        station = assess(motion, wall)
     (case,) = station.cases.values()
     ties = [restraint for restraint in wall.restraints() if restraint.kind == "tie"]
     is_light = any(tie.slides_out for tie in ties)
@@ -164,7 +163,7 @@ def anchor_trial(component: SiteRecord, place: int) -> AnchorTrial:
         if any(falls for falls, _ in runs):
             as_described = wall.stack()
             kept = list(
-                true_runs(replace(as_described, friction=min(as_described.friction, FRICTION)), motion)
+                true_runs(replace(as_described, friction=min(as_described.friction, USUAL.friction)), motion)
             )
     return AnchorTrial(
         record=component.identifier,

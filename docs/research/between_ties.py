@@ -33,10 +33,9 @@ from docs.research.sites import (
 )
 from docs.research.stacks import strong_part
 from rocking import Accelerogram, Facade, Verdict, assess
-from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import RockingError, StructureWarning
 from rocking.quantities import GRAVITY
-from rocking.structures.linkage import FRICTION
+from rocking.structures.joints import USUAL
 from rocking.tables import column, row
 
 WALLS = 9
@@ -98,7 +97,7 @@ class DrawnWall:
             wall.tie_stiffness * spacing * share,
             str(wall.behind),
             wall.mechanism().positive.restitution,
-            FRICTION,
+            USUAL.friction,
         )
 
 
@@ -157,7 +156,7 @@ def between_trial(component: SiteRecord, place: int) -> BetweenTrial:
         multiplier = wall.described.static_multiplier
         factor = lifting_factor(record, multiplier, UPLIFTS, draw)
         motion = strong_part(record.scaled(factor), multiplier)
-        station = assess(motion, wall.described, settings=AssessmentSettings(friction_coefficient=FRICTION))
+        station = assess(motion, wall.described)
     (case,) = station.cases.values()
     stands = station.verdict is Verdict.STANDS
     started = process_time()

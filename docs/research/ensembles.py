@@ -202,9 +202,7 @@ def screening_trials(
         settings = AssessmentSettings()
         in_study = ensemble_over_cracks(structure, motions, settings)
         # What slides before it lifts is left out where another crack is left.
-        forms = (
-            tuple(candidate for candidate in every if not slides_first(candidate, motions, settings)) or every
-        )
+        forms = tuple(candidate for candidate in every if not slides_first(candidate, motions)) or every
         in_full = CrackEnsembles(
             tuple(
                 FollowedCrack(form.description, form.position, ensemble(form.mechanism, motions))

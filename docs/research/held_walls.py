@@ -31,10 +31,9 @@ from docs.research.sites import SiteRecord, Trial, draw_of, independent, lifting
 from docs.research.stacks import TRUE_STEP, strong_part
 from rocking import Accelerogram, Facade, LoadedWall, Verdict, assess
 from rocking.assessment.decide import decide
-from rocking.assessment.settings import AssessmentSettings
 from rocking.contacts.dynamics import follow_stack
 from rocking.errors import RockingError, StructureWarning
-from rocking.structures.linkage import FRICTION
+from rocking.structures.joints import USUAL, Joints
 from rocking.structures.stack import Stack
 from rocking.structures.tied import Tied
 from rocking.tables import column, row
@@ -188,12 +187,12 @@ def held_trial(component: SiteRecord, catalogue: str, kind: str, place: int) -> 
         motion = strong_part(record.scaled(factor), multiplier)
         friction = wall.top_friction if isinstance(wall, LoadedWall) else None
         started = process_time()
-        station = assess(motion, wall, settings=AssessmentSettings(friction_coefficient=friction or FRICTION))
+        station = assess(motion, wall.on_joints(Joints(friction or USUAL.friction)))
         spent = process_time() - started
     (case,) = station.cases.values()
     facts = case.facts(wall)
     stack = wall.stack()
-    runs = list(true_runs(replace(stack, friction=min(stack.friction, friction or FRICTION)), motion))
+    runs = list(true_runs(replace(stack, friction=min(stack.friction, friction or USUAL.friction)), motion))
     free = [0.0, *sorted(hold.height for hold in wall.held_wall.holds), wall.height]
     return HeldTrial(
         record=component.identifier,

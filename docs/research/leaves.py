@@ -25,8 +25,8 @@ from rocking import Facade, LoadedWall, Verdict, Wall, assess
 from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import RockingError, StructureWarning
 from rocking.structures.building_parts import FreeWall
+from rocking.structures.joints import USUAL
 from rocking.structures.leaves import Leaved, parts_of
-from rocking.structures.linkage import FRICTION
 from rocking.tables import column, row
 
 TRIALS = {"wall": 1, "loaded wall": 1, "front": 1, "free wall": 1}
@@ -94,7 +94,9 @@ def drawn(kind: str, draw: np.random.Generator) -> Leaved:
     if kind == "wall":
         return Wall.of_size(height, thickness, **options)
     load = UNIT_WEIGHT * height * thickness * float(draw.uniform(0.05, 0.6))
-    return LoadedWall.of_size(height, thickness, UNIT_WEIGHT, top_load=load, top_friction=FRICTION, **options)
+    return LoadedWall.of_size(
+        height, thickness, UNIT_WEIGHT, top_load=load, top_friction=USUAL.friction, **options
+    )
 
 
 def leaves(target: Target) -> None:
@@ -125,7 +127,7 @@ def leaves_trial(component: SiteRecord, kind: str, place: int) -> LeavesTrial:
     """Return one trial: wall and scale drawn."""
     record = component.accelerogram
     draw = draw_of(component.identifier, 13, list(TRIALS).index(kind), place)
-    settings = AssessmentSettings(fidelity="quick", friction_coefficient=FRICTION)
+    settings = AssessmentSettings(fidelity="quick")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", StructureWarning)
         wall = drawn(kind, draw)
@@ -142,7 +144,7 @@ def leaves_trial(component: SiteRecord, kind: str, place: int) -> LeavesTrial:
         if station.verdict is Verdict.STANDS:
             for _, leaf in parts_of(wall)[1:]:
                 stack = leaf.stack(COURSES if len(leaf.stack().courses) == 1 else None)
-                runs = list(true_runs(replace(stack, friction=min(stack.friction, FRICTION)), motion))
+                runs = list(true_runs(replace(stack, friction=min(stack.friction, USUAL.friction)), motion))
                 counts.append(sum(falls for falls, _ in runs))
                 turns += [turn for _, turn in runs]
     (case,) = station.cases.values()

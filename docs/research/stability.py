@@ -128,7 +128,7 @@ def stability_trials(
     for kind in KINDS:
         number = min(STRUCTURES_PER_KIND, len(structures))
         for name in draw.choice(list(structures), number, replace=False).tolist():
-            structure = structures[name].with_friction(AssessmentSettings().friction_coefficient)
+            structure = structures[name]
             multiplier = counting_cracks(structure)[0].mechanism.uplift_multiplier
             factor = sites.lifting_factor(first, multiplier, sites.UPLIFTS, draw)
             one, other = first.scaled(factor), second.scaled(factor)
@@ -172,9 +172,7 @@ def very_many(structure: Structure, motions: GroundMotions) -> CrackEnsembles:
     """Return the ensembles of MEMBERS members of every crack that counts."""
     settings = AssessmentSettings()
     several = counting_cracks(structure)
-    several = (
-        tuple(candidate for candidate in several if not slides_first(candidate, motions, settings)) or several
-    )
+    several = tuple(candidate for candidate in several if not slides_first(candidate, motions)) or several
     followed = (
         FollowedCrack(
             candidate.description,

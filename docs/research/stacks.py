@@ -92,7 +92,7 @@ class Case:
     def stack(self, courses: int) -> Stack:
         """Return the true stack, on the friction of the study or less."""
         stack = self.stack_of(courses)
-        return replace(stack, friction=min(stack.friction, SETTINGS.friction_coefficient))
+        return replace(stack, friction=min(stack.friction, self.structure.joints.friction))
 
     def begins_storey(self, height: float) -> bool | None:
         """Return whether a storey begins at `height` [m] above the foot; None of what has no storeys."""
@@ -110,9 +110,8 @@ def words_of(facts: Facts) -> tuple[Verdict, Verdict, Verdict]:
 
 def laid(structure: Structure) -> Case:
     """Return the case of a structure that lays its own courses; one whose crack is known keeps its bodies."""
-    on_joints = structure.with_friction(SETTINGS.friction_coefficient)
     is_known = isinstance(structure, Crackable) and structure.crack == "known"
-    return Case(on_joints, lambda courses: on_joints.stack(None if is_known else courses))
+    return Case(structure, lambda courses: structure.stack(None if is_known else courses))
 
 
 def free_wall(draw: np.random.Generator) -> Case:

@@ -25,7 +25,6 @@ from docs.research.sites import (
 from docs.research.stacks import strong_part
 from rocking.contacts.dynamics import STEP, StackResponse, follow_stack
 from rocking.quantities import GRAVITY
-from rocking.structures.linkage import FRICTION
 from rocking.structures.stack import Held
 from rocking.tables import column, row
 
@@ -76,7 +75,7 @@ def tie_forces(target: Target) -> None:
 def tie_rows(component: SiteRecord, place: int) -> Iterator[TieRow]:
     """Yield the ties of one wall that something asks of; none of a wall that falls or hardly rocks."""
     draw = draw_of(component.identifier, place)
-    wall = tied_wall(draw).with_friction(FRICTION)
+    wall = tied_wall(draw)
     multiplier = wall.static_multiplier
     factor = lifting_factor(component.accelerogram, 1.0, PEAKS, draw)
     if factor * component.accelerogram.peak_acceleration <= multiplier * GRAVITY:

@@ -39,6 +39,7 @@ from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.contacts.dynamics import follow_stack
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY
+from rocking.structures.joints import USUAL
 from rocking.structures.stones import Stone, Stones
 from rocking.tables import column, read_rows, row, write_rows
 
@@ -209,7 +210,7 @@ def stones_trial(component: SiteRecord, kind: str, place: int) -> StonesTrial:
     falls: list[bool] = []
     turns = [0.0]
     if assessed.verdict in STANDING or mechanism in STANDING:
-        for stones, step, amplitude in true_stones(structure, settings.friction_coefficient):
+        for stones, step, amplitude in true_stones(structure):
             response = follow_stack(stones, motion.scaled(amplitude), min(step, stones.longest_step))
             falls.append(response.falls)
             turns.append(float(response.largest_turns.max()))
@@ -238,7 +239,7 @@ def _or_none(value: float | None) -> float:
     return np.nan if value is None else value
 
 
-def true_stones(structure: Arch | Frame, friction: float) -> Iterator[tuple[Stones, float, float]]:
+def true_stones(structure: Arch | Frame) -> Iterator[tuple[Stones, float, float]]:
     """Yield the true stones of each run, its time step [s] and its factor on the motion.
 
     Where an arch states its voussoirs, or a frame has none, they differ in step and factor alone.
@@ -246,7 +247,7 @@ def true_stones(structure: Arch | Frame, friction: float) -> Iterator[tuple[Ston
     states = isinstance(structure, Frame) or structure.voussoirs is not None
     for number, step, amplitude in TRUE_RUNS:
         stones = structure.stones(None if states else number)
-        yield replace(stones, friction=friction), step, amplitude
+        yield replace(stones, friction=structure.joints.friction), step, amplitude
 
 
 def stones_scores(trials: Sequence[StonesTrial]) -> Iterator[scores.Score]:
@@ -337,7 +338,7 @@ class CheckedArch:
             area, centre, gyration = properties(polygon)
             corners = tuple(map(tuple, np.array([first[0], first[1], last[1], last[0]]).tolist()))
             made.append(Stone(corners, area, (centre.real, centre.imag), area * gyration))
-        return Stones(tuple(made), AssessmentSettings().friction_coefficient)
+        return Stones(tuple(made), USUAL.friction)
 
 
 class ArchQuestion(Question):
@@ -436,7 +437,7 @@ def main() -> None:
     """Follow the arch on standard input in LMGC90 and print its largest turn [rad], its largest drop [m], and s."""
     question = json.load(sys.stdin)
     bodies = CheckedArch(**question["arch"]).bodies
-    friction = AssessmentSettings().friction_coefficient
+    friction = USUAL.friction
     (_, turns, centres), spent = timed(lambda: follow(question, bodies, CHECKED_STEP, friction))
     drop = float((centres[0, :, 1] - centres[:, :, 1]).max())
     print("\n" + json.dumps([float(np.abs(turns).max()), drop, spent]))

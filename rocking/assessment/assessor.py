@@ -36,7 +36,7 @@ from rocking.assessment.one_case import (
     predict,
 )
 from rocking.assessment.reserve import Reserve
-from rocking.assessment.scene import Scene, on_friction
+from rocking.assessment.scene import Scene
 from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import FaultError, RockingError, one_structure
 from rocking.hashes import sha256_of
@@ -172,7 +172,6 @@ class Assessor:
         structure on a support meets the motion there, at every one of its periods, and for comparison that of the
         ground. The reserve is computed on the ground and at the worst period, which reports print.
         """
-        scenes = on_friction(scenes, self.settings.friction_coefficient)
         grounds = components
         failures: list[tuple[str, Failure]] = []
         shakings: dict[MovingSupport | None, _Shaking] = {}

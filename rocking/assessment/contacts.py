@@ -33,8 +33,9 @@ from rocking.records import Accelerogram
 from rocking.records.measures import peak_velocity
 from rocking.remarks import Remark
 from rocking.structures import Structure
+from rocking.structures.joints import Joints
 from rocking.structures.linkage import Turning
-from rocking.structures.stack import COURSES, FRICTION, Stack
+from rocking.structures.stack import COURSES, Stack
 from rocking.structures.stones import Stones
 from rocking.structures.tied import Tied
 
@@ -53,6 +54,10 @@ STEPS = (*7 * (STEP,), STEP / 2)
 
 class Laid(Protocol):
     """A member that can be laid in rigid courses; see `Structure` for each of these."""
+
+    @property
+    def joints(self) -> Joints:
+        """Its joints."""
 
     @property
     def symmetric(self) -> bool:
@@ -188,7 +193,7 @@ def friction_needed(
                     body, acting, settings.tolerance, history=True, vertical=motions.vertical
                 )
                 check = check_model(body, response, acting, motions.vertical)
-                if check.slides(settings.friction_coefficient):
+                if check.slides(body.joints.friction):
                     largest = float(np.fmax(largest, check.required_friction))
     return largest
 
@@ -305,7 +310,7 @@ def _share_of(
     ]
     falls = followed = 0
     try:
-        stacks = _laid(structure, settings.friction_coefficient)
+        stacks = _laid(structure)
         if stacks[0].count == 1:
             return ContactShare(reason="one rigid body moves as its mechanism does, whose members say more")
 
@@ -345,20 +350,21 @@ def expected_seconds(
     once = [
         seconds_of_run(stack, motion, min(step, stack.longest_step * step / STEP))
         for part in _parts(structure)
-        for stack in _laid(part, settings.friction_coefficient)
+        for stack in _laid(part)
         for motion in components
         for step in STEPS
     ]
     return runs * float(np.mean(once)) * len(_parts(structure))
 
 
-def _laid(structure: Laid, friction: float = FRICTION) -> Sequence[Stack | Stones]:
+def _laid(structure: Laid) -> Sequence[Stack | Stones]:
     """What is to be followed: the stones of an arch, and else stacks.
 
     Where a member tapers and does not say how many courses it has, these are of a few and of many: the more courses,
-    the smaller is the topmost one, which is thrown first. friction: coefficient of all joints; where a top states a
-    lower one, they keep that.
+    the smaller is the topmost one, which is thrown first. All are on its joints; where a top states a lower friction,
+    they keep that.
     """
+    friction = structure.joints.friction
     if isinstance(structure, Structure) and structure.as_stones:
         return [replace(structure.stones(), friction=friction)]
     by_size = structure.tapers and not structure.courses_are_given

@@ -282,13 +282,9 @@ def _of_part(
 ) -> CrackEnsembles:
     """The ensembles of the cracks of one part that may govern it; is_named: whether anything else may form."""
     counting = [candidate for candidate in several if candidate.counts]
-    sliding = sliding_first(several, motions, settings)
+    sliding = sliding_first(several, motions)
     lifting = [candidate for candidate in counting if candidate not in sliding] or counting
-    left_out = [
-        slides_at(candidate, settings.friction_coefficient)
-        for candidate in counting
-        if candidate not in lifting
-    ]
+    left_out = [slides_at(candidate) for candidate in counting if candidate not in lifting]
     left_out_at = min(left_out, default=math.nan)
     first, *others = *lifting, *(candidate for candidate in several if not candidate.counts)
     of_statics = ensemble(
@@ -336,15 +332,13 @@ def _of_part(
     return ensembles
 
 
-def sliding_first(
-    several: Sequence[Candidate], motions: GroundMotions, settings: AssessmentSettings
-) -> list[Candidate]:
+def sliding_first(several: Sequence[Candidate], motions: GroundMotions) -> list[Candidate]:
     """Return those of the mechanisms that may form that slide before they lift, under motions that reach so far.
 
     A bulge whose joints slide instead is no safer for it: it is none of them where anything that counts lifts, or
     nothing but bulges may form.
     """
-    sliding = [candidate for candidate in several if slides_first(candidate, motions, settings)]
+    sliding = [candidate for candidate in several if slides_first(candidate, motions)]
     counting = [candidate for candidate in several if candidate.counts]
     if all(candidate.bulges for candidate in counting) or any(
         candidate not in sliding for candidate in counting
@@ -353,9 +347,9 @@ def sliding_first(
     return sliding
 
 
-def slides_first(candidate: Candidate, motions: GroundMotions, settings: AssessmentSettings) -> bool:
+def slides_first(candidate: Candidate, motions: GroundMotions) -> bool:
     """Whether a mechanism slides before it lifts, under motions that reach so far."""
-    level = slides_at(candidate, settings.friction_coefficient)
+    level = slides_at(candidate)
     return motions.excitation > level  # not where it is nan
 
 
@@ -365,19 +359,20 @@ def anchors_slide(structure: Structure, motions: GroundMotions) -> bool:
     return math.isfinite(level) and motions.excitation > level
 
 
-def slides_at(candidate: Candidate, friction_coefficient: float) -> float:
+def slides_at(candidate: Candidate) -> float:
     """Return the acceleration [g] at which a joint slides before a mechanism lifts; nan where none does.
 
     By statics of all joints, where the structure knows it; else until it lifts the forces of the joints of the
     mechanism are taken to grow with the acceleration.
     """
-    of_all_joints = candidate.structure.slides_at(friction_coefficient)
+    of_all_joints = candidate.structure.slides_at()
     if not math.isnan(of_all_joints):
         return of_all_joints
     needed = _lifting_friction(candidate.structure)
-    if not needed > friction_coefficient:
+    friction = candidate.structure.joints.friction
+    if not needed > friction:
         return math.nan
-    return candidate.multiplier * friction_coefficient / needed
+    return candidate.multiplier * friction / needed
 
 
 _lifting_friction = lru_cache(maxsize=1024)(lifting_friction)

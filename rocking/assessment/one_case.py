@@ -178,10 +178,10 @@ def with_contacts(
     """
     runs = MOST_RUNS if settings.fidelity == "contact" else RUNS
     counting = counting_cracks(structure)
-    sliding = sliding_first(cracks(structure), motions, settings)
+    sliding = sliding_first(cracks(structure), motions)
     slides = all(candidate in sliding for candidate in counting)
     if slides:
-        case = replace(case, slides_at=slides_at(counting[0], settings.friction_coefficient))
+        case = replace(case, slides_at=slides_at(counting[0]))
     elif decide(case.facts(structure)).word.badness < Verdict.PROBABLY_OVERTURNS.badness:
         ratios = {name: case.largest_of_part(name) for name, _ in parts_of(structure)}
         reason = doubt(structure, motions, ratios.pop(""), settings, bounces, ratios)
@@ -194,7 +194,7 @@ def with_contacts(
         case = replace(case, anchors_slide=anchors_slide(structure, motions))
     if decide(case.facts(structure)).word is Verdict.STANDS:
         case = replace(case, ties_give=ties_give(structure, motions, settings))
-    exempt = settings.friction_coefficient >= structure.stands_on_friction
+    exempt = structure.joints.friction >= structure.stands_on_friction
     if not exempt and decide(case.facts(structure)).word in (Verdict.STANDS, Verdict.PROBABLY_STANDS):
         lifting = next(candidate for candidate in counting if candidate not in sliding)
         governing = [case.ensembles.governing.description] if case.ensembles else []

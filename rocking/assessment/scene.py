@@ -29,6 +29,7 @@ from rocking.quantities import finite, listed, shown
 from rocking.remarks import Remark
 from rocking.structures import Mechanism, Structure
 from rocking.structures.description import LONGEST_KEY, nearest
+from rocking.structures.joints import Joints
 from rocking.structures.kinds import StructureKind
 from rocking.structures.structure_list import (
     NAME,
@@ -139,11 +140,10 @@ def variants_of(scenes: Mapping[str, Scene]) -> dict[str, list[str]]:
     return groups
 
 
-def on_friction(scenes: Mapping[str, Scene], coefficient: float) -> dict[str, Scene]:
-    """Return the scenes with structures on joints of this friction coefficient, where these do not state their own."""
+def on_joints(scenes: Mapping[str, Scene], joints: Joints) -> dict[str, Scene]:
+    """Return the scenes with their structures on these joints."""
     return {
-        name: replace(scene, structure=scene.structure.with_friction(coefficient))
-        for name, scene in scenes.items()
+        name: replace(scene, structure=scene.structure.on_joints(joints)) for name, scene in scenes.items()
     }
 
 

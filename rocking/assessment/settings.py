@@ -8,7 +8,6 @@ from rocking.described import check_described, described
 from rocking.errors import ConfigurationError
 from rocking.pulses import PULSE_METHODS, PulseSettings
 from rocking.structures.equivalent_block import Scale
-from rocking.structures.linkage import FRICTION
 
 
 class Heading(StrEnum):
@@ -94,9 +93,6 @@ class AssessmentSettings:
     )
     pulse: PredictingPulse = PredictingPulse()
     ensemble: EnsembleSettings = EnsembleSettings()
-    friction_coefficient: float = described(
-        FRICTION, "friction coefficient beyond which a contact slides", gt=0, le=10
-    )
     fidelity: Literal["quick", "standard", "contact"] = described(
         "standard",
         "standard runs every method, to compare them, and contact dynamics where the verdict cannot be told otherwise "

@@ -23,8 +23,8 @@ from rocking.records.design_spectrum import DesignSpectrum
 from rocking.remarks import Remark
 from rocking.structures import Structure
 from rocking.structures.crackable import Crackable
+from rocking.structures.joints import USUAL
 from rocking.structures.leaves import of_leaf, parts_of
-from rocking.structures.linkage import FRICTION
 from rocking.structures.structure import AS_DESCRIBED, Candidate
 from rocking.structures.tied import Tied
 
@@ -80,7 +80,7 @@ def kinematic_check(
 def _kinematic_check(structure: Structure, spectrum: DesignSpectrum, terms: CodeTerms) -> StructureCheck:
     """The checks with the crack that is known, or with all that may form."""
     if isinstance(structure, Structure):
-        structure = structure.with_friction(FRICTION)
+        structure = structure.on_joints(USUAL)
     mechanisms = _capacities(structure, terms)
     floor = FloorDemand(spectrum, terms.support)
     starts = _starts(mechanisms, floor)

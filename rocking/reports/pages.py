@@ -33,7 +33,6 @@ class PageSettings:
     display_units: str = "SI"
     tolerance: float = 1e-6
     acceleration_scale: str = "exact_at_rest"
-    friction_coefficient: float | None = None
 
 
 # What several pages hold ---------------------------------------------------------------------------------

@@ -75,7 +75,6 @@ from rocking.reports.supports import SupportPanel, floor_sentences, support_pane
 from rocking.structures import Structure
 from rocking.structures.crackable import Crackable
 from rocking.structures.kinds import StructureKind
-from rocking.structures.linkage import FRICTION
 
 if TYPE_CHECKING:
     from rocking.records.design_spectrum import DesignSpectrum
@@ -208,11 +207,6 @@ class RecordReport:
         return f" Accelerations ×\u00a0{factors}, declared." if factors else ""
 
     @property
-    def friction(self) -> float:
-        """The friction coefficient of the study."""
-        return self.settings.friction_coefficient or FRICTION
-
-    @property
     def remarks(self) -> list[RemarkRow]:
         """What there is to say of the study and of the record."""
         return [*self.of_study, *self.tables.remarks]
@@ -286,10 +280,8 @@ def _assumed(report: RecordReport) -> Iterator[Topic]:
     record = report.tables.record
     structures = report.structures.values()
     settings = report.settings
-    sliding = "Sliding is not checked."
-    if settings.friction_coefficient is not None:
-        coefficient = plain(settings.friction_coefficient)
-        sliding = f"A contact slides where it needs a friction coefficient above {coefficient}."
+    coefficients = _unique(plain(structure.joints.friction) for structure in structures)
+    sliding = f"A contact slides where it needs a friction coefficient above {coefficients}."
     yield Topic(
         "Bodies",
         (f"Bodies are rigid and do not crush. {sliding} Each structure has one degree of freedom.",),
@@ -371,7 +363,7 @@ def page_one(report: RecordReport) -> PageOne:
         peaks=_peaks(report),
         sine=Sine(share=percents(pulse.explained_energy) if pulse else "", clause=clause),
         rows=tuple(
-            structure_row(conclusion, report.structures.get(conclusion.verdict.structure), report.friction)
+            structure_row(conclusion, report.structures.get(conclusion.verdict.structure))
             for conclusion in drawn
         ),
         others=tuple(
@@ -428,11 +420,8 @@ def ground_strip(motion: Trace) -> Picture:
     return drawn_by_hand(lines, width, height, alt)
 
 
-def structure_row(conclusion: Conclusion, structure: Structure | None, friction: float = FRICTION) -> Row:
-    """The row of a structure: drawn at _DRAWN of its critical rotation and dashed at rest, its word and its marks.
-
-    friction: coefficient of the study.
-    """
+def structure_row(conclusion: Conclusion, structure: Structure | None) -> Row:
+    """The row of a structure: drawn at _DRAWN of its critical rotation and dashed at rest, its word and its marks."""
     verdict = conclusion.verdict
     decision = verdict.decision
     drawing: tuple[Picture, ...] = ()
@@ -459,16 +448,16 @@ def structure_row(conclusion: Conclusion, structure: Structure | None, friction:
         ),
         reserve=verdict.reserve.in_figures if verdict.reserve else "",
         alone=bool(verdict.reserve_doubts),
-        remark=_beside_the_word(conclusion, structure, friction),
+        remark=_beside_the_word(conclusion, structure),
     )
 
 
-def _beside_the_word(conclusion: Conclusion, structure: Structure | None, friction: float) -> str:
+def _beside_the_word(conclusion: Conclusion, structure: Structure | None) -> str:
     """The text at the end of a row; "" where there is nothing to say."""
     remark = conclusion.remark
     if remark.kind in UNSAID:
         return ""
-    stands = structure is not None and friction >= structure.stands_on_friction
+    stands = structure is not None and structure.joints.friction >= structure.stands_on_friction
     if remark.kind is AssessmentKind.CONTACT_SLIDES and stands and conclusion.case is not None:
         remark = Remark.of(ReportKind.STANDS_AS_VOUSSOIRS, needed=conclusion.case.required_friction)
     return remark.brief
@@ -667,7 +656,6 @@ def _known(report: RecordReport) -> Part:
 
 def _contacts(report: RecordReport) -> list[str]:
     """What the contacts of each structure do under any component: where the model fails, and where it need not."""
-    friction = report.friction
     failing: dict[str, set[str]] = {}
     needed: dict[str, float] = {}
     for row in report.tables.comparison:
@@ -675,7 +663,7 @@ def _contacts(report: RecordReport) -> list[str]:
             continue
         name = report.called(row.structure)
         structure = report.structures.get(row.structure)
-        stands = structure is not None and friction >= structure.stands_on_friction
+        stands = structure is not None and structure.joints.friction >= structure.stands_on_friction
         if row.bounces:
             failing.setdefault(name, set()).add("bounces")
         if row.slides and not stands:

@@ -8,6 +8,7 @@ from rocking.structures.block import Spire as Spire
 from rocking.structures.capacity_curve import CapacityCurve as CapacityCurve
 from rocking.structures.facade import Facade as Facade
 from rocking.structures.frame import Frame as Frame
+from rocking.structures.joints import Joints as Joints
 from rocking.structures.mechanism import EquivalentBlock as EquivalentBlock
 from rocking.structures.mechanism import Mechanism as Mechanism
 from rocking.structures.mechanism import Outcome as Outcome

@@ -227,10 +227,10 @@ class Arch(Crackable):
         """That of statics: the linear programme is the least over all hinges, so that no candidate has to be formed."""
         return (self.onset if self.crack_is_known else self._static_onset()).multiplier
 
-    def slides_at(self, friction_coefficient: float) -> float:
+    def slides_at(self) -> float:
         """By statics of all joints, those between the hinges too."""
         onset = self._static_onset()
-        least = multiplier_on_friction(self._crushed_ring(onset), friction_coefficient)
+        least = multiplier_on_friction(self._crushed_ring(onset), self.joints.friction)
         return least if least < _LIFTS_FROM * onset.multiplier else np.nan
 
     @property

@@ -45,7 +45,7 @@ class Crushable(Structure):
         if self.compressive_strength is not None:
             return None
         weight = getattr(self, "unit_weight", None) or USUAL_WEIGHT
-        values: dict[str, float] = {"compressive_strength": strength, "unit_weight": weight}
+        values: dict[str, Any] = {"compressive_strength": strength, "unit_weight": weight}
         try:
             return replace(self, **values)
         except StructureError:

@@ -410,6 +410,7 @@ class Facade(Tied):
             strength=self.compressive_strength,
             ties_apart=self.ties_apart,
             gripped=self.anchor_height,
+            joints=self.joints,
         )
 
     def _slab_edge(self, storey: int, load: float) -> float:

@@ -68,7 +68,10 @@ class PlainSignature:
         """Return the signature by which `help` shows the class."""
         of_init = signature(kind.__init__)  # type: ignore[misc]
         hints = get_type_hints(kind.__init__)  # type: ignore[misc]
-        _self, *parameters = of_init.parameters.values()
+        _self, *every = of_init.parameters.values()
+        parameters = [
+            parameter for parameter in every if parameter.name != "joints"
+        ]  # which `on_joints` gives
         return Signature(
             [parameter.replace(annotation=hints.get(parameter.name, Any)) for parameter in parameters]
         )

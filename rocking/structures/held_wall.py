@@ -16,8 +16,8 @@ from typing import NamedTuple
 import numpy as np
 
 from rocking.structures.drawing import rectangle
+from rocking.structures.joints import USUAL, Joints
 from rocking.structures.linkage import (
-    FRICTION,
     GRIPPED,
     HIGHEST_SHARE,
     STILL,
@@ -347,6 +347,7 @@ class HeldWall:
     strength: float | None = None
     ties_apart: bool = False
     gripped: float = GRIPPED
+    joints: Joints = USUAL
 
     @property
     def height(self) -> float:
@@ -384,7 +385,7 @@ class HeldWall:
         """
         floor = sum(load.weight for load in self.loads if load.z == height and not load.slab)
         storey = next(storey for storey in self.storeys if storey.low < height <= storey.high)
-        return FRICTION * (self.pressing(height) + floor + self.gripped * storey.weight)
+        return self.joints.friction * (self.pressing(height) + floor + self.gripped * storey.weight)
 
     @cached_property
     def anchors_slide_at(self) -> float:

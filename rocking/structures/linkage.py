@@ -496,8 +496,6 @@ def check_pressed(*, pressed: float, whole: float) -> None:
         )
 
 
-FRICTION = 0.6
-"""Coefficient of friction of joints where none is given."""
 IMPACTS = 2.8
 """Largest force of a tie in motion over that at rest, as the wall strikes it: 10–90 % are 1.9 to 4.8 (theory: section
 12.4)."""
@@ -531,10 +529,10 @@ class Restraint:
     """A height at which a tie or what lies on its top keeps a wall from moving outwards; forces in N per metre.
 
     kind: "tie" or "top". holds: the mechanism that it holds back, in words. needed: the force that this asks for at
-    rest, as it starts (theory: section 12.4). friction: that of what presses on it, by `coefficient`. ties: the force
-    at which they yield, inf of such as have no strength. weight: of the wall per metre; 1 where that is not known, so
-    that `needed` is a share of it. grip: the most that the wall gives around a tie, by friction above and below the
-    course that it grips (theory: section 13.3); inf of what is no tie.
+    rest, as it starts (theory: section 12.4). friction: that of what presses on it. coefficient: of that friction, or
+    of the joints around an anchor. ties: the force at which they yield, inf of such as have no strength. weight: of the
+    wall per metre; 1 where that is not known, so that `needed` is a share of it. grip: the most that the wall gives
+    around a tie, by friction above and below the course that it grips (theory: section 13.3); inf of what is no tie.
     """
 
     kind: str
@@ -568,7 +566,7 @@ class Restraint:
         if not self.most > self.grip:
             return None
         facts = {"height_m": self.height, "most_kN_m": self.most / 1e3, "grip_kN_m": self.grip / 1e3}
-        return Remark.of(StructureKind.ANCHOR_SLIDES, self.holds, **facts)
+        return Remark.of(StructureKind.ANCHOR_SLIDES, self.holds, **facts, friction=self.coefficient)
 
     @property
     def remark(self) -> Remark:

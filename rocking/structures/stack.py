@@ -19,7 +19,7 @@ MOST_COURSES = 40
 """Courses that a stack may have: its cost grows with their number, and a wall of more is followed as well by these."""
 COURSES = 6
 """Courses of a member that does not say how many it has."""
-FRICTION = 5.0
+ROUGH = 5.0
 """Friction coefficient at the joints: more than courses that only rock need, so that none slides."""
 _STEP = 5e-4
 """Time step [s] for which stops are made, that of contact dynamics."""
@@ -170,7 +170,7 @@ class Stack:
     courses: tuple[Course, ...]
     held: tuple[Held, ...] = field(default=())
     top_held_at: tuple[float, float] | None = None
-    friction: float = FRICTION
+    friction: float = ROUGH
 
     def __post_init__(self) -> None:
         if not 1 <= len(self.courses) <= MOST_COURSES:

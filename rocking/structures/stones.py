@@ -14,7 +14,7 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, whole
-from rocking.structures.stack import FRICTION, BodiesAtRest, Held
+from rocking.structures.stack import ROUGH, BodiesAtRest, Held
 
 if TYPE_CHECKING:
     from scipy.optimize import OptimizeResult
@@ -93,7 +93,7 @@ class Stones:
     """
 
     stones: tuple[Stone, ...]
-    friction: float = FRICTION
+    friction: float = ROUGH
 
     def __post_init__(self) -> None:
         most = MOST_VOUSSOIRS + 2

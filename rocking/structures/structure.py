@@ -18,6 +18,7 @@ from rocking.structures.capacity import StaticCapacity, StaticCurve
 from rocking.structures.description import Description
 from rocking.structures.drawing import Bay, Dimension, Mark, Path, plane
 from rocking.structures.fields import PlainSignature, Value, constructor
+from rocking.structures.joints import USUAL, Joints
 from rocking.structures.kinds import StructureKind
 from rocking.structures.linkage import (
     STILL,
@@ -54,7 +55,8 @@ TYPED_ABOVE = 0.02
 class Structure(ABC):
     """A geometry that reduces to a Mechanism. Subclasses are frozen dataclasses checked at birth.
 
-    restitution_range: its restitution is known to plus or minus this much; None: as the settings say.
+    restitution_range: its restitution is known to plus or minus this much; None: as the settings say. joints: what all
+    its joints have alike.
 
     type_name: the `type` in a file. _described_as: what each constructor that a file may use describes, by the name of
     its class method, "" for the class itself. crack_name: what its candidates move ("hinge", "crack"); "" without.
@@ -91,6 +93,7 @@ class Structure(ABC):
             bounds={"ge": 0, "le": 1},
         ),
     ] = field(default=None, kw_only=True)
+    joints: Joints = field(default=USUAL, kw_only=True)
 
     def __post_init__(self) -> None:
         """Check each value that is not the default by what its type says of it."""
@@ -119,8 +122,8 @@ class Structure(ABC):
         """
         return math.inf
 
-    def slides_at(self, friction_coefficient: float) -> float:
-        """Return the acceleration [g] at which joints of this friction slide before any mechanism of it lifts.
+    def slides_at(self) -> float:
+        """Return the acceleration [g] at which its joints slide before any mechanism of it lifts.
 
         0 where it slides apart at rest; nan where it lifts first, or where statics knows no more of its joints than
         its mechanisms do.
@@ -178,9 +181,9 @@ class Structure(ABC):
         """
         return ()
 
-    def with_friction(self, coefficient: float) -> "Structure":
-        """Return it on joints of this friction coefficient; itself where friction holds nothing of it, or is given."""
-        return self
+    def on_joints(self, joints: Joints) -> Self:
+        """Return it on these joints; it describes itself as it did."""
+        return self if joints == self.joints else self.described.describes(replace(self, joints=joints))
 
     def crushing(self, strength: float) -> "Structure | None":
         """Return it of masonry that crushes at a `strength` [Pa], of a usual weight where none is given.
@@ -506,7 +509,7 @@ class Structure(ABC):
         if own - typed <= TYPED_LOWER:
             return None
         # None is the balance of each side; a type that asks for a number gets the least of both
-        balanced = {
+        balanced: dict[str, Any] = {
             own_field.name: None if own_field.default is None else own
             for own_field in fields(self)
             if own_field.name in ("restitution", "inward_restitution")

@@ -525,6 +525,7 @@ class Tied(CrackedAtHeight, Leaved):
             reaction = weakest.structure.reactions()[place]
             friction = hold.inwards if hold.kind == "top" else 0.0
             of_ties = hold.outwards - friction if np.isfinite(friction) else 0.0
+            coefficient = friction / reaction.pressing if reaction.pressing else 0.0
             found.append(
                 Restraint(
                     kind=hold.kind,
@@ -532,7 +533,7 @@ class Tied(CrackedAtHeight, Leaved):
                     holds=weakest.name,
                     needed=float(reaction.force[0]),
                     friction=friction,
-                    coefficient=friction / reaction.pressing if reaction.pressing else 0.0,
+                    coefficient=coefficient if hold.kind == "top" else wall.joints.friction,
                     ties=of_ties,
                     weight=sum(storey.total for storey in wall.storeys),
                     grip=wall.grip(hold.height) if hold.kind == "tie" else math.inf,

@@ -41,7 +41,7 @@ from rocking.structures.linkage import (
 )
 from rocking.structures.mechanism import Tie
 from rocking.structures.stack import (
-    FRICTION,
+    ROUGH,
     Course,
     Held,
     Stack,
@@ -584,8 +584,8 @@ class LoadedWall(CrackedWall, Tied):
     one_sided : bool, default False
         Whether it bends outwards only; needs a restitution number.
     top_friction : float or None, optional
-        Friction coefficient between load and wall, by which the load holds the top; None: as the settings
-        say. Without any it never slips, and a top without a load is held.
+        Friction coefficient between load and wall, by which the load holds the top; None: that of all its
+        joints. A top without a load is held.
 
     Raises
     ------
@@ -634,7 +634,7 @@ class LoadedWall(CrackedWall, Tied):
         if self.opening is None:
             self.mechanism()  # one that its load pushes over is refused at birth
             self._check_leaves()
-            if self.top_friction is not None and self.tie_heights:
+            if self.slips and self.tie_heights and not isinstance(self.restitution, float):
                 self._check_restitution()
 
     def _alone(self, leaf: Leaf) -> "LoadedWall":
@@ -722,23 +722,23 @@ class LoadedWall(CrackedWall, Tied):
             strength=self.compressive_strength,
             ties_apart=self.ties_apart,
             gripped=self.anchor_height,
+            joints=self.joints,
         )
-
-    def with_friction(self, coefficient: float) -> Self:
-        """Return it with this friction at its top where it states none; it describes itself as it did."""
-        if self.top_friction is not None or not self.top_load:
-            return self
-        return self.described.describes(replace(self, top_friction=coefficient))
 
     @property
     def slips(self) -> bool:
         """Whether it is friction that holds its top."""
-        return self.top_friction is not None and self.top_load > 0
+        return self.top_load > 0
+
+    @property
+    def _top_friction(self) -> float:
+        """The friction coefficient of what lies on it: its own, or that of all its joints."""
+        return self.joints.friction if self.top_friction is None else self.top_friction
 
     @property
     def _friction(self) -> float:
         """The force by which friction holds its top, N per metre."""
-        return (self.top_friction or 0.0) * self.top_load
+        return self._top_friction * self.top_load
 
     @property
     def _slab_edge(self) -> float:
@@ -798,8 +798,8 @@ class LoadedWall(CrackedWall, Tied):
         if self.top_slab == "hinged":
             edges = (top[0] - _BEARING * half, top[0] + _BEARING * half)
         floor = slab(*edges, self.height, self.top_load, guided=True)
-        friction = self.top_friction if self.slips and self.top_friction is not None else FRICTION
-        return Stack((*wall, floor), held, friction=friction)
+        own = ROUGH if self.top_friction is None else self.top_friction
+        return Stack((*wall, floor), held, friction=own)
 
     def _hung(self, mirrored: bool) -> list[Hung]:
         half = self.thickness / 2

@@ -30,7 +30,7 @@ from rocking.assessment.rows import (
     history_rows,
     rows_of_record,
 )
-from rocking.assessment.scene import Scene, on_friction
+from rocking.assessment.scene import Scene, on_joints
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.store import RecordStore, computation_version
 from rocking.catalogue import CatalogueRecord, open_station
@@ -74,8 +74,8 @@ class Study:
     settings_sha256: str = ""
 
     def __post_init__(self) -> None:
-        on_joints = on_friction(self.scenes, self.settings.friction_coefficient)
-        object.__setattr__(self, "scenes", on_joints)
+        scenes = on_joints(self.scenes, self.settings.joints)
+        object.__setattr__(self, "scenes", scenes)
 
     @property
     def structures(self) -> dict[str, Structure]:
@@ -422,8 +422,7 @@ def assess_catalogued(
 
 def rows_of(result: RecordResult, record: CatalogueRecord, study: Study) -> RecordRows:
     """Return what the tables of a study hold of a record."""
-    friction = study.settings.friction_coefficient
     vertical = study.settings.vertical
     place = record.epicentre
     epicentre = place if isinstance(place, Place) else None
-    return rows_of_record(result, study.settings_sha256, record.licence, friction, vertical, epicentre)
+    return rows_of_record(result, study.settings_sha256, record.licence, vertical, epicentre)

@@ -29,6 +29,7 @@ from rocking.records.processing import Processing
 from rocking.records.scaling import ScalingTarget
 from rocking.remarks import Remark
 from rocking.reports.pages import Fact, PageSettings
+from rocking.structures.joints import USUAL, Joints
 from rocking.structures.kinds import StructureKind
 from rocking.structures.structure import CRACKS
 from rocking.tables.yaml_file import scalar_value
@@ -277,6 +278,9 @@ class Settings(AssessmentSettings):
         examples=["pga 0.35 g", "pgv 50 cm/s"],
         heading=Heading.PROCESSING,
     )
+    friction_coefficient: float = described(
+        USUAL.friction, "friction coefficient beyond which a contact slides", gt=0, le=10
+    )
     vertical: bool = described(False, "whether the vertical component acts as well, where a record has one")
     candidates: int = described(
         CRACKS, "number of heights tried for the hinge of a wall or the crack of a spire", ge=0, le=1000
@@ -333,6 +337,11 @@ class Settings(AssessmentSettings):
                 ScalingTarget.parse(self.scale_to)
             except RecordError as error:
                 raise ConfigurationError(str(error)) from None
+
+    @property
+    def joints(self) -> Joints:
+        """The joints of every structure of the study."""
+        return Joints(self.friction_coefficient)
 
     @classmethod
     def changing_numbers(cls) -> list[str]:

@@ -164,7 +164,8 @@ def write_strengthening(
     with chdir(folder):
         path = config_file(Path())
         plan = make_plan(check_config_file(path) if path else {})
-        scene = _scene(plan.scenes, structure, plan.settings.structures)
+        study = Study(plan.scenes, plan.settings)
+        scene = _scene(study.scenes, structure, plan.settings.structures)
         size, ends = _size(scene, key, between)
         place = target_folder or (Path(plan.settings.results) / "strengthening").absolute()
         name = re.sub(r"[^A-Za-z0-9._-]+", "_", f"{structure}_{size.key}").strip("._-")[:150]
@@ -174,7 +175,6 @@ def write_strengthening(
         if target_folder is not None:
             for file, document in ((table, document_of(StrengtheningRow)), (image, PICTURE), (cases, _CASES)):
                 check_target(file, document)
-        study = Study(plan.scenes, plan.settings)
         records, sample, notes = _records(study)
         checks = plan.settings.checks
         store = RecordStore(cases, show_line)

@@ -24,7 +24,7 @@ from docs.research.comparison.codes import (
 )
 from rocking.contacts.kernel import ALERT
 from rocking.quantities import GRAVITY
-from rocking.structures.stack import FRICTION
+from rocking.structures.stack import ROUGH
 
 STEPS = (2e-3, 1e-3, 5e-4)
 """Time steps, s."""
@@ -52,7 +52,7 @@ def run(case: StructureQuestion, step: float) -> Answer:
 
 
 def follow(
-    case: Question, bodies: RigidBodies, step: float, friction: float = FRICTION
+    case: Question, bodies: RigidBodies, step: float, friction: float = ROUGH
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Times (n,), counterclockwise turns (n, bodies) and centres of mass (n, bodies, 2), until the end or a fall.
 

@@ -99,10 +99,9 @@ class DecidedRow(CaseRow[C]):
 
 @dataclass(frozen=True)
 class ComparedCase(OfStructure):
-    """One case that gave a result. friction_coefficient: beyond which a contact slides."""
+    """One case that gave a result."""
 
     case: "CaseResult"
-    friction_coefficient: float
 
     @cached_property
     def side(self) -> "Side":
@@ -244,7 +243,7 @@ class ComparisonRow(DecidedRow[ComparedCase]):
     )
     slides: bool | None = of_case(
         "Whether a contact needs more friction than it has while it rocks",
-        lambda of: of.case.check.slides(of.friction_coefficient),
+        lambda of: of.case.check.slides(of.period_result.scene.structure.joints.friction),
     )
     bounces: bool | None = of_check(
         "Whether a contact lifts off, so that the model fails", lambda check: check.bounces
@@ -847,13 +846,12 @@ def rows_of_record(
     result: "RecordResult",
     settings_sha256: str = "",
     licence: str = "",
-    friction_coefficient: float = 0.6,
     vertical: bool = False,
     epicentre: Place | None = None,
 ) -> RecordRows:
     """Return what the tables hold of a record.
 
-    settings_sha256: names settings, structures and package. friction_coefficient: beyond which a contact slides.
+    settings_sha256: names settings, structures and package.
     vertical: whether its vertical component is asked for. licence, epicentre: as the catalogue declares them.
     """
     record = result.record
@@ -876,7 +874,7 @@ def rows_of_record(
         for period_result, case in result.cases(component):
             with _as_failures(failures, identity, period_result):
                 if case.response is not None:
-                    compared = ComparedCase(identity, period_result, case, friction_coefficient)
+                    compared = ComparedCase(identity, period_result, case)
                     comparison.append(ComparisonRow.of(compared))
                 variations += [
                     VariationRow.of(VariedCase(identity, period_result, variation))

@@ -44,7 +44,7 @@ class Impossible:
     def mechanism(self) -> None:
         raise StructureError("it cannot stand.")
 
-    def with_friction(self, coefficient: float) -> "Impossible":
+    def on_joints(self, joints) -> "Impossible":
         return self
 
     def restraints(self) -> tuple[()]:

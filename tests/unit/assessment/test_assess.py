@@ -58,7 +58,7 @@ def assessed(record: Accelerogram, settings: AssessmentSettings = SETTINGS, vert
 
 def compared(case: CaseResult) -> ComparisonRow:
     station = PeriodResult(Scene("block", BLOCK), {case.component: case})
-    return ComparisonRow.of(ComparedCase(IDENTITY, station, case, friction_coefficient=0.6))
+    return ComparisonRow.of(ComparedCase(IDENTITY, station, case))
 
 
 @pytest.fixture(scope="module")

@@ -29,6 +29,7 @@ from rocking.contacts.dynamics import SECONDS_A_STEP, STEP, follow_stack
 from rocking.errors import MotionError, StructureError
 from rocking.quantities import GRAVITY
 from rocking.remarks import Remark
+from rocking.structures.joints import Joints
 from rocking.structures.stack import COURSES
 from rocking.structures.structure import Candidate
 from rocking.structures.unknown_geometry import as_structure
@@ -150,7 +151,7 @@ def test_contact_dynamics_is_asked_where_it_cannot_be_told_and_of_a_held_wall_th
         motion = sine(severity * wall.static_multiplier * GRAVITY, period)
         few, many = (
             rocking.assess(
-                motion, wall, settings=replace(each, ensemble=without_reserve, friction_coefficient=5.0)
+                motion, wall.on_joints(Joints(5.0)), settings=replace(each, ensemble=without_reserve)
             )
             for each in (AssessmentSettings(), CONTACT)
         )
@@ -287,10 +288,10 @@ def test_what_needs_more_friction_than_the_study_has_slides_and_does_not_fall():
     times = np.arange(0, 5, 0.005)
     to_and_fro = 8.0 * np.sin(2 * np.pi * times / 0.8) * np.exp(-(((times - 2.5) / 0.8) ** 2))
     motions = GroundMotions.of(Accelerogram(to_and_fro, 0.005))
-    slippery, rough = (AssessmentSettings(friction_coefficient=each) for each in (0.15, 0.9))
+    slippery, rough = (front.on_joints(Joints(each)) for each in (0.15, 0.9))
     assert front.static_multiplier == pytest.approx(0.2)
-    assert contact_share(front, motions, slippery).falls == 0
-    assert contact_share(front, motions, rough).falls > 0
+    assert contact_share(slippery, motions).falls == 0
+    assert contact_share(rough, motions).falls > 0
 
 
 def test_a_tie_that_is_too_stiff_for_the_usual_step_is_followed_at_a_shorter_one():
@@ -422,26 +423,25 @@ def test_the_friction_that_a_rocking_block_needs_is_that_of_its_centre_of_mass(a
     motions = ground_motions(Motion((record,)), processing=False)
     needed = friction_of_a_block(block, record)
     assert 0.45 < needed < 2
-    less, more = (AssessmentSettings(friction_coefficient=factor * needed) for factor in (0.98, 1.02))
-    assert friction_needed([block], motions, less) == pytest.approx(needed, rel=0.01)
-    assert np.isnan(friction_needed([block], motions, more))
+    less, more = (block.on_joints(Joints(factor * needed)) for factor in (0.98, 1.02))
+    assert friction_needed([less], motions, AssessmentSettings()) == pytest.approx(needed, rel=0.01)
+    assert np.isnan(friction_needed([more], motions, AssessmentSettings()))
 
 
 def test_a_block_whose_corner_needs_more_friction_than_it_has_only_probably_stands():
     """It lifts before it slides, and needs more while it rocks; the pages say how much."""
-    block = Block.of_size(0.9, 2.0)
+    block = Block.of_size(0.9, 2.0).on_joints(Joints(0.5))
     record = sine(8.0, 0.4)
     needed = friction_of_a_block(block, record)
-    settings = AssessmentSettings(friction_coefficient=0.5)
     assert 0.45 < 0.5 < needed
-    limited = rocking.assess(record, block, settings=settings)
+    limited = rocking.assess(record, block)
     assert (limited.verdict, limited.overturning_share) == (Verdict.PROBABLY_STANDS, 0.0)
     assert limited.friction_needed == pytest.approx(needed, rel=0.01)
     assert AssessmentKind.FRICTION in [each.kind for each in limited.decision.would_settle]
-    firm = rocking.assess(record, block, settings=replace(settings, friction_coefficient=1.1 * needed))
+    firm = rocking.assess(record, block.on_joints(Joints(1.1 * needed)))
     assert firm.verdict is Verdict.STANDS
     assert np.isnan(firm.friction_needed)
-    quick = replace(settings, fidelity="quick")
+    quick = AssessmentSettings(fidelity="quick")
     case = compute_case(CaseInputs(motion=Motion((record,)), structure=block, settings=quick))
     assert decide(case.facts(block)).word is Verdict.PROBABLY_STANDS, "as every path to a word has it"
 
@@ -455,7 +455,7 @@ def test_an_arch_that_needs_more_friction_stands_as_its_voussoirs_do():
     without_reserve = EnsembleSettings(reserve=0)
     less, more = (
         rocking.assess(
-            record, arch, settings=AssessmentSettings(friction_coefficient=each, ensemble=without_reserve)
+            record, arch.on_joints(Joints(each)), settings=AssessmentSettings(ensemble=without_reserve)
         )
         for each in (0.495, 0.505)
     )
@@ -474,11 +474,11 @@ def test_an_arch_that_needs_more_friction_stands_as_its_voussoirs_do():
 
 def test_a_stack_is_followed_on_the_friction_that_its_courses_have():
     """With fidelity: standard by 24 runs, which may find that it slides apart; contact by 64, which may clear it."""
-    wall = Wall(lower_height=2.0, upper_height=1.0, thickness=0.5, crack="known")
+    wall = Wall(2.0, 1.0, 0.5, crack="known", joints=Joints(0.35))
     motion = Accelerogram(sine(7.0, 0.3).acceleration[:130], 0.005)
-    slippery = AssessmentSettings(friction_coefficient=0.35, ensemble=EnsembleSettings(reserve=0))
+    without_reserve = AssessmentSettings(ensemble=EnsembleSettings(reserve=0))
     few, many = (
-        rocking.assess(motion, wall, settings=replace(slippery, fidelity=each))
+        rocking.assess(motion, wall, settings=replace(without_reserve, fidelity=each))
         for each in ("standard", "contact")
     )
     assert few.friction_needed == many.friction_needed > 0.35
@@ -519,10 +519,10 @@ def test_an_arch_on_piers_stands_by_its_stones_alone():
 
 def test_an_arch_that_slides_first_is_told_by_its_stones():
     """On 0.4 it slides before it lifts: a short motion moves it little, a long and strong one takes it down."""
-    arch = Arch(5.0, 0.9, np.radians(150), 11)
-    slides_at = arch.slides_at(0.4)
+    arch = Arch(5.0, 0.9, np.radians(150), 11, joints=Joints(0.4))
+    slides_at = arch.slides_at()
     for factor, period, falls in ((1.1, 0.1, False), (5.0, 0.9, True)):
-        word, stones = words_of(arch, sine(factor * slides_at * GRAVITY, period), friction_coefficient=0.4)
+        word, stones = words_of(arch, sine(factor * slides_at * GRAVITY, period))
         assert (stones.falls > 0) is falls
         assert word == "probably stands" or falls
         assert word in ("probably overturns", "overturns") or not falls

@@ -30,13 +30,14 @@ from rocking.motion import integrate
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.structures import Arch, Block, Facade, LoadedWall, Spire, Wall
+from rocking.structures.joints import Joints
 from rocking.structures.structure import AS_DESCRIBED
 
 STEP, TIMES = 0.01, np.arange(0, 4, 0.01)
 SPIRE = Spire(width=3.0, height=15.0, wall_thickness=0.3)
 WALL = Wall.hinged_at(6.0, 3.0, 0.4)
 LOW_WALL = Wall(2.0, 2.0, 0.3)
-ROUGH = AssessmentSettings(friction_coefficient=5.0)
+ROUGH = Joints(5.0)
 """Joints that nothing lets slide, so that something else limits a word."""
 PULSE = Pulse(amplitude=2.5, circular_frequency=2 * np.pi / 0.9, start_time=3.0)
 SINE = Accelerogram(PULSE.acceleration(np.arange(2000) * STEP), STEP)
@@ -136,9 +137,9 @@ def test_a_crack_that_is_known_decides_and_what_falls_beside_it_is_told():
 
 def test_a_body_that_needs_more_friction_than_it_has_slides_as_the_ground_reaches_that_friction():
     """Coulomb: μ g below tan α g, and never on more friction than tan α."""
-    (body,) = cracks(Block.of_size(1.0, 1.25))
-    assert [slides_at(body, friction) for friction in (0.3, 0.6)] == pytest.approx([0.3, 0.6])
-    assert math.isnan(slides_at(body, 0.81))
+    block = Block.of_size(1.0, 1.25)
+    slide = [slides_at(cracks(block.on_joints(Joints(friction)))[0]) for friction in (0.3, 0.6, 0.81)]
+    assert slide == pytest.approx([0.3, 0.6, math.nan], nan_ok=True)
 
 
 def test_the_crack_that_governs_is_found_by_its_description():
@@ -418,10 +419,10 @@ def test_ties_that_give_are_told_beside_the_word():
     times = np.arange(0, 6, STEP)
     swing = np.sin(2 * np.pi * times / wall.tie_period) * (times < 5)
     motion = Accelerogram(1.02 * wall.static_multiplier * 9.80665 * swing, STEP)
-    decision = rocking.assess(motion, wall, settings=ROUGH).decision
+    decision = rocking.assess(motion, wall.on_joints(ROUGH)).decision
     assert decision.word is Verdict.PROBABLY_STANDS
     assert [each.kind for each in decision.doubts] == [AssessmentKind.TIES_GIVE]
-    unmoved = rocking.assess(motion, replace(wall, tie_stiffness=1e9), settings=ROUGH).decision
+    unmoved = rocking.assess(motion, replace(wall, tie_stiffness=1e9, joints=ROUGH)).decision
     assert (unmoved.word, unmoved.doubts) == (Verdict.STANDS, ())
 
 

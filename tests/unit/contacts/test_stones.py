@@ -19,6 +19,7 @@ from rocking import (
 )
 from rocking.contacts.dynamics import StackResponse, follow_stack
 from rocking.quantities import GRAVITY
+from rocking.structures.joints import Joints
 from rocking.structures.stones import MOST_VOUSSOIRS, VOUSSOIRS, Stone, Stones
 from tests.refusals import refused
 
@@ -119,7 +120,7 @@ def test_they_open_under_a_slow_push_where_statics_has_it(structure, share):
 
 
 def test_they_slide_under_a_slow_push_where_statics_with_friction_has_it():
-    slides_at = ARCH.slides_at(0.4)
+    slides_at = ARCH.on_joints(Joints(0.4)).slides_at()
     assert slides_at < 0.8 * ARCH.static_multiplier
     stones = on_friction(ARCH, 0.4)
     assert stones.resting_multiplier == pytest.approx(slides_at, rel=1e-9)

@@ -20,7 +20,7 @@ from rocking.reports.kinds import ReportKind
 from rocking.reports.pages import Part, RecordPage, Table, TableCell
 from rocking.reports.printing import MEASURED, compile_document
 from rocking.reports.record import RecordReport, failure_page
-from rocking.structures import Arch, ArchOnPiers, Block, Facade, Frame, LoadedWall, Spire, Wall
+from rocking.structures import Arch, ArchOnPiers, Block, Facade, Frame, Joints, LoadedWall, Spire, Wall
 from rocking.structures.kinds import StructureKind
 from rocking.tables import cell
 
@@ -284,8 +284,7 @@ def test_an_arch_that_stands_on_its_friction_is_no_model_that_fails(example):
     for structure, friction, told in ((arch, 0.6, True), (arch, 0.4, False), (piers, 0.6, False)):
         report = replace(
             example,
-            structures={**example.structures, name: structure},
-            settings=replace(example.settings, friction_coefficient=friction),
+            structures={**example.structures, name: structure.on_joints(Joints(friction))},
         )
         data = with_tables(report, comparison=comparison)
         texts = known(data)

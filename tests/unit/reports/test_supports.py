@@ -33,7 +33,7 @@ def report():
     structures = {"parapet": body, "pier": pier}
     settings = AssessmentSettings(fidelity="standard", ensemble=EnsembleSettings(members=16))
     result = Assessor(settings).assess("made", [record], scenes)
-    settings = PageSettings(acceleration_scale="linearised", friction_coefficient=0.6)
+    settings = PageSettings(acceleration_scale="linearised")
     return RecordReport(result, rows_of_record(result), structures, settings)
 
 

@@ -130,7 +130,8 @@ def test_a_crack_that_is_typed_is_one_more_candidate_and_decides_only_where_it_i
 
     known = replace(at_a_place, crack="known")
     first, *beside = known.candidates()
-    assert first.counts and beside and not any(each.counts for each in beside)
+    # but for a top that slips, which it may wherever the wall is cracked
+    assert first.counts and beside and not any(each.counts for each in beside if not each.bulges)
     assert first.description == at_a_place.crack_in_words and first.structure is known
     assert first.multiplier == at_a_place.mechanism().uplift_multiplier
     assert known.static_multiplier == pytest.approx(first.multiplier, rel=1e-12)

@@ -7,11 +7,10 @@ import numpy as np
 import pytest
 
 import rocking
-from rocking.assessment.settings import AssessmentSettings
 from rocking.quantities import GRAVITY
 from rocking.structures import Facade, LoadedWall, Wall
+from rocking.structures.joints import Joints
 from rocking.structures.kinds import StructureKind
-from rocking.structures.linkage import FRICTION
 
 BY_HAND = 1e-9
 HEIGHT, THICKNESS, FLOOR = 3.6, 0.35, 4e3
@@ -41,7 +40,7 @@ def needed(hinge):
 def test_a_light_floor_does_not_hold_the_top():
     """By hand: R = 3.18 kN/m, .6 of a floor of 4 kN/m gives 2.4; λ of the wall that slips is (M + μ N H)/S."""
     multiplier, force = needed(2.4)
-    wall = replace(WALL, crack="known").with_friction(0.6)
+    wall = replace(WALL, crack="known")
     (top,) = wall.restraints()
     assert wall.mechanism().uplift_multiplier == pytest.approx(multiplier, rel=BY_HAND)
     assert top.needed == pytest.approx(force, rel=BY_HAND)
@@ -61,16 +60,16 @@ def test_the_top_slips_first_where_it_needs_more_than_it_gets_and_nowhere_else(s
     wall = replace(WALL, top_slab=slab).cracked_by_statics()
     (held,) = wall.restraints()
     for friction in (0.2, 0.99 * held.needed / FLOOR, 1.01 * held.needed / FLOOR, 3.0):
-        (top,) = wall.with_friction(friction).restraints()
-        first, *_ = wall.with_friction(friction).candidates()
+        (top,) = wall.on_joints(Joints(friction)).restraints()
+        first, *_ = wall.on_joints(Joints(friction)).candidates()
         assert top.lets_go is (friction * FLOOR < held.needed)
         assert ("slip" in first.name or "sways" in first.name) is top.lets_go
         if top.lets_go:  # what would hold the hinges does not
-            assert len(wall.with_friction(friction).candidates()) == 1
+            assert len(wall.on_joints(Joints(friction)).candidates()) == 1
 
 
 def test_a_tie_at_the_top_holds_what_friction_does_not():
-    loose = replace(WALL, one_sided=True).with_friction(0.6)
+    loose = replace(WALL, one_sided=True)
     missing = loose.restraints()[0].remark["tie_kN_m"] * 1e3
     for strength, holds in ((0.99 * missing, False), (1.01 * missing, True), (None, True)):
         tied = replace(loose, tie_heights=(HEIGHT,), tie_stiffness=2e7, tie_strength=strength)
@@ -80,14 +79,14 @@ def test_a_tie_at_the_top_holds_what_friction_does_not():
 
 
 def test_friction_of_the_study_counts_where_a_wall_states_none():
-    assert WALL.with_friction(0.4).restraints()[0].coefficient == pytest.approx(0.4)
-    assert replace(WALL, top_friction=0.9).with_friction(0.4).restraints()[0].coefficient == pytest.approx(
-        0.9
-    )
-    assert WALL.with_friction(0.4).description == WALL.description
+    assert WALL.on_joints(Joints(0.4)).restraints()[0].coefficient == pytest.approx(0.4)
+    assert replace(WALL, top_friction=0.9).on_joints(Joints(0.4)).restraints()[
+        0
+    ].coefficient == pytest.approx(0.9)
+    assert WALL.on_joints(Joints(0.4)).description == WALL.description
     bare = replace(WALL, top_load=0.0)
-    assert bare.with_friction(0.4) is bare  # what holds it is no friction
-    assert rocking.Block(2.0, 0.2).with_friction(0.4).restraints() == ()
+    assert bare.on_joints(Joints(0.4)).restraints() == bare.restraints()  # what holds it is no friction
+    assert rocking.Block(2.0, 0.2).on_joints(Joints(0.4)).restraints() == ()
 
 
 def test_a_wall_at_a_ceiling_says_the_share_of_its_weight_that_its_top_needs():
@@ -128,10 +127,6 @@ def test_ties_say_what_they_bear_and_what_they_give():
         assert tie.remark.kind is kind
 
 
-def test_usual_friction_is_that_of_the_settings():
-    assert AssessmentSettings().friction_coefficient == FRICTION
-
-
 @pytest.mark.parametrize("friction", [0.05, 0.3, 5.0])
 def test_beside_a_known_crack_a_top_that_friction_holds_may_slip(friction):
     """Between two supports the known crack is the only bulge: what a top on friction adds is that it slips."""
@@ -143,9 +138,24 @@ def test_beside_a_known_crack_a_top_that_friction_holds_may_slip(friction):
     assert len(own) == 1 and own[0].structure == wall
     assert others, "it slips, however rough the top is"
     assert min(others, key=lambda each: each.uplift_multiplier).uplift_multiplier > 0
-    held = replace(WALL, top_friction=None, crack="known")
+    held = replace(WALL, top_load=0.0, crack="known")
     assert not held.held_wall.top_may_slip
     assert [each.structure for each in held.mechanisms()] == [held]
+
+
+@pytest.mark.parametrize(
+    ("friction", "grip", "slides_at"), [(0.2, 1400, 0.117), (0.6, 4200, 0.196), (0.9, 6300, 0.256)]
+)
+def test_an_anchor_grips_by_the_friction_of_the_joints(friction, grip, slides_at):
+    """By hand: μ of the half metre above the tie and of the course of .2 m that its anchor grips."""
+    front = Facade(
+        (3.5, 3.0), (0.5, 0.5), 20e3, behind="cross_walls", restitution=0.5, tie_heights=(6.0,), tie_stiffness=2e7,
+        joints=Joints(friction),
+    )  # fmt: skip
+    (tie,) = [each for each in front.restraints() if each.kind == "tie"]
+    assert tie.grip == pytest.approx(grip, rel=BY_HAND)
+    assert front.anchors_slide_at == pytest.approx(slides_at, abs=5e-4)
+    assert tie.slides_out["friction"] == friction
 
 
 @pytest.mark.parametrize("below", [0.0, 1.2])

@@ -17,6 +17,7 @@ from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY
 from rocking.structures.arch_mechanism import multiplier_on_friction
+from rocking.structures.joints import Joints
 
 SLIDES = Arch(5.0, 0.9, np.radians(150), 11)
 
@@ -137,7 +138,9 @@ def test_on_joints_that_slide_it_is_that_of_the_equilibrium_of_each_voussoir(fri
         found = multiplier_on_friction(arch.ring, friction)
         assert found == pytest.approx(0.0 if np.isnan(expected) else expected, rel=1e-7)
         slide += found < 0.99 * arch.onset.multiplier
-        assert np.isnan(arch.slides_at(friction)) == (found >= 0.99 * arch.onset.multiplier)
+        assert np.isnan(arch.on_joints(Joints(friction)).slides_at()) == (
+            found >= 0.99 * arch.onset.multiplier
+        )
     assert slide > 0 or friction == 0.6
 
 
@@ -159,21 +162,24 @@ def test_hinges_that_are_typed_slide_as_all_joints_do():
     first, *others = SLIDES.candidates(4)
     assert others[0].multiplier > first.multiplier
     for each in (first, *others):
-        assert each.structure.slides_at(0.4) == SLIDES.slides_at(0.4) > 0
+        assert (
+            each.structure.on_joints(Joints(0.4)).slides_at() == SLIDES.on_joints(Joints(0.4)).slides_at() > 0
+        )
 
 
 def test_what_slides_before_it_lifts_cannot_be_told_by_its_mechanism():
     """Though the motion stays below the acceleration at which that lifts; fidelity: quick follows no stones."""
-    slides_at = SLIDES.slides_at(0.4)
+    slides_at = SLIDES.on_joints(Joints(0.4)).slides_at()
     assert slides_at < 0.9 * SLIDES.static_multiplier
     times = np.arange(0, 3, 0.005)
     shape = np.sin(2 * np.pi * times / 0.5)
 
     def told(peak: float, friction: float) -> Decision:
-        settings = AssessmentSettings(friction_coefficient=friction, fidelity="quick")
+        arch = SLIDES.on_joints(Joints(friction))
         motion = Motion((Accelerogram(peak * GRAVITY * shape, 0.005),))
-        case = compute_case(CaseInputs(motion=motion, structure=SLIDES, settings=settings))
-        return decide(case.facts(SLIDES))
+        settings = AssessmentSettings(fidelity="quick")
+        case = compute_case(CaseInputs(motion=motion, structure=arch, settings=settings))
+        return decide(case.facts(arch))
 
     between = 0.9 * SLIDES.static_multiplier
     assert told(between, 0.6).word is told(0.9 * slides_at, 0.4).word is Verdict.STANDS
