@@ -108,6 +108,18 @@ def test_a_spire_that_lifts_never_stands_by_its_mechanisms_alone():
         assert without_stacks(lifts).why.startswith("courses above a rocking body may be thrown; 0 of ")
 
 
+@pytest.mark.parametrize("falls", [False, True])
+def test_what_falls_as_a_stack_alone_has_no_reserve_by_its_mechanisms(monkeypatch, falls):
+    monkeypatch.setattr(
+        "rocking.assessment.one_case.contact_share",
+        lambda *arguments: ContactShare(falls=falls * arguments[-1], runs=arguments[-1]),
+    )
+    told = rocking.assess(sine(1.3 * SPIRE.static_multiplier * GRAVITY, 0.1), SPIRE)
+    assert told.falls_in_stacks_alone is falls
+    reserve = told.with_reserve(Reserve(low=1.8, median=2.2, high=2.6, limit=3.0)).reserve
+    assert (reserve is None) is falls
+
+
 @pytest.mark.process
 def test_few_runs_of_contact_dynamics_let_a_spire_probably_stand_and_many_let_it_stand():
     """The last six of 24 are not followed where none falls before: six falls change no word."""

@@ -77,6 +77,23 @@ def test_members_are_what_integrate_says_of_each():
         assert ratio == pytest.approx(alone.rotation_ratio, rel=1e-6)
 
 
+def test_half_of_the_members_feel_the_vertical_motion():
+    up = Accelerogram(2.0 * np.cos(2 * np.pi * TIMES / 0.9), STEP, component="up")
+    result = drawn(
+        BLOCK, GroundMotions.of(_record(5.0), vertical=up), lattice(16), EnsembleSettings(polarity=False)
+    )
+    causes = (result.causes[name] for name in ("amplitude", "restitution", "vertical"))
+    feels = []
+    for ratio, factor, offset, lifts in zip(result.rotation_ratios, *causes, strict=True):
+        vertical = up.scaled(factor) if lifts else None
+        block = Block(2.0, 0.2, restitution=0.9 + offset)
+        assert ratio == pytest.approx(
+            integrate(block, _record(5.0 * factor), vertical=vertical).rotation_ratio, rel=1e-6
+        )
+        feels.append(bool(lifts))
+    assert sum(feels) == 8
+
+
 def test_the_probability_is_the_share_of_the_range_that_overturns():
     settings = EnsembleSettings(restitution_range=0.0, amplitude_range=0.2)
     amplitudes = np.arange(3, 12, 0.1)

@@ -76,6 +76,21 @@ def test_soil_factors_by_hand():
         assert spectrum.corner_periods[1] == pytest.approx(constant, rel=ROUNDING)
 
 
+@pytest.mark.parametrize(
+    ("ag", "factors"),
+    [
+        (0.05, {"A": 1, "B": 1.2, "C": 1.5, "D": 1.8, "E": 1.6}),
+        (0.6, {"A": 1, "B": 1, "C": 1, "D": 0.9, "E": 1}),
+    ],
+)
+def test_soil_factors_are_held_within_the_limits_of_the_code(ag, factors):
+    """Tab. 3.2.IV: F0 a_g/g of .125 and of 1.5 leads beyond either limit of every soil."""
+    for soil, factor in factors.items():
+        assert DesignSpectrum.ntc(ag * GRAVITY, 2.5, 0.3, soil).soil_factor == pytest.approx(
+            factor, rel=ROUNDING
+        )
+
+
 def test_damping_reduces_the_plateau_and_not_the_ground():
     spectrum = DesignSpectrum.ntc(2.0, 2.5, 0.35)
     assert damping_factor(0.08) == pytest.approx(math.sqrt(10 / 13), rel=ROUNDING)

@@ -123,6 +123,14 @@ def test_settings_out_of_range(settings: dict, field: str) -> None:
         Processing(**settings)
 
 
+@pytest.mark.parametrize("pre_event", [5.0, 0.004])
+def test_a_window_before_the_event_holds_a_sample_and_ends_within_the_record(pre_event: float) -> None:
+    wave = Accelerogram(np.ones(500), 0.01)
+    process(wave, Processing(pre_event=4.99, baseline="none"))
+    with refused(RecordError, "pre_event", pre_event):
+        process(wave, Processing(pre_event=pre_event, baseline="none"))
+
+
 def test_the_displacement_of_a_filtered_record_is_that_with_its_pads() -> None:
     """Without what the filter put before the record, the displacement drifts."""
     rng = np.random.default_rng(2)

@@ -2,10 +2,15 @@
 
 import json
 import math
+import re
+from pathlib import Path
 
 import pytest
 
+import rocking
 from rocking.reports.explore import record_content
+
+SCRIPT = (Path(rocking.__file__).parent / "reports" / "explore.js").read_text(encoding="utf-8")
 
 
 def test_numbers_are_those_of_the_result_to_six_digits_and_nothing_stands_for_nan(example):
@@ -17,3 +22,21 @@ def test_numbers_are_those_of_the_result_to_six_digits_and_nothing_stands_for_na
         told = cases[station.structure]["severity"][1]
         assert math.isnan(share) or told == pytest.approx(share, rel=5e-6)
     assert any(case["severity"][1] > 0 for case in cases.values())
+
+
+def _keys(content, above=""):
+    """Every key of a nested content but those that are names of records, structures and components."""
+    if isinstance(content, list):
+        for part in content:
+            yield from _keys(part, above)
+    if isinstance(content, dict):
+        for key, part in content.items():
+            if above not in ("cases", "motions"):
+                yield key
+            yield from _keys(part, key)
+
+
+def test_the_script_reads_every_key_by_its_name(example):
+    keys = set(_keys(record_content(example.result, example.tables, example.structures)))
+    assert len(keys) > 20
+    assert {key for key in keys if not re.search(rf"\b{key}\b", SCRIPT)} == set()

@@ -7,6 +7,7 @@ from rocking.errors import DoesNotStandError, StructureError
 from rocking.structures import Arch, ArchOnPiers, Block, Facade, Frame, LoadedWall, RigidBody, Spire, Wall
 from tests.refusals import refused
 
+LEANING = Block(2.0, 0.2, one_sided=True, restitution=0.5)
 PIERS = {"pier_width": 2.0, "pier_height": 4.0}
 TIED = {"tie_heights": (3.4,), "tie_stiffness": 8e3}
 TIGHT = TIED | {"tie_pretension": 3e3, "behind": "cross_walls", "restitution": 0.5}
@@ -60,6 +61,7 @@ def test_a_size_that_does_not_go_with_the_others_is_refused(make, field, value):
         ),
         (lambda: Arch(10.0, 1.5, np.radians(157.5), crack="known"), "crack", "known", "hinge_angles"),
         (lambda: Frame(2.0, 2, 0.3), "column", 2.0, "Block"),
+        (lambda: Frame(LEANING, 2, 0.3), "column", LEANING, "Block that rocks to both sides"),
         pytest.param(
             lambda: Arch(10.0, 1.0, np.pi),
             "thickness",

@@ -10,6 +10,7 @@ from rocking.assessment.scene import load_scenes
 from rocking.errors import RockingError, StructureWarning
 from rocking.floors.place import GROUND
 from rocking.structures.structure import Structure
+from rocking.structures.structure_list import TYPES, structure_from_config
 from tests.refusals import refused
 
 KINDS = [
@@ -55,3 +56,19 @@ def test_a_wrong_folder_of_results_is_refused_at_once(tmp_path: Path) -> None:
     assert rocking.open_results(tmp_path / "results")
     with refused(RockingError, "folder", tmp_path / "results" / "summary"):
         rocking.open_results(tmp_path / "results" / "summary")
+
+
+def test_nothing_rocks_to_one_side_alone_unless_it_is_said():
+    forms = ((name, form) for name, of_type in TYPES.items() for form in of_type if not form.is_in_a_file)
+    made = [
+        structure_from_config(
+            {"type": name} | {key: field.value.example for key, field in form.keys.items() if field.required}
+        )
+        for name, form in forms
+    ]
+    made += [rocking.Block(2.0, 0.2), rocking.Block.of_size(0.5, 3.0)]
+    made.append(rocking.CapacityCurve((0.0, 0.1), (0.2, 0.0), 1e4, 0.9))
+    assert len(made) > 15
+    for structure in made:
+        assert not structure.one_sided and not structure.mechanism().one_sided, structure
+        assert not structure.mechanism().equivalent_block().one_sided

@@ -137,12 +137,14 @@ def test_what_changes_no_number_does_not_change_the_hash_of_the_settings(tmp_pat
 def test_the_hash_of_the_package_follows_its_source(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     shutil.copytree(ROOT / "rocking", tmp_path / "rocking", ignore=shutil.ignore_patterns("__pycache__"))
     monkeypatch.setattr(settings_module, "__file__", str(tmp_path / "rocking" / "study" / "settings.py"))
-    whole = settings_module.package_sha256.__wrapped__()
-    with (tmp_path / "rocking" / "study" / "plan.py").open("a") as stream:
-        stream.write("# edited\n")
-    edited = settings_module.package_sha256.__wrapped__()
+    hashes = [settings_module.package_sha256.__wrapped__()]
+    for name in ("study/plan.py", "reports/record.typ", "reports/explore.js", "reports/explore.css"):
+        with (tmp_path / "rocking" / name).open("a") as stream:
+            stream.write("// edited\n")
+        hashes.append(settings_module.package_sha256.__wrapped__())
     (tmp_path / "rocking" / "quantities.py").rename(tmp_path / "rocking" / "measures.py")
-    assert len({whole, edited, settings_module.package_sha256.__wrapped__()}) == 3
+    hashes.append(settings_module.package_sha256.__wrapped__())
+    assert len(set(hashes)) == 6
 
 
 @given(
