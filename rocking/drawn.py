@@ -16,11 +16,12 @@ def in_a_notebook(sentence: str, table: "DataFrame") -> str:
 class Drawn:
     """A thing with one picture; the docstring of its class says what is drawn."""
 
-    def plot(self, axes: "Axes | None" = None) -> "Axes":
+    def plot(self, axes: "Axes | None" = None, **options: bool) -> "Axes":
         """Draw it on `axes` or on new ones, and return the axes, so that title, limits and labels can be changed.
 
+        options: those of its picture, which the docstring of its class names.
         Raises the error of its class where it holds nothing that can be drawn.
         """
         from rocking import plot  # the drawing stands above everything
 
-        return plot(self, axes)
+        return plot(self, axes, **options)

@@ -12,6 +12,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from time import process_time
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.special import betaincinv
@@ -35,6 +36,9 @@ from rocking.records.sample import Sample
 from rocking.structures import Structure, structure_from_config
 from rocking.structures.description import article, nearest
 from rocking.structures.fields import Field
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
 
 GRID = 15
 """Values that are tried, in equal ratios from end to end of the range."""
@@ -205,6 +209,26 @@ class Strengthening(Drawn):
     def value(self) -> float:
         """The smallest that can be shown to hold, as all larger ones of `decided` can, in SI; nan where none can."""
         return self.chosen.value if self.chosen else math.nan
+
+    def holds(self, tried: Tried) -> bool:
+        """Whether one of `tried` and all larger ones of `decided` can be shown to hold."""
+        return tried in self.decided and tried.value >= self.value
+
+    def frame(self) -> "DataFrame":
+        """Return a pandas frame with one row per value tried, in the unit of its key, with its share and bounds."""
+        from pandas import DataFrame  # which takes half a second to import
+
+        return DataFrame(
+            {
+                self.field.key: self.field.outward(tried.value),
+                "share": tried.share,
+                "share_low": tried.interval[0],
+                "share_high": tried.interval[1],
+                "stations": int(tried.followed.sum()),
+                "holds": self.holds(tried),
+            }
+            for tried in self.tried
+        )
 
     @property
     def share(self) -> float:

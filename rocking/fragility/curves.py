@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from scipy.special import erfcx, ndtr, stdtr, stdtrit
@@ -24,19 +24,22 @@ from rocking.assessment.settings import EnsembleSettings
 from rocking.drawn import Drawn
 from rocking.errors import ConfigurationError, StructureError
 from rocking.floors.support import Support
-from rocking.fragility.exchange import CURVE, NRML, fragility_csv, nrml
+from rocking.fragility.exchange import CURVE, NRML, curve_frame, nrml
 from rocking.fragility.hazard import AnnualRate, Hazard, annual_rate
 from rocking.fragility.measures import IntensityMeasure, check_name, per_velocity
 from rocking.fragility.measures import intensity_measure as measure_named
 from rocking.motion.batch import integrate_batch
 from rocking.motion.integration import Rocking, reduce
-from rocking.quantities import GRAVITY, counted
+from rocking.quantities import GRAVITY, counted, listed
 from rocking.records import Accelerogram
 from rocking.records.measures import peak_velocity
 from rocking.records.sample import Sample
 from rocking.structures import EquivalentBlock, Mechanism, Structure
 from rocking.structures.unknown_geometry import as_structure
 from rocking.tables import check_target, write_whole
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
 
 LEVELS = 40
 """Levels in all."""
@@ -101,6 +104,8 @@ class Fragility(Drawn):
         Rotation ratio that is exceeded; inf: overturning.
     analysis : IncrementalDynamicAnalysis or None, optional
         Responses behind the curve; None of outcomes alone.
+    unreached : tuple of float, default ()
+        Levels that were asked for and left out, because no two stations reach them.
 
     Examples
     --------
@@ -128,19 +133,34 @@ class Fragility(Drawn):
     unit: str = ""
     threshold: float = np.inf
     analysis: "IncrementalDynamicAnalysis | None" = None
+    unreached: tuple[float, ...] = ()
 
     def __repr__(self) -> str:
         low, high = self.interval
         unit = f" {self.unit}" if self.unit else ""
+        interval = f"90 %: {low:.3g} to {high:.3g}"
+        unreached = listed([f"{level:g}" for level in self.unreached])
+        if (gap := self.gap) is not None:
+            interval = f"between levels {gap[0]:.3g} and {gap[1]:.3g}, too far apart for an interval"
         return (
-            f"<Fragility: median {self.measure} {self.median:.3g}{unit} (90 %: {low:.3g} to {high:.3g}), "
-            f"{counted(len(self.stations), 'record')} of {self.sample.words}>"
+            f"<Fragility: median {self.measure} {self.median:.3g}{unit} ({interval}), "
+            f"{counted(len(self.stations), 'record')} of {self.sample.words}"
+            f"{f'; no two stations reach {unreached}' if unreached else ''}>"
         )
 
     @property
     def stations(self) -> tuple[str, ...]:
         """(r,): the station of each record."""
         return self.sample.stations
+
+    @property
+    def gap(self) -> tuple[float, float] | None:
+        """The two levels, next to each other, between which the whole interval of the median lies; None where the
+        levels are near enough to each other to give it.
+        """
+        place, last = np.searchsorted(self.levels, self.interval)
+        is_between = place == last and 0 < place < self.levels.size
+        return (float(self.levels[place - 1]), float(self.levels[place])) if is_between else None
 
     def annual_rate(self, hazard: Hazard) -> AnnualRate:
         """Return the annual rate of exceedance under a hazard curve, with its 90 % interval by earthquakes; nan with
@@ -166,7 +186,12 @@ class Fragility(Drawn):
 
         Raises ConfigurationError for a file that exists and is no such table.
         """
-        write_whole(check_target(path, CURVE), fragility_csv(self))
+        content = self.frame().to_csv(index=False, lineterminator="\n")
+        write_whole(check_target(path, CURVE), content.encode())
+
+    def frame(self) -> "DataFrame":
+        """Return a pandas frame with one row per level, as `to_csv` writes it."""
+        return curve_frame(self)
 
     def reaching(self, level: float) -> int:
         """Return how many stations have a record that was tried at `level` or above, within the largest factor."""
@@ -412,7 +437,7 @@ def fragility(
         Name that `rocking.intensity_measure` knows; AvgSA and FIV3 also without periods.
     levels : sequence of float, ndarray or None, optional
         Levels of the intensity, ascending, in the unit of the measure; None: 40 that lie where the
-        probability of overturning moves.
+        probability of overturning moves. Those that no two stations reach are left out, as the curve says.
     stations : sequence of str or None, optional
         (r,) stations; None: those that the records name.
     events : sequence of str or None, optional
@@ -494,7 +519,8 @@ def fragility(
     for other in others if over_cracks else ():
         worst = follow(other.mechanism, factors, worst)
     analysis = IncrementalDynamicAnalysis(measure, chosen, ratios, intensities, sample, worst)
-    return analysis.fragility(threshold, governing=True)
+    beyond = () if levels is None else tuple(float(level) for level in levels if level > chosen[-1])
+    return replace(analysis.fragility(threshold, governing=True), unreached=beyond)
 
 
 def checked_sample(sample: Sample) -> Sample:

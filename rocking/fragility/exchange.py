@@ -1,10 +1,8 @@
 """A fragility in the files of other programs: NRML 0.5 of OpenQuake, and CSV."""
 
-import csv
-import io
 import math
 from collections.abc import Mapping
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 from xml.etree import ElementTree
 
 import numpy as np
@@ -14,6 +12,9 @@ from rocking.fragility.measures import of_openquake
 from rocking.quantities import UNPRINTABLE
 from rocking.records.sample import Sample
 from rocking.tables import Document
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
 
 _NRML = "http://openquake.org/xmlns/nrml/0.5"
 _COLUMNS = ("probability", "probability_low", "probability_high", "lognormal")
@@ -105,15 +106,11 @@ def _add_function(
         poes.text = " ".join(f"{probability:.9g}" for probability in curve.probability[tried])
 
 
-def fragility_csv(curve: FragilityCurve) -> bytes:
-    """Return the curve as a CSV; a level where nothing was tried has empty cells."""
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(_HEAD)
-    values = zip(
-        curve.levels.tolist(), *(getattr(curve, column).tolist() for column in _COLUMNS), strict=True
-    )
-    for row in values:
-        cells = ["" if math.isnan(value) else repr(value) for value in row]
-        writer.writerow((curve.measure, curve.unit, repr(curve.threshold), *cells))
-    return stream.getvalue().encode()
+def curve_frame(curve: FragilityCurve) -> "DataFrame":
+    """Return the curve as a pandas frame: a row per level, nan where nothing was tried."""
+    from pandas import DataFrame  # which takes half a second to import
+
+    of_all = dict(zip(_HEAD, (curve.measure, curve.unit, curve.threshold), strict=False))
+    return DataFrame({"level": curve.levels, **{name: getattr(curve, name) for name in _COLUMNS}}).assign(
+        **of_all
+    )[list(_HEAD)]

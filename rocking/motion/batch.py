@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from itertools import product
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -28,6 +29,9 @@ from rocking.motion.table import Forcing, GroundMotion, forcing_of
 from rocking.quantities import kind_of, within
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures import EquivalentBlock
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
 
 _SMALLEST_CHUNK = 16
 """Responses below which a job costs more to hand to a thread than it gains."""
@@ -150,6 +154,27 @@ class RockingSpectrum(Drawn, np.ndarray):
     def __array_finalize__(self, of: np.ndarray | None) -> None:
         self.frequency_parameters = getattr(of, "frequency_parameters", np.empty(0))
         self.uplift_multipliers = getattr(of, "uplift_multipliers", np.empty(0))
+
+    def frame(self) -> "DataFrame":
+        """Return a pandas frame with one row per block: its p, its λ and its rotation ratio.
+
+        Raises MotionError for a part of a spectrum.
+        """
+        from pandas import DataFrame  # which takes half a second to import
+
+        whole = self.frequency_parameters.size, self.uplift_multipliers.size
+        if self.shape != whole:
+            raise MotionError(
+                f"the spectrum has shape {self.shape}, but a frame needs the whole of it, {whole}.",
+                shape=self.shape,
+            )
+        return DataFrame(
+            {
+                "frequency_parameter_rad_s": np.repeat(self.frequency_parameters, whole[1]),
+                "uplift_multiplier": np.tile(self.uplift_multipliers, whole[0]),
+                "rotation_ratio": np.ravel(self),
+            }
+        )
 
 
 def rocking_spectrum(

@@ -356,6 +356,7 @@ def _response(
         steps=int(row[runs.STEPS]),
         tolerance=0.0 if isinstance(sides[0], EquivalentBlock) else tolerance,
         warning=Remark(MotionKind.WEIGHTLESS) if forcing.weightless else None,
+        critical_rotations=(sides[0].critical_rotation, sides[-1].critical_rotation),
         **states,
     )
 

@@ -56,9 +56,13 @@ class Response(Drawn):
     times : ndarray or None, optional
         (k,) times of the history, s; None without one.
     rotation : ndarray or None, optional
-        (k,) rotation of the history, rad, signed; `plot` draws it, and raises MotionError without a history.
+        (k,) rotation of the history, rad, signed; `plot` draws it, with `relative=True` over the critical one,
+        and raises MotionError without a history.
     angular_velocity : ndarray or None, optional
         (k,) angular velocity of the history, rad/s, signed.
+    critical_rotations : tuple of (float, float), default (nan, nan)
+        Critical rotation of the positive and of the negative side, rad; nan of a response that was not
+        integrated.
 
     Examples
     --------
@@ -82,6 +86,7 @@ class Response(Drawn):
     times: np.ndarray | None = None
     rotation: np.ndarray | None = None
     angular_velocity: np.ndarray | None = None
+    critical_rotations: tuple[float, float] = (math.nan, math.nan)
 
     def __repr__(self) -> str:
         if self.outcome is Outcome.FAILED:
@@ -94,6 +99,14 @@ class Response(Drawn):
         if self.times is not None:
             words.append(f"history of {counted(self.times.size, 'step')}")
         return f"Response({', '.join(words)})"
+
+    @property
+    def relative_rotation(self) -> np.ndarray | None:
+        """(k,) rotation of the history over the critical rotation of its side, signed; None without a history."""
+        if self.rotation is None:
+            return None
+        positive, negative = self.critical_rotations
+        return self.rotation / np.where(self.rotation < 0, negative, positive)
 
     def frame(self) -> "DataFrame":
         """Return a pandas frame of the history: time_s, rotation_rad, angular_velocity_rad_s.

@@ -5,6 +5,7 @@ Of the libraries made for spectra, pyrotd 0.6.1 wraps the end of a record round 
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -14,6 +15,9 @@ from rocking.errors import RecordError
 from rocking.quantities import GRAVITY, instance, positive, within
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.processing import displacement, integral, velocity
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
 
 SIGNIFICANT_SHARES = 0.05, 0.95
 """Shares of the Arias intensity at which the significant duration D5–95 begins and ends."""
@@ -141,6 +145,13 @@ class ResponseSpectrum(Drawn):
         """(m,) m/s²: ω² times the displacement."""
         pseudo: np.ndarray = (2 * math.pi / self.periods) ** 2 * self.displacement
         return pseudo
+
+    def frame(self) -> "DataFrame":
+        """Return a pandas frame: period_s, displacement_m, pseudo_acceleration_m_s2."""
+        from pandas import DataFrame  # which takes half a second to import
+
+        columns = {"period_s": self.periods, "displacement_m": self.displacement}
+        return DataFrame(columns | {"pseudo_acceleration_m_s2": self.pseudo_acceleration})
 
 
 def response_spectrum(

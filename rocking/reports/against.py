@@ -19,7 +19,6 @@ from rocking.quantities import counted, listed, percents
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports.drawings import Trace, drawn_by_hand, sine_lines, svg_path, thinned
 from rocking.reports.pages import Against, AgainstHead, Compared, ComparedWords, Ground, Picture, Tick
-from rocking.reports.panels import rotation_ratios
 from rocking.reports.printing import NOTHING, number, quantity, unit_of
 from rocking.structures import Mechanism, Structure
 
@@ -112,8 +111,10 @@ def _moving(
     conclusion: Conclusion, case: ComparisonRow, structure: Structure, response: Response
 ) -> list[Moving]:
     mechanism = cracked(structure, case.crack).mechanism()
-    history = rotation_ratios(response, mechanism)
-    return [Moving(conclusion, case, mechanism, *history)] if history else []
+    ratios = response.relative_rotation
+    if response.times is None or ratios is None or ratios.size < 2:
+        return []
+    return [Moving(conclusion, case, mechanism, response.times, ratios)]
 
 
 @dataclass(frozen=True, eq=False)

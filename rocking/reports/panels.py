@@ -124,19 +124,6 @@ def draw_rotation(axes: Axes, history: tuple[np.ndarray, np.ndarray], band: tupl
     axes.plot(impacts, np.zeros(impacts.size), "|", color="black", markersize=3, markeredgewidth=0.4)
 
 
-def rotation_ratios(response: Response, mechanism: Mechanism) -> tuple[np.ndarray, np.ndarray] | None:
-    """Return times [s] and rotation over the critical rotation of its side (k,); None without a history."""
-    if response.times is None or response.rotation is None or response.times.size < 2:
-        return None
-    return response.times, _over_critical(response.rotation, mechanism)
-
-
-def _over_critical(rotation: np.ndarray, mechanism: Mechanism) -> np.ndarray:
-    first = mechanism.sides[0].critical_rotation
-    last = mechanism.sides[-1].critical_rotation
-    return rotation / np.where(rotation < 0, last, first)
-
-
 def moving_span(histories: Iterable[tuple[np.ndarray, np.ndarray]]) -> tuple[float, float]:
     """Return the time in which any of several histories, each times [s] and rotation (k,), moves, with a margin, s.
 
@@ -202,21 +189,20 @@ def _plot_analysis(analysis: PulseAnalysis, axes: Axes) -> None:
     axes.legend(title=f"pulse explains {100 * analysis.explained_energy:.0f} %\nof the energy")
 
 
-def _plot_response(response: Response, axes: Axes) -> None:
-    times, rotation = _history(response, "integrate with history=True to plot it")
+def _plot_response(response: Response, axes: Axes, relative: bool = False) -> None:
+    times, rotation = _history(response, "integrate with history=True to plot it", relative)
     axes.plot(*thinned(times, rotation), linewidth=0.9, label="rotation")
     axes.axhline(0, **ZERO)
     if 0 < response.rotation_ratio < math.inf:
         place = int(np.abs(rotation).argmax())
         axes.plot(times[place], rotation[place], "o", fillstyle="none", color="black")
-    axes.set(xlabel=TIME, ylabel="rotation [rad]", title=response.outcome.of(response.rotation_ratio))
+    of_what = "rotation / critical rotation [-]" if relative else "rotation [rad]"
+    axes.set(xlabel=TIME, ylabel=of_what, title=response.outcome.of(response.rotation_ratio))
 
 
 def _plot_assessment(assessment: StructureAssessment, axes: Axes) -> None:
-    times, rotation = _history(assessment.response, "assess the structure again to plot it")
-    mechanism = assessment.mechanism
-    band = (assessment.rotation_ratio_low, assessment.rotation_ratio_high)
-    draw_rotation(axes, (times, _over_critical(rotation, mechanism)), band=band)
+    history = _history(assessment.response, "assess the structure again to plot it", relative=True)
+    draw_rotation(axes, history, band=(assessment.rotation_ratio_low, assessment.rotation_ratio_high))
     of_all = [f"{assessment.members} members"] if assessment.members else []
     followed_as = f"runs {assessment.body.as_stones}" if assessment.body.as_stones else "stacks"
     of_all += [f"{assessment.stacks.runs} {followed_as}"] if assessment.stacks else []
@@ -382,13 +368,17 @@ _PLOTS: dict[str, Callable[..., None]] = {
 """The drawings by the name of the class: importing the classes costs whoever draws a record the kernels of motion."""
 
 
-def _history(response: Response, otherwise: str) -> tuple[np.ndarray, np.ndarray]:
-    """Return times [s] and rotation [rad] while the structure moves. Raises MotionError without a history."""
-    if response.times is None or response.rotation is None:
+def _history(response: Response, otherwise: str, relative: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Return times [s] and rotation, rad or over the critical one, while the structure moves.
+
+    Raises MotionError without a history.
+    """
+    rotation = response.relative_rotation if relative else response.rotation
+    if response.times is None or rotation is None:
         raise MotionError(f"the history of the response is not there; {otherwise}.", history=False)
-    begin, end = moving_span([(response.times, response.rotation)])
+    begin, end = moving_span([(response.times, rotation)])
     inside = (response.times >= begin) & (response.times <= end)
-    return response.times[inside], response.rotation[inside]
+    return response.times[inside], rotation[inside]
 
 
 def _named(axes: Axes, record: Accelerogram) -> str:

@@ -59,7 +59,7 @@ class _TriedValue:
     @property
     def holds(self) -> bool:
         """Whether it and all larger ones that are decided can be shown to hold."""
-        return not self.is_given and not self.slides and self.tried.value >= self.found.value
+        return self.found.holds(self.tried)
 
     @property
     def stations(self) -> int:

@@ -5,6 +5,7 @@ import statistics
 from dataclasses import replace
 
 import numpy as np
+import pandas
 import pytest
 from scipy.optimize import minimize
 from scipy.stats import norm
@@ -351,3 +352,26 @@ def test_a_level_at_the_largest_factor_itself_is_reached():
 def test_stations_that_say_the_same_have_an_interval_of_one_number():
     """The shares of 20 stations add up to more than 1 by rounding, which once left the root of a number below 0."""
     assert rate_interval(np.full(20, 0.01), _scattered(20)) == pytest.approx((0.01, 0.01))
+
+
+def test_a_frame_of_a_curve_is_its_csv(tmp_path):
+    curve = fragility(RECORDS, BLOCK, levels=LEVELS)
+    curve.to_csv(tmp_path / "curve.csv")
+    read_again = pandas.read_csv(tmp_path / "curve.csv", keep_default_na=True)
+    pandas.testing.assert_frame_equal(read_again, curve.frame(), check_dtype=False)
+    assert curve.frame().probability.tolist() == curve.probability.tolist()
+
+
+def test_levels_out_of_reach_and_too_far_apart_are_said():
+    curve = fragility(RECORDS, BLOCK, levels=LEVELS)
+    assert curve.unreached == tuple(LEVELS[len(curve.levels) :]) != ()
+    assert f"no two stations reach {curve.unreached[0]:g}, " in repr(curve)
+    assert not fragility(RECORDS, BLOCK, levels=curve.levels).unreached
+    names = [f"{place}" for place, _ in enumerate(RECORDS)]
+    slender = Block(2.0, 0.1, restitution=0.9)
+    own = {"stations": names, "events": names, "largest_factor": 100.0}
+    near = fragility(RECORDS, slender, levels=np.geomspace(0.05, 20, 25), **own)
+    assert near.gap is None and "too far apart" not in repr(near)
+    far = fragility(RECORDS, slender, levels=[0.1, 5.0], **own)
+    assert far.gap == (0.1, 5.0) and "too far apart for an interval" in repr(far)
+    assert 0.1 < near.interval[0] < near.interval[1] < 5.0  # which the two levels would hide

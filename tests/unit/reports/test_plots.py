@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 import rocking
 from rocking.assessment.rows import ComparisonRow, PulseRow
-from rocking.reports.panels import draw_rotation, rotation_ratios
+from rocking.reports.panels import draw_rotation
 from rocking.reports.scatter import prediction_scatter
 from rocking.reports.style import (
     elided,
@@ -115,7 +115,7 @@ def test_the_spectrum_is_hatched_where_it_overturns():
 def test_a_rotation_is_drawn_over_the_critical_one_of_its_side(left, right):
     body = rocking.RigidBody(left=left, right=right, centre_height=1.5, inertia=1.0, restitution=0.9)
     response = rocking.integrate(body, RECORD.scaled(0.8), history=True)
-    _, ratios = rotation_ratios(response, body.mechanism())
+    ratios = response.relative_rotation
     assert 0 < np.abs(ratios).max() == pytest.approx(response.rotation_ratio, rel=1e-3)
 
 
@@ -232,6 +232,23 @@ def test_frames_hold_the_numbers_under_names_with_units():
     pulses = PLOTTED["analysis"].frame()
     assert len(pulses) == len(PLOTTED["analysis"].ranked)
     assert pulses.period_s[0] == pytest.approx(0.9, rel=1e-6)
+    blocks = SPECTRUM.frame()
+    assert len(blocks) == SPECTRUM.size
+    of_one = blocks[
+        (blocks.frequency_parameter_rad_s == FREQUENCIES[2]) & (blocks.uplift_multiplier == MULTIPLIERS[4])
+    ]
+    assert of_one.rotation_ratio.tolist() == [SPECTRUM[2, 4]]
+    with refused(rocking.MotionError, "shape", (9, 10)):
+        SPECTRUM[3:].frame()
+    oscillators = PLOTTED["response spectrum"]
+    assert np.array_equal(oscillators.frame().pseudo_acceleration_m_s2, oscillators.pseudo_acceleration)
+
+
+def test_a_response_is_drawn_over_the_critical_rotation_where_that_is_asked():
+    (rotation, _), (relative, _) = WHOLE.plot().lines[:2], WHOLE.plot(relative=True).lines[:2]
+    critical = BLOCK.mechanism().critical_rotation
+    assert np.allclose(rotation.get_ydata() / critical, relative.get_ydata(), rtol=1e-12)
+    assert np.abs(WHOLE.relative_rotation).max() == pytest.approx(WHOLE.rotation_ratio, rel=1e-3)
 
 
 def test_a_name_is_cut_by_its_width_and_not_by_its_letters():
