@@ -105,7 +105,7 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
         kernels.keep()
     reporter = session.config.pluginmanager.get_plugin("terminalreporter")
     if reporter and os.environ.get("ROCKING_STRICT"):
-        avoidable = [each for each in _skips(reporter) if not any(word in each for word in _LACKS)]
+        avoidable = [reason for reason in _skips(reporter) if not any(word in reason for word in _LACKS)]
         if avoidable and session.exitstatus == pytest.ExitCode.OK:
             reporter.write_line(f"skipped, though this machine can run it: {'; '.join(avoidable)}", red=True)
             session.exitstatus = pytest.ExitCode.TESTS_FAILED

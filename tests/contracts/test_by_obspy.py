@@ -56,7 +56,9 @@ def test_its_own_files_are_read_or_refused_in_one_sentence(folder: str) -> None:
         stream = of_obspys_own(path.read_bytes(), records[0].source.format)
         order = [trace.id for trace in stream]
         stream = sorted(stream.merge(method=0), key=lambda trace: order.index(trace.id))
-        assert [each.acceleration.size for each in records] == [trace.stats.npts for trace in stream]
+        assert [one_record.acceleration.size for one_record in records] == [
+            trace.stats.npts for trace in stream
+        ]
         for record, trace in zip(records, stream, strict=True):
             counts = np.ma.getdata(trace.data).astype(float)
             # A product rounds in its last digit.
@@ -117,7 +119,9 @@ def test_a_file_of_win_without_a_second_is_refused() -> None:
 def test_where_a_channel_of_win_points_is_in_doubt() -> None:
     """Its four hexadecimal digits number the channel: "0090" is no azimuth."""
     (record,) = read_content(made_files.win(), "f", Options(unit="mm/s2"))
-    assert record.azimuth is None and RecordKind.DIRECTION_UNKNOWN in {each.kind for each in record.warnings}
+    assert record.azimuth is None and RecordKind.DIRECTION_UNKNOWN in {
+        warning.kind for warning in record.warnings
+    }
 
 
 def test_text_in_place_of_samples_is_refused() -> None:

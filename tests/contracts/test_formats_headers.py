@@ -35,11 +35,12 @@ SAID: dict[str, list[tuple[Any, ...]]] = {
     "DYNA (ESM, ITACA, AFAD)": [("HNE", 90.0, "X", "", "MADE", True, 0.1)],
     "DYNA (ESM, ITACA, AFAD): filtered anew": [("HNE", 90.0, "X", "", "MADE", True, 0.025)],
     "JMA CSV": [
-        (*each, "9CFMADE", "JMA", "", False, None) for each in (("NS", 0.0), ("EW", 90.0), ("UD", None))
+        (*case, "9CFMADE", "JMA", "", False, None) for case in (("NS", 0.0), ("EW", 90.0), ("UD", None))
     ],
     "EMOD3D text": [("090", 90.0, "MADE", "", "", None, None)],
     "AFAD/NSMN text": [
-        (*each, "0921", "TK", "", False, None) for each in (("N-S", 0.0), ("E-W", 90.0), ("U-D", None))
+        (*one_case, "0921", "TK", "", False, None)
+        for one_case in (("N-S", 0.0), ("E-W", 90.0), ("U-D", None))
     ],
     "ESD": [("NS", 0.0, "694", "", "990", True, 0.25)],
     "RESORCE": [("NS", 0.0, "", "", "2009-04-06T01:32:39", True, 0.1)],
@@ -105,7 +106,7 @@ def test_a_number_cut_short_is_seen_beside_two_whole_ones(rows: int, warned: boo
     """The first of the lines looked at may itself be cut, by the looking."""
     lines = [f"{i * 0.01:.2f} {0.1 + i * 0.01:.6f}" for i in range(rows)]
     found = read_text("\n".join(lines)[:-2], unit="g")
-    assert (RecordKind.NUMBER_CUT in {each.kind for each in found[0].warnings}) == warned
+    assert (RecordKind.NUMBER_CUT in {warning.kind for warning in found[0].warnings}) == warned
 
 
 def test_unam_columns_are_ten_wide_where_the_header_names_no_width() -> None:
@@ -217,7 +218,7 @@ def test_a_channel_down_hole_is_no_motion_of_the_surface(place: str, is_buried: 
 
 def test_a_station_of_peer_down_hole_is_no_motion_of_the_surface() -> None:
     (record,) = read_text(made_files.peer().replace("Station, 45", "Array (Downhole 90 m), 45"))
-    assert record.borehole and RecordKind.DOWN_HOLE in {each.kind for each in record.warnings}
+    assert record.borehole and RecordKind.DOWN_HOLE in {warning.kind for warning in record.warnings}
 
 
 @pytest.mark.parametrize(
@@ -233,7 +234,7 @@ def test_the_step_of_peer_in_milliseconds(unit: str, step: float) -> None:
 def test_codes_above_360_are_no_angles(code: str, vertical: bool) -> None:
     (record,) = read_text(made_files.smc().replace("component=     45", f"component=     {code}"))
     assert record.vertical is vertical and record.azimuth == (0.0 if code == "360" else None)
-    kinds = {each.kind for each in record.warnings}
+    kinds = {warning.kind for warning in record.warnings}
     assert (kinds == {RecordKind.DIRECTION_UNKNOWN}) is (code == "700")
 
 
@@ -261,7 +262,7 @@ def test_a_file_of_the_european_database_holds_velocity_beside_acceleration() ->
     (record,) = read_text(made_files.esd() + velocity + "STOP\n")
     assert record.acceleration.size == made_files.N
     assert record.start_time == "1999-12-31T04:55:53.671000Z"
-    kinds = {each.kind for each in record.warnings}
+    kinds = {warning.kind for warning in record.warnings}
     assert kinds & {RecordKind.VELOCITY_UNLIKE, RecordKind.VELOCITY_UNLIKE_THERE}
 
 

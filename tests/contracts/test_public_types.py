@@ -82,7 +82,7 @@ def test_the_example_of_a_public_name_runs(name, monkeypatch):
     value = getattr(rocking, name)
     finder = doctest.DocTestFinder()
     given = {"np": np, "rocking": rocking}
-    examples = [each for each in finder.find(value, name, globs=given) if each.examples]
+    examples = [item for item in finder.find(value, name, globs=given) if item.examples]
     assert examples or (inspect.isclass(value) and issubclass(value, rocking.RockingError)), "has no example"
     for example in examples:
         shown: list[str] = []

@@ -138,9 +138,9 @@ def test_the_scale_of_a_sac_file_is_applied_once() -> None:
     assert first.acceleration == pytest.approx(by_file.acceleration, rel=1e-12)
     assert second.acceleration == pytest.approx(by_file.acceleration, abs=1e-6)  # in single precision
     assert (
-        {each.kind for each in first.warnings}
+        {warning.kind for warning in first.warnings}
         == {RecordKind.SCALE_APPLIED}
-        != {each.kind for each in second.warnings}
+        != {one_warning.kind for one_warning in second.warnings}
     )
 
 

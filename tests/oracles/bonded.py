@@ -67,10 +67,10 @@ class BondedWall:
                 head = (x + width / 2, self.thickness / 2, top)
                 act(inertia, place, head, (0, self.load * width * self.rides, 0))
                 last = x + width == self.length
-                at = [each for each in self.ties if x <= each < x + width or (last and each == self.length)]
+                at = [tie for tie in self.ties if x <= tie < x + width or (last and tie == self.length)]
                 at += [x + width / 2] if self.held else []
-                for each in at:
-                    act(column(0, None), place, (each, self.thickness, top), (0, -1, 0))
+                for one_place in at:
+                    act(column(0, None), place, (one_place, self.thickness, top), (0, -1, 0))
 
         for place, (x, z, width, rise) in enumerate(units if self.ends_stay else []):
             for end, push in ((0.0, 1.0), (self.length, -1.0)):

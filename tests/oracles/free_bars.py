@@ -86,9 +86,9 @@ def multiplier(arch, places):
     speeds = []
     pivots, velocity = [points[0], points[1], points[3]], [np.zeros(2), None, np.zeros(2)]
     velocity[1] = spins[0] * np.array([-(points[1] - points[0])[1], (points[1] - points[0])[0]])
-    for spin, pivot, base, each in zip(spins, pivots, velocity, system.bars, strict=True):
-        arm = each.centre - pivot
-        speeds.append(each.mass * (base + spin * np.array([-arm[1], arm[0]])))
+    for spin, pivot, base, one_spin in zip(spins, pivots, velocity, system.bars, strict=True):
+        arm = one_spin.centre - pivot
+        speeds.append(one_spin.mass * (base + spin * np.array([-arm[1], arm[0]])))
     across, up = np.sum(speeds, axis=0)
     return up / across if across > 1e-12 else np.inf
 

@@ -38,4 +38,4 @@ def fiv3(acceleration: Sequence[float], step: float, period: float, alpha: float
         peaks = [values[n] for n in inner if values[n - 1] < values[n] > values[n + 1]]
         return sum(sorted(peaks)[-3:])
 
-    return max(abs(greatest(gained)), abs(greatest([-each for each in gained])))
+    return max(abs(greatest(gained)), abs(greatest([-item for item in gained])))

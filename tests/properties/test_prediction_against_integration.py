@@ -91,8 +91,10 @@ def test_prediction_equals_integration_in_every_regime() -> None:
     cases = [*itertools.product(RESTITUTIONS, AMPLITUDES, FREQUENCIES), (0.7, 1.015, 0.2)]
     cases += [(1.0, a, omega) for a, omega in ((1.2, 3.0), (1.6, 5.0), (2.2, 6.0), (4.0, 9.0))]
     found = [compared(symmetric(eta), a, omega) for eta, a, omega in cases]
-    assert any(1 < each.rotation_ratio < math.inf for each in found), "beyond the critical rotation and back"
-    regimes = {each.regime for each in found}
+    assert any(1 < response.rotation_ratio < math.inf for response in found), (
+        "beyond the critical rotation and back"
+    )
+    regimes = {item.regime for item in found}
     assert regimes == set(Regime) - {Regime.UNRESOLVED, Regime.AFTER_FIRST_IMPACT}
 
 

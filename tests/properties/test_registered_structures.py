@@ -53,7 +53,7 @@ def varied(draw, kind, form):
         factor = draw(st.floats(0.8, 1.1) if "restitution" in field.key else st.floats(0.8, 1.25))
         value = field.value.example
         if isinstance(value, list):
-            value = [factor * each for each in value]
+            value = [factor * item for item in value]
         mapping[field.key] = factor * value if isinstance(value, float) else value
     try:
         structure = structure_from_config(mapping)
@@ -89,10 +89,10 @@ def differentiated(function, at, step):
 def held_work(linkage, at):
     """Work against the constant forces and, on the way out, the ties of a linkage."""
     total = np.zeros(at.shape)
-    for each in linkage.hung:
-        moved = linkage.carried(each.part, each.start, linkage.motion(at)).moved
-        total -= (each.force.conjugate() * moved).real
-        if tie := each.tie:
+    for item in linkage.hung:
+        moved = linkage.carried(item.part, item.start, linkage.motion(at)).moved
+        total -= (item.force.conjugate() * moved).real
+        if tie := item.tie:
             stretch = np.minimum(moved.real, tie.rupture_stretch)
             elastic = np.minimum(stretch, tie.yield_stretch)
             total += tie.pretension * elastic + tie.stiffness * elastic**2 / 2
@@ -102,7 +102,7 @@ def held_work(linkage, at):
 
 def smooth(side, at, reach):
     """Those of the rotations `at` within `reach` of which no tie yields or breaks."""
-    return at[[all(abs(bend - each) > reach for bend in side.bends) for each in at]]
+    return at[[all(abs(bend - place) > reach for bend in side.bends) for place in at]]
 
 
 @registered
@@ -149,7 +149,7 @@ def test_slopes_are_derivatives(structure):
 @pytest.mark.filterwarnings("ignore::rocking.errors.StructureWarning")
 def test_energy_of_free_rocking_is_kept_until_the_impact(kind, form):
     """Without forcing, I φ'²/2 + g ∫ G dφ of the integrated flight is the energy it was released with."""
-    fields = {each.key: each.value.example for each in form.fields}
+    fields = {attribute.key: attribute.value.example for attribute in form.fields}
     structure = structure_from_config({"type": kind, **fields})
     side = structure.mechanism().positive
     start = 0.5 * side.critical_rotation
@@ -246,7 +246,7 @@ def test_contacts_are_finite_or_refused_in_words(structure):
         found = structure.contact_forces(rotation, [0.1, -0.1], ground=[0.5, -0.5])
     except UnknownContacts as why:
         assert len(str(why).split()) > 4
-        told = {each.kind for each in structure.cautions}
+        told = {remark.kind for remark in structure.cautions}
         assert told & {StructureKind.FRAME_CONTACTS, StructureKind.CURVE_ALONE}
     else:
         assert np.isfinite(found.normal).all() and np.isfinite(found.tangential).all()
@@ -268,40 +268,47 @@ def test_candidates_stand_and_the_weakest_comes_first(structure):
     known_limit = -np.inf
     if structure.crack_name:
         fixed = dataclasses.replace(_with_its_crack_typed(fixed), crack="known")
-        own = [each for each in fixed.candidates(5) if not each.part]
-        cracked = [each for each in own if not getattr(each.structure, "opening", None)]
+        own = [other_candidate for other_candidate in fixed.candidates(5) if not other_candidate.part]
+        cracked = [member for member in own if not getattr(member.structure, "opening", None)]
         assert cracked[0].structure.mechanism() is fixed.mechanism(), "what is known decides"
-        assert not any(each.counts for each in cracked[1:]), "and no other counts"
+        assert not any(item.counts for item in cracked[1:]), "and no other counts"
         known_limit = cracked[0].uplift_multiplier
         fixed = dataclasses.replace(fixed, crack=None)
-    parts = list(dict.fromkeys(each.part for each in fixed.candidates(5)))
+    parts = list(dict.fromkeys(candidate.part for candidate in fixed.candidates(5)))
     assert set(parts) == {"", *(name for name, _ in fixed.leaves_alone)}
-    of_parts = [next(each for each in fixed.candidates(5) if each.part == part) for part in parts]
-    assert (np.diff([each.uplift_multiplier for each in of_parts]) >= 0).all(), "the weakest part comes first"
-    found = [each for each in fixed.candidates(5) if not each.part]
-    turning = [each for each in found if getattr(each.structure, "opening", None) is None]
-    multipliers = [each.structure.mechanism().uplift_multiplier for each in turning]
+    of_parts = [
+        next(candidate for candidate in fixed.candidates(5) if candidate.part == part) for part in parts
+    ]
+    assert (np.diff([one_part.uplift_multiplier for one_part in of_parts]) >= 0).all(), (
+        "the weakest part comes first"
+    )
+    found = [one_candidate for one_candidate in fixed.candidates(5) if not one_candidate.part]
+    turning = [row for row in found if getattr(row.structure, "opening", None) is None]
+    multipliers = [one_side.structure.mechanism().uplift_multiplier for one_side in turning]
     # Of a held wall by limit analysis, in which ties pull with the force at which they yield.
-    least = min(each.uplift_multiplier for each in fixed.candidates())
+    least = min(this_candidate.uplift_multiplier for this_candidate in fixed.candidates())
     # Of a smooth least, which two grids find apart by the square root of the rounding.
     assert fixed.static_multiplier == pytest.approx(least, rel=1.5e-8)
-    openings = [each.uplift_multiplier for each in found if each not in turning]
+    openings = [one_item.uplift_multiplier for one_item in found if one_item not in turning]
     # Ties may keep every crack shut, or a top slip before it: then something weaker is left.
     if not turning:
         assert openings
         return
-    by_limit = [each.uplift_multiplier for each in turning]
+    by_limit = [side.uplift_multiplier for side in turning]
     assert (np.diff(by_limit) > -1e-8 * by_limit[-1]).all()
     assert multipliers[0] > 0
     given = fixed.mechanism().uplift_multiplier
     if not any(opening < known_limit for opening in openings):
-        assert min(abs(each - given) for each in multipliers) < 1e-9 * given
+        assert min(abs(multiplier - given) for multiplier in multipliers) < 1e-9 * given
     if not structure.crack_name:
         assert len(turning) == 1
         return
-    for each in turning:
-        assert type(each.structure) is type(structure) and each.structure.crack == "known"
-        assert (each.structure.restitution_range, each.structure.mechanism().restitution) == (0.03, 0.9)
-        if np.isfinite(each.position):
-            own = each.structure.crack_position
-            assert own == pytest.approx(each.position, abs=1e-12)
+    for other_side in turning:
+        assert type(other_side.structure) is type(structure) and other_side.structure.crack == "known"
+        assert (other_side.structure.restitution_range, other_side.structure.mechanism().restitution) == (
+            0.03,
+            0.9,
+        )
+        if np.isfinite(other_side.position):
+            own = other_side.structure.crack_position
+            assert own == pytest.approx(other_side.position, abs=1e-12)

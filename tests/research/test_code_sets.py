@@ -45,7 +45,7 @@ def test_each_half_is_held_beside_the_other(tmp_path, monkeypatch):
     monkeypatch.setattr(code_checks, "select", partial(select, periods=(0.6, 0.9)))
     monkeypatch.setattr(code_checks, "SPLITS", 4)
     monkeypatch.setattr(code_checks, "SET_WALLS", {"wall": Block.of_size(0.45, 3.0)})
-    records = [(name, each) for name, pair in made_pool(24).items() for each in pair]
+    records = [(name, component) for name, pair in made_pool(24).items() for component in pair]
     code_sets(Target(tmp_path, lambda _: None, [records], {}))
     rows = read_table(SetTrial, tmp_path)
     assert rows
@@ -54,7 +54,7 @@ def test_each_half_is_held_beside_the_other(tmp_path, monkeypatch):
         assert (first.share, first.other_share) == (second.other_share, second.share)
         assert first.stations == second.stations == 12
     (score, *_) = read_table(Score, tmp_path)
-    assert score.value == pytest.approx(sum(each.covered for each in rows) / len(rows))
+    assert score.value == pytest.approx(sum(row.covered for row in rows) / len(rows))
     monkeypatch.setattr(code_checks, "SET_STATIONS", 13)
     with refused(ConfigurationError, "sites", 24):
         code_sets(Target(tmp_path, lambda _: None, [records], {}))

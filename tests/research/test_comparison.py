@@ -90,7 +90,7 @@ def test_this_package_has_the_reference_s_answer(block_case):
         assert row.verdict_agrees
         assert row.error <= 3 * tolerance
         assert row.missed_impacts == 0
-    medians = {each.subject: each.value for each in code_scores(rows) if each.measure == "median error"}
+    medians = {score.subject: score.value for score in code_scores(rows) if score.measure == "median error"}
     assert medians == {row.code: row.error for row in rows}
 
 

@@ -23,7 +23,9 @@ def pulse(peak: float, period: float = 1.5) -> Accelerogram:
 @pytest.mark.parametrize("kind", KINDS)
 def test_statics_chooses_the_crack_that_theory_names(kind):
     """Theory, section 10: the wall near its top by the slab (λ = .244), the column at its base (b/h = .125)."""
-    multipliers = {joint: each.uplift_multiplier for joint, each in members(20)[kind].mechanisms.items()}
+    multipliers = {
+        joint: mechanism.uplift_multiplier for joint, mechanism in members(20)[kind].mechanisms.items()
+    }
     static = min(multipliers, key=multipliers.__getitem__)
     assert (static == 0) == (kind not in ("wall with a slab only", "wall with a floor load", "spire"))
     if kind == "wall with a slab only":
@@ -88,7 +90,7 @@ def test_a_stack_with_one_joint_rocks_as_its_mechanism_does(member, joint, peak)
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_stack_stays_whole_below_uplift_and_falls_far_above_it(kind):
     member = members(6)[kind]
-    lift = min(each.uplift_multiplier for each in member.mechanisms.values()) * GRAVITY
+    lift = min(mechanism.uplift_multiplier for mechanism in member.mechanisms.values()) * GRAVITY
     assert np.abs(stack(member, pulse(0.9 * lift), 1e-3)).max() < 1e-3
     assert np.abs(stack(member, pulse(12 * lift), 1e-3)).max() > cracks.TURN
 

@@ -102,9 +102,11 @@ def test_the_verdict_over_all_cracks_is_that_of_the_ensembles_of_all():
     motion = Accelerogram(3 * np.sin(2 * np.pi * TIMES / 1.5) * (TIMES < 1.5), 0.01)
     made = {"wall": Wall.of_size(3.2, 0.25), "block": Block(2.0, 0.2)}
     trials = list(ensembles.screening_trials(SiteRecord("r", "s", "e", motion), made))
-    assert [(each.structure, each.verdict) for each in trials] == [("wall", e.exhaustive) for e in trials]
-    assert all(each.share <= each.largest_share for each in trials)
-    values = {each.measure: each.value for each in ensembles.screening_scores(trials) if each.part == "wall"}
+    assert [(trial.structure, trial.verdict) for trial in trials] == [("wall", e.exhaustive) for e in trials]
+    assert all(one_trial.share <= one_trial.largest_share for one_trial in trials)
+    values = {
+        score.measure: score.value for score in ensembles.screening_scores(trials) if score.part == "wall"
+    }
     assert values["other verdict than that of all cracks"] == 0
     assert values['share of "stands"'] == float(trials[0].verdict is Verdict.STANDS)
 

@@ -16,12 +16,14 @@ def test_trials_of_a_pulse():
     record = Accelerogram(pulse.acceleration(np.arange(500) * 0.01), 0.01)
     trials = list(floor_trials(SiteRecord("made", "site", "made", record)))
     assert len(trials) == len(BODIES) * (1 + PERIODS.size)
-    on_ground = [each for each in trials if each.support_period_s == 0]
-    assert {each.amplification for each in on_ground} == {1.0}
+    on_ground = [trial for trial in trials if trial.support_period_s == 0]
+    assert {scene.amplification for scene in on_ground} == {1.0}
     # on the ground the record is the pulse, so that the closed form misses no more than its samples do
-    for each in on_ground:
-        if 0.01 < each.integrated_rotation_ratio < math.inf:
-            assert each.predicted_rotation_ratio == pytest.approx(each.integrated_rotation_ratio, rel=0.1)
+    for one_scene in on_ground:
+        if 0.01 < one_scene.integrated_rotation_ratio < math.inf:
+            assert one_scene.predicted_rotation_ratio == pytest.approx(
+                one_scene.integrated_rotation_ratio, rel=0.1
+            )
 
 
 def trial(site: str, period: float, ratio: float, predicted: float = 0.0) -> FloorTrial:
@@ -44,7 +46,9 @@ def test_the_worth_of_the_closed_form_counts_each_outcome_once():
     trials = [trial(site, 0.3, ratio, predicted) for site, (ratio, predicted) in outcomes.items()]
     trials.append(trial("a", 0.0, 0.0))
 
-    scores = {each.measure: each.value for each in closed_form_scores(trials) if each.part == "on supports"}
+    scores = {
+        score.measure: score.value for score in closed_form_scores(trials) if score.part == "on supports"
+    }
     assert scores == {
         "share that overturns": 2 / 5,
         "closed form overturns too, where it overturns": 1 / 2,
@@ -56,6 +60,6 @@ def test_the_worth_of_the_closed_form_counts_each_outcome_once():
 def test_what_turns_back_is_counted_by_site():
     trials = [trial("a", 0.0, 0.1), trial("a", 0.3, math.inf), trial("a", 0.5, 0.2)]
     trials += [trial("b", 0.0, 0.1), trial("b", 0.3, 0.1), trial("b", 0.5, math.inf)]
-    scores = [each for each in course_scores([*trials]) if each.subject == "parapet"]
-    (back,) = [each for each in scores if each.part == "over the periods"]
+    scores = [one_score for one_score in course_scores([*trials]) if one_score.subject == "parapet"]
+    (back,) = [score for score in scores if score.part == "over the periods"]
     assert (back.value, back.sites) == (0.5, 2)

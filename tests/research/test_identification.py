@@ -48,7 +48,7 @@ def test_the_blocks_of_a_prior_fill_its_box():
     )
     ranges = ((np.sqrt(first * second), 0.06, 0.2), (first / second, 1 / 1.5, 1.5), (frequency, 2.5, 8.0))
     for values, low, high in (
-        *((np.log(each), *np.log(ends)) for each, *ends in ranges),
+        *((np.log(one_range), *np.log(ends)) for one_range, *ends in ranges),
         (restitution, 0.7, 0.9),
     ):
         quartiles = np.quantile(values, (0, 0.25, 0.5, 0.75, 1))
@@ -58,12 +58,12 @@ def test_the_blocks_of_a_prior_fill_its_box():
 def test_known_structures_are_found_and_predicted_under_motions_that_took_no_part():
     records, outcomes = campaign(range(12), 0.05)
     parameters = PRIOR.parameters()
-    blocks = [two_sided_block(*each) for each in parameters.tolist()]
+    blocks = [two_sided_block(*number) for number in parameters.tolist()]
 
     def overturning(motions):
-        return np.array([np.isinf(integrate_batch(blocks, each)[:, 0]) for each in motions])
+        return np.array([np.isinf(integrate_batch(blocks, motion)[:, 0]) for motion in motions])
 
-    motions = [each.event for each in records]
+    motions = [record.event for record in records]
     mixture = fit_mixture(parameters, overturning(records), np.array(outcomes), motions)
     for name, value in zip(PARAMETERS, TRUTH, strict=True):
         low, median, high = mixture.ranges()[name]

@@ -38,7 +38,7 @@ def test_no_rule_of_the_research_stands_outside_its_table():
     loop = re.search(r"^for TARGET, .* in TARGETS_OF_RESEARCH\.items\(\):\n((?:[ \t].*\n|\n)+)", rules, re.M)
     assert loop, "the loop over the table is written otherwise"
     headings = r"^[ \t]*(?:rule|checkpoint|use rule|include|module)\b.*"
-    assert [each.strip() for each in re.findall(headings, rules, re.M)] == ["rule:"]
+    assert [text.strip() for text in re.findall(headings, rules, re.M)] == ["rule:"]
     assert re.search(r"^    rule:$", loop[1], re.M)
 
 

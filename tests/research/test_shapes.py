@@ -26,7 +26,7 @@ def test_a_planted_pulse_is_found_by_its_shape_and_explains_all(shape):
     assert own.pulse.amplitude == pytest.approx(-2.0, rel=0.02)
     assert own.pulse.start_time == pytest.approx(6.0, abs=STEP)
     assert own.explained == pytest.approx(1.0, abs=0.02)
-    assert own.explained == max(each.explained for each in found.values())
+    assert own.explained == max(item.explained for item in found.values())
 
 
 def test_a_verdict_is_wrong_where_one_falls_and_the_other_does_not():
@@ -40,7 +40,7 @@ def test_a_verdict_is_wrong_where_one_falls_and_the_other_does_not():
         ),
         Case("b", "other", 0.5, {"one sine": 0.4, "half sine": 0.2}, {"one sine": 0.4, "half sine": 0.5}),
     ]
-    scores = {(each.subject, each.part, each.measure): each.value for each in scores_of(cases)}
+    scores = {(score.subject, score.part, score.measure): score.value for score in scores_of(cases)}
     assert scores["one sine", "all records", "wrong verdicts"] == 0.5
     assert scores["one sine", "all records", "unsafe verdicts"] == 0.5
     assert scores["one sine", "all records", "median error of the rotation"] == pytest.approx(0.2)

@@ -23,7 +23,7 @@ def test_a_trial_holds_the_word_of_its_own_share(monkeypatch):
     monkeypatch.setattr(stability, "MEMBERS", 256)
     structures = {"block": Block(2.0, 0.2), "wall": Wall.of_size(4.0, 0.4)}
     trials = list(stability_trials("a site", "an earthquake", PAIR, structures))
-    assert [each.kind for each in trials] == [kind for kind in KINDS for _ in range(2)]
+    assert [one_trial.kind for one_trial in trials] == [kind for kind in KINDS for _ in range(2)]
     for trial in trials:
         if trial.structure == "block":
             assert trial.true_verdict is step(
@@ -38,16 +38,16 @@ def test_what_contact_dynamics_says_is_not_held_against_members(monkeypatch):
     """The courses of a spire that lifts may be thrown, which no number of members of its mechanisms tells."""
     monkeypatch.setattr(stability, "MEMBERS", 64)
     trials = list(stability_trials("a site", "an earthquake", PAIR, {"spire": Spire(3.0, 15.0, 0.25)}))
-    limited = [each for each in trials if each.verdict is not each.of_members]
-    assert limited and all(abs(each.classes_off) <= 1 for each in limited)
+    limited = [trial for trial in trials if trial.verdict is not trial.of_members]
+    assert limited and all(abs(part.classes_off) <= 1 for part in limited)
 
 
 def test_a_site_on_which_the_rule_was_chosen_takes_no_part_under_another_name():
-    ew, ns = (replace(each, event="Manjil", station="Abbar") for each in PAIR)
+    ew, ns = (replace(component, event="Manjil", station="Abbar") for component in PAIR)
     renamed = replace(ew, station="Mangil")
     other = replace(ns, station="Rudbar")
     left = stability.left_out_of([("a", ew), ("b", ns)], [("c", renamed), ("d", other.scaled(2.0))])
-    assert [each.identifier for each in left] == ["d"]
+    assert [part.identifier for part in left] == ["d"]
 
 
 def test_the_scores_count_what_they_name():

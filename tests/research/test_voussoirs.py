@@ -61,7 +61,7 @@ CHECK = CheckedTrial(
 
 
 def value(scores: list[Score], part: str, measure: str) -> tuple[float, int]:
-    (found,) = (each for each in scores if each.part == part and each.measure == measure)
+    (found,) = (score for score in scores if score.part == part and score.measure == measure)
     return found.value, found.cases
 
 
@@ -75,8 +75,8 @@ def test_true_stones_are_not_those_that_the_package_follows(kind):
     states = kind == "frame of two columns" or structure.voussoirs is not None
     for stones, _, _ in runs:
         assert stones.friction == 0.6
-        assert sum(each.mass for each in stones.stones) == pytest.approx(
-            sum(each.mass for each in own.stones)
+        assert sum(one_stone.mass for one_stone in stones.stones) == pytest.approx(
+            sum(stone.mass for stone in own.stones)
         )
         assert (stones.count == own.count) == states
 
@@ -133,8 +133,8 @@ def test_the_bodies_of_lmgc90_are_the_stones_of_the_package(on_piers):
     masses, centres, _ = bodies.properties
     moving = [place for place in range(len(masses)) if place not in bodies.driven]
     stones = of_arch.stones.stones
-    assert [each.mass for each in stones] == pytest.approx(masses[moving])
-    assert [complex(*each.centre) for each in stones] == pytest.approx(centres[moving])
+    assert [one_stone.mass for one_stone in stones] == pytest.approx(masses[moving])
+    assert [complex(*other_stone.centre) for other_stone in stones] == pytest.approx(centres[moving])
     assert len(stones) == of_arch.voussoirs + 2 * on_piers
     for stone, place in zip(stones, moving, strict=True):
         apart = np.array(stone.corners)[:, None] - bodies.polygons[place]

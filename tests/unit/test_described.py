@@ -15,7 +15,7 @@ from rocking.study.settings import Settings
 
 def declared(kind: type) -> list[Described]:
     """Every described value of a class and of its parts."""
-    of_parts = [each for name in parts_of(kind) for each in declared(type(getattr(kind, name)))]
+    of_parts = [item for name in parts_of(kind) for item in declared(type(getattr(kind, name)))]
     return [*described_values(kind).values(), *of_parts]
 
 

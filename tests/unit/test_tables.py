@@ -163,7 +163,7 @@ def test_a_writer_that_is_interrupted_or_killed_leaves_the_old_file(tmp_path: Pa
 
     with pytest.raises(KeyboardInterrupt):
         write_rows(MadeRow, rows(), path)
-    assert [each.record for each in read_rows(MadeRow, path)] == ["old"]
+    assert [row.record for row in read_rows(MadeRow, path)] == ["old"]
     assert sorted(entry.name for entry in tmp_path.iterdir()) == [".other.csv.abc123.part", "made.csv"]
 
 

@@ -41,7 +41,7 @@ def _cells(content: bytes, sheet: int) -> dict[str, tuple[str, str]]:
     with zipfile.ZipFile(BytesIO(content)) as book:
         root = ElementTree.fromstring(book.read(f"xl/worksheets/sheet{sheet}.xml"))
     cells = root.iter(f"{SPACE}c")
-    return {each.get("r", ""): (each.get("t", "n"), "".join(each.itertext())) for each in cells}
+    return {cell.get("r", ""): (cell.get("t", "n"), "".join(cell.itertext())) for cell in cells}
 
 
 def test_every_cell_has_its_type_and_every_head_its_unit() -> None:
@@ -71,7 +71,7 @@ def test_the_first_sheet_says_what_each_column_means() -> None:
 def test_the_filter_covers_the_rows_and_no_line_below_them(rows: list[CaseRow], filtered: str) -> None:
     with zipfile.ZipFile(BytesIO(_made(rows))) as book:
         root = ElementTree.fromstring(book.read("xl/worksheets/sheet2.xml"))
-    assert [each.get("ref") for each in root.iter(f"{SPACE}autoFilter")] == [filtered]
+    assert [item.get("ref") for item in root.iter(f"{SPACE}autoFilter")] == [filtered]
 
 
 def test_the_heads_are_bold_above_a_thin_line() -> None:

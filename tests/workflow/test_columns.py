@@ -33,7 +33,7 @@ EMPTY = {("intensity_measures.csv", name) for name in ("p_value", "power", "slop
 
 def _write_tables(records: list[CatalogueRecord], study: Study, results: Path) -> None:
     worked(records, study, results)
-    described = {name: each for name, each in study.structures.items() if name != "impossible"}
+    described = {name: structure for name, structure in study.structures.items() if name != "impossible"}
     write_summary(outcomes_in(results, records), described, results / "summary", False)
 
 

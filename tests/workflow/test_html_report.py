@@ -20,7 +20,7 @@ ROOT = Path(rocking.__file__).parents[1]
 CATEGORIES = {
     "Study": {"page to explore the study", "prediction against integration", "report on all records"},
     "Records": {"synthetic_strong_pulse"},
-    "Tables": {table.file_name for table in (each.table for each in SUMMARY_TABLES)},
+    "Tables": {table.file_name for table in (row_class.table for row_class in SUMMARY_TABLES)},
 }
 """What must stand under each category, by the first label of each result."""
 PATIENCE = 20
@@ -125,7 +125,7 @@ def test_each_record_leads_to_its_strips(page, browser):
     browser.switch_to.frame(frame)
     try:
         (row,) = page("//*[@id='strips']//tbody/tr[.//b[normalize-space()='pier']]")
-        assert [each.text for each in row.find_elements("css selector", "td")[1:]][2]
+        assert [element.text for element in row.find_elements("css selector", "td")[1:]][2]
     finally:
         browser.switch_to.default_content()
 

@@ -108,7 +108,9 @@ def in_order(names: list[str], text: str) -> list[str]:
 def test_one_order_of_structures(made, pages, explored, told) -> None:
     study, output = made
     names = {row["structure"] for row in table(study, "verdicts.csv")}
-    ranked = [each["name"] for each in sorted(explored[1]["structures"], key=lambda each: each["rank"])]
+    ranked = [
+        one_item["name"] for one_item in sorted(explored[1]["structures"], key=lambda item: item["rank"])
+    ]
     assert set(ranked) == names and len(names) == 14
     summary = pages["summary/summary.pdf"]
     first, _, tables = summary.partition("Page 1 of")
@@ -157,8 +159,8 @@ def test_one_count_of_records_structures_and_falls(made, pages, explored, told) 
 
 def test_one_worst_record_and_one_word_and_share(made, pages, explored, told) -> None:
     study, output = made
-    records = {each["id"]: each for each in explored[1]["records"]}
-    assert [name for name, each in sorted(records.items(), key=lambda each: each[1]["rank"])] == [
+    records = {one_item["id"]: one_item for one_item in explored[1]["records"]}
+    assert [name for name, record in sorted(records.items(), key=lambda item: item[1]["rank"])] == [
         *("strong", "weak", "broken")
     ]
     summary = pages["summary/summary.pdf"]

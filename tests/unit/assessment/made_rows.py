@@ -53,9 +53,9 @@ class Impossible:
 
 def filled(row_class: type[R], **values: Any) -> R:
     """A row of `values`; what is left out is empty."""
-    for each in row_class.table.columns:
-        if values.get(each.name) is None:
-            values[each.name] = empty(each)
+    for column in row_class.table.columns:
+        if values.get(column.name) is None:
+            values[column.name] = empty(column)
     return row_class(**values)
 
 
@@ -100,7 +100,7 @@ def station(*cases: CaseResult, falls_in_directions: int | None = None) -> Perio
             CaseResult(structure=cases[0].structure, component=BOTH_COMPONENTS),
             ensembles=of_one_crack(members(falls_in_directions)),
         )
-    by_component = {each.component: each for each in cases}
+    by_component = {case.component: case for case in cases}
     return PeriodResult(Scene(cases[0].structure, Block(2.0, 0.2)), by_component, directions)
 
 
@@ -115,10 +115,11 @@ def verdicts(stations: Sequence[PeriodResult], record: str = "a") -> list[Verdic
     return [
         VerdictRow.of(
             OfStructure(
-                Identity(record=record, component=each.component, record_sha256="", settings_sha256=""), each
+                Identity(record=record, component=station.component, record_sha256="", settings_sha256=""),
+                station,
             )
         )
-        for each in stations
+        for station in stations
     ]
 
 

@@ -39,7 +39,7 @@ def test_what_needs_a_geometry_is_refused():
 
 def test_two_mechanisms_alone_are_not_taken_for_one_another():
     """What is kept of one by its equality is not that of another."""
-    slender, stout = (as_structure(rocking.Block(2.0, each).mechanism()) for each in (0.2, 0.4))
+    slender, stout = (as_structure(rocking.Block(2.0, value).mechanism()) for value in (0.2, 0.4))
     assert slender != stout
-    multipliers = [cracks(each)[0].mechanism.uplift_multiplier for each in (slender, stout)]
+    multipliers = [cracks(case)[0].mechanism.uplift_multiplier for case in (slender, stout)]
     assert multipliers == pytest.approx(np.tan([0.2, 0.4]), rel=1e-12)

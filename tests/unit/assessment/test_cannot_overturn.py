@@ -48,7 +48,7 @@ def test_it_is_the_verdict_where_the_structure_stands_and_nothing_can_let_it_fal
 def test_a_wall_that_may_bulge_below_its_tie_can_overturn():
     """No tie that holds one body for good keeps the wall from opening between its foot and the tie."""
     assert not HELD.mechanism().can_overturn
-    low, high = (rocking.assess(record(each), HELD) for each in (8.0, 60.0))
+    low, high = (rocking.assess(record(value), HELD) for value in (8.0, 60.0))
     assert low.verdict is not Verdict.CANNOT_OVERTURN
     assert high.verdict is Verdict.OVERTURNS
     assert "bulges between" in high.crack
@@ -74,9 +74,11 @@ def test_a_crack_that_can_fall_is_followed_instead_of_those_that_cannot():
     assert softer.cracked_at(0.5).mechanism().can_overturn
     followed = replace(softer, crack=None).candidates()
     assert followed
-    assert all(each.structure.mechanism().can_overturn for each in followed)
+    assert all(crack.structure.mechanism().can_overturn for crack in followed)
     stronger = replace(HELD, tie_stiffness=2e5, crack=None)
-    (bulge,) = (each for each in stronger.candidates() if each.structure.mechanism().can_overturn)
+    (bulge,) = (
+        candidate for candidate in stronger.candidates() if candidate.structure.mechanism().can_overturn
+    )
     assert "bulges between" in bulge.name
 
 

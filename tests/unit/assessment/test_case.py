@@ -146,7 +146,7 @@ def test_the_worst_of_several_comes_last_by_severity_in_memory_and_read_back():
         station(case("EW", 0.05, falls=60)),
         station(case("EW", math.inf, falls=64)),
     ]
-    assert sorted(several[3:] + several[:3], key=lambda each: each.severity) == several
+    assert sorted(several[3:] + several[:3], key=lambda item: item.severity) == several
     for result, row in zip(several, verdicts(several), strict=True):
         assert (row.severity, row.why) == (result.severity, result.decision.why)
 
@@ -165,4 +165,4 @@ def test_a_motion_is_recognised_by_its_samples_and_all_that_is_said_of_them():
         Motion((other, record)),
         Motion((record,), other),
     ]
-    assert len({each.fingerprint for each in different}) == len(different)
+    assert len({structure.fingerprint for structure in different}) == len(different)

@@ -112,7 +112,7 @@ def test_of_equal_shares_the_one_of_less_reserve_is_worse():
         )
         for name, low in (("none", math.nan), ("more", 2.0), ("less", 1.5))
     ]
-    assert [each.verdict.structure for each in conclusions(rows, [])] == ["less", "more", "none"]
+    assert [conclusion.verdict.structure for conclusion in conclusions(rows, [])] == ["less", "more", "none"]
 
 
 @pytest.mark.parametrize(

@@ -127,7 +127,7 @@ def test_few_runs_of_contact_dynamics_let_a_spire_probably_stand_and_many_let_it
     probably = rocking.assess(motion, SPIRE)
     assert probably.verdict is Verdict.PROBABLY_STANDS
     assert (probably.stacks.falls, probably.stacks.runs) == (0, 18)
-    assert [each.kind for each in probably.decision.would_settle] == [AssessmentKind.CONTACT_DYNAMICS]
+    assert [remark.kind for remark in probably.decision.would_settle] == [AssessmentKind.CONTACT_DYNAMICS]
     assert probably.with_reserve(Reserve(low=1.8, median=2.2, high=2.6, limit=3.0)).reserve.low == 1.8
     stands = rocking.assess(motion, SPIRE, settings=CONTACT)
     assert stands.verdict is Verdict.STANDS
@@ -163,9 +163,9 @@ def test_contact_dynamics_is_asked_where_it_cannot_be_told_and_of_a_held_wall_th
         motion = sine(severity * wall.static_multiplier * GRAVITY, period)
         few, many = (
             rocking.assess(
-                motion, wall.on_joints(Joints(5.0)), settings=replace(each, ensemble=without_reserve)
+                motion, wall.on_joints(Joints(5.0)), settings=replace(case, ensemble=without_reserve)
             )
-            for each in (AssessmentSettings(), CONTACT)
+            for case in (AssessmentSettings(), CONTACT)
         )
         words.append(without_stacks(few).word)
         far = words[-1] is Verdict.PROBABLY_STANDS
@@ -251,9 +251,9 @@ def test_directions_share_the_steps_and_unlike_sides_meet_both_signs(monkeypatch
         for runs in (24, 64):
             followed.clear()
             assert contact_share(structure, motions, runs=runs).runs == runs
-            assert len({each[:2] for each in followed}) == ways
-            assert len({each[0] for each in followed}) == ways // signs
-            assert [each[2] for each in followed].count(STEP) == pytest.approx(runs * 7 / 8, abs=1)
+            assert len({other_crack[:2] for other_crack in followed}) == ways
+            assert len({crack[0] for crack in followed}) == ways // signs
+            assert [one_crack[2] for one_crack in followed].count(STEP) == pytest.approx(runs * 7 / 8, abs=1)
 
 
 def test_no_step_is_longer_than_the_one_that_was_measured_and_one_is_half_of_it(monkeypatch):
@@ -284,7 +284,7 @@ def test_a_spire_is_followed_with_few_and_many_courses_unless_it_says_how_many(m
     motions = GroundMotions.of(sine(2.0))
     contact_share(SPIRE, motions)
     for courses in (6, 12):
-        own = [each for each in followed if each[0] == courses]
+        own = [crack for crack in followed if crack[0] == courses]
         peaks = {peak for _, peak, _ in own}
         assert len(own) == len(peaks) == 12  # every other two amplitudes
         assert min(peaks) < 0.92 * 2.0 and max(peaks) > 1.08 * 2.0
@@ -300,7 +300,7 @@ def test_what_needs_more_friction_than_the_study_has_slides_and_does_not_fall():
     times = np.arange(0, 5, 0.005)
     to_and_fro = 8.0 * np.sin(2 * np.pi * times / 0.8) * np.exp(-(((times - 2.5) / 0.8) ** 2))
     motions = GroundMotions.of(Accelerogram(to_and_fro, 0.005))
-    slippery, rough = (front.on_joints(Joints(each)) for each in (0.15, 0.9))
+    slippery, rough = (front.on_joints(Joints(value)) for value in (0.15, 0.9))
     assert front.static_multiplier == pytest.approx(0.2)
     assert contact_share(slippery, motions).falls == 0
     assert contact_share(rough, motions).falls > 0
@@ -318,7 +318,7 @@ def test_the_cost_that_is_told_beforehand_is_that_of_its_bodies_and_steps():
     """Of still ground none, of twice the runs twice, of what is no stack or is not asked none."""
     motion = sine(2.0)
     standard, contact, quick = (
-        AssessmentSettings(fidelity=each) for each in ("standard", "contact", "quick")
+        AssessmentSettings(fidelity=choice) for choice in ("standard", "contact", "quick")
     )
     cost = expected_seconds(SPIRE, [motion], standard)
     steps = round(np.ptp(np.flatnonzero(motion.acceleration)) * motion.time_step / STEP)
@@ -449,7 +449,7 @@ def test_a_block_whose_corner_needs_more_friction_than_it_has_only_probably_stan
     limited = rocking.assess(record, block)
     assert (limited.verdict, limited.overturning_share) == (Verdict.PROBABLY_STANDS, 0.0)
     assert limited.friction_needed == pytest.approx(needed, rel=0.01)
-    assert AssessmentKind.FRICTION in [each.kind for each in limited.decision.would_settle]
+    assert AssessmentKind.FRICTION in [remark.kind for remark in limited.decision.would_settle]
     firm = rocking.assess(record, block.on_joints(Joints(1.1 * needed)))
     assert firm.verdict is Verdict.STANDS
     assert np.isnan(firm.friction_needed)
@@ -467,9 +467,9 @@ def test_an_arch_that_needs_more_friction_stands_as_its_voussoirs_do():
     without_reserve = EnsembleSettings(reserve=0)
     less, more = (
         rocking.assess(
-            record, arch.on_joints(Joints(each)), settings=AssessmentSettings(ensemble=without_reserve)
+            record, arch.on_joints(Joints(value)), settings=AssessmentSettings(ensemble=without_reserve)
         )
-        for each in (0.495, 0.505)
+        for value in (0.495, 0.505)
     )
     (case,) = more.cases.values()
     assert case.check.slides(0.505)
@@ -477,7 +477,7 @@ def test_an_arch_that_needs_more_friction_stands_as_its_voussoirs_do():
     assert less.verdict is Verdict.PROBABLY_STANDS
     assert less.stacks == ContactShare(falls=0, runs=18), "as voussoirs, which say what their friction does"
     assert np.isnan(less.friction_needed)
-    assert AssessmentKind.FRICTION_SHORT not in [each.kind for each in less.decision.doubts]
+    assert AssessmentKind.FRICTION_SHORT not in [doubt.kind for doubt in less.decision.doubts]
     assert arch.stands_on_friction == 0.5
     assert replace(arch, fill_depth=0.2).stands_on_friction == np.inf
     piers = ArchOnPiers(5.0, 0.8, np.pi, pier_width=1.5, pier_height=4.0)
@@ -490,15 +490,15 @@ def test_a_stack_is_followed_on_the_friction_that_its_courses_have():
     motion = Accelerogram(sine(7.0, 0.3).acceleration[:130], 0.005)
     without_reserve = AssessmentSettings(ensemble=EnsembleSettings(reserve=0))
     few, many = (
-        rocking.assess(motion, wall, settings=replace(without_reserve, fidelity=each))
-        for each in ("standard", "contact")
+        rocking.assess(motion, wall, settings=replace(without_reserve, fidelity=choice))
+        for choice in ("standard", "contact")
     )
     assert few.friction_needed == many.friction_needed > 0.35
     assert few.verdict is Verdict.PROBABLY_STANDS
     assert few.stacks is not None and few.stacks.runs <= RUNS
     assert many.stacks == ContactShare(falls=0, runs=MOST_RUNS)
     assert many.verdict is Verdict.STANDS
-    assert AssessmentKind.FRICTION_SHORT not in [each.kind for each in many.decision.doubts]
+    assert AssessmentKind.FRICTION_SHORT not in [doubt.kind for doubt in many.decision.doubts]
 
 
 # Stones -------------------------------------------------------------------------------------------------------

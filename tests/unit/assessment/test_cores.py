@@ -25,8 +25,8 @@ def test_what_ends_first_comes_in_its_place_and_an_error_where_it_was_raised(cor
 
     got = []
     with on_cores(cores), pytest.raises(ValueError, match="seven"):
-        for each in in_order(work, range(20)):
-            got.append(each)
+        for result in in_order(work, range(20)):
+            got.append(result)
     assert got == list(range(7))
 
 
@@ -50,7 +50,7 @@ def test_within_a_thread_and_behind_it_one_thing_comes_after_the_other():
     """Threads that wait for threads of the same pool would wait for ever."""
     inner = lambda item: [threading.get_ident() for _ in in_order(str, range(3))]  # noqa: E731
     with on_cores(2):
-        assert [len(set(each)) for each in in_order(inner, range(4))] == [1] * 4
+        assert [len(set(result)) for result in in_order(inner, range(4))] == [1] * 4
     own = threading.get_ident()
     assert set(in_order(lambda _: threading.get_ident(), range(3))) == {own}
 

@@ -36,7 +36,7 @@ def word(**facts):
 
 
 def kinds(remarks):
-    return [each.kind for each in remarks]
+    return [remark.kind for remark in remarks]
 
 
 # The step -----------------------------------------------------------------------------------------------------
@@ -213,7 +213,7 @@ def test_6_a_known_crack_decides_alone_and_a_worse_one_is_a_doubt_beside_it():
 
 def test_6_a_bulge_counts_beside_a_known_crack():
     """It forms wherever the wall is cracked, so that the worse of the two is that of the wall, in whatever order."""
-    bulge, stands = (replace(crack(each, name="bulge"), bulges=True) for each in (64, 0))
+    bulge, stands = (replace(crack(value, name="bulge"), bulges=True) for value in (64, 0))
     beside = crack(64, name="upper", counts=False)
     for cracks in ((bulge, crack(0), beside), (crack(0), bulge, beside)):
         decision = decide(Facts(cracks=cracks))
@@ -281,7 +281,7 @@ def test_contact_dynamics_is_advised_only_where_it_may_still_tell(far):
     assert cannot.would_settle == ()
     assert cannot.word is decide(facts).word
     told = [Remark(AssessmentKind.NO_STACK)] if facts.doubts else []
-    assert [each for each in cannot.doubts if each not in decide(facts).doubts] == told
+    assert [doubt for doubt in cannot.doubts if doubt not in decide(facts).doubts] == told
     assert decide(replace(facts, stacks=(0, 64))).would_settle == ()
 
 
@@ -329,15 +329,15 @@ def test_the_share_is_the_largest_of_members_and_stacks(falls, stacks, share):
 def test_the_share_takes_the_stacks_of_what_the_members_overturn_already():
     """One more member brings "overturns" about, and takes nothing from the share of the stacks."""
     facts = [Facts(cracks=(crack(falls, 256),), stacks=(24, 24)) for falls in (247, 248)]
-    assert [str(decide(each).word) for each in facts] == ["probably overturns", "overturns"]
-    assert [decide(each).share for each in facts] == [1.0, 1.0]
+    assert [str(decide(one_fact).word) for one_fact in facts] == ["probably overturns", "overturns"]
+    assert [decide(fact).share for fact in facts] == [1.0, 1.0]
 
 
 def test_a_further_fall_of_a_crack_of_few_members_takes_nothing_from_the_share():
     """3, then 4 of 16 beside 19 of 64: the few make the word by their error, the many have the larger share."""
     few = [Facts(cracks=(crack(falls, 16), crack(19, name="upper"))) for falls in (3, 4)]
-    assert [str(decide(each).word) for each in few] == ["probably stands", "uncertain"]
-    assert [decide(each).share for each in few] == [19 / 64, 19 / 64]
+    assert [str(decide(one_member).word) for one_member in few] == ["probably stands", "uncertain"]
+    assert [decide(member).share for member in few] == [19 / 64, 19 / 64]
     assert decide(few[1]).interval == (16 / 64, 19 / 64)
 
 
@@ -429,7 +429,9 @@ def drawn(chance):
         farthest = one_of(0.0, 0.2, 0.3, 0.8)
         cracks.append(crack(falls, members, failed, farthest, f"crack {place}", slides=chance() < 0.1))
     if chance() < 0.2:  # one is known, beside which a bulge may count
-        cracks = [replace(each, counts=not place or chance() < 0.3) for place, each in enumerate(cracks)]
+        cracks = [
+            replace(one_crack, counts=not place or chance() < 0.3) for place, one_crack in enumerate(cracks)
+        ]
     if cracks and chance() < 0.2:
         bulge = int(chance() * len(cracks))
         cracks[bulge] = replace(cracks[bulge], counts=True, bulges=True)
@@ -469,38 +471,38 @@ def oracle(facts):
             return 6
         return 2 if share + error / 2 <= Fraction(1, 3) else 3 if share + error / 2 < Fraction(2, 3) else 5
 
-    def with_failed(each):
+    def with_failed(case):
         return word_of(
-            each.falls + each.failed, each.followed + each.failed, not each.failed and each.farthest <= 0.3
+            case.falls + case.failed, case.followed + case.failed, not case.failed and case.farthest <= 0.3
         )
 
-    def without_failed(each):
-        if each.followed == 0:
+    def without_failed(one_case):
+        if one_case.followed == 0:
             return 3
-        word = word_of(each.falls, each.followed, each.farthest <= 0.3)
-        return min(word, 3) if each.failed and each.falls <= 4 else word
+        word = word_of(one_case.falls, one_case.followed, one_case.farthest <= 0.3)
+        return min(word, 3) if one_case.failed and one_case.falls <= 4 else word
 
     def of_all(way):
-        words = [way(each) for each in count if not each.bulges]
-        return max([of_cracks(words) if words else 1, *(way(each) for each in count if each.bulges)])
+        words = [way(one_number) for one_number in count if not one_number.bulges]
+        return max([of_cracks(words) if words else 1, *(way(number) for number in count if number.bulges)])
 
     def of_cracks(words):
         if words[0] <= 2:
             return min(max(words), 3)
         return max(words) if words[0] == 6 else min(max(words), 5)
 
-    count = [each for each in facts.cracks if each.counts]
-    count = [each for each in count if not each.slides] or count
+    count = [crack for crack in facts.cracks if crack.counts]
+    count = [one_number for one_number in count if not one_number.slides] or count
     if facts.never_overturns_because and not facts.doubts:
         return SAFEST_FIRST[0]
     if facts.rests:
         return SAFEST_FIRST[1]
-    if facts.slides_at == 0.6 and not [each for each in count if not each.slides]:
+    if facts.slides_at == 0.6 and not [other_number for other_number in count if not other_number.slides]:
         return SAFEST_FIRST[4]
     if count:
         borne_out = of_all(without_failed)
         place = of_all(with_failed)
-        if borne_out < 5 and (place >= 5 or any(each.followed == 0 for each in count)):
+        if borne_out < 5 and (place >= 5 or any(number.followed == 0 for number in count)):
             place = 4
     elif math.isnan(facts.run_ratio):
         return SAFEST_FIRST[4]
@@ -530,9 +532,12 @@ def test_the_decision_is_that_of_the_table():
 
 def share_of_the_table(facts):
     """The largest share of the cracks that count and of the stacks; None where there is none, as of a single run."""
-    count = [each for each in facts.cracks if each.counts]
-    count = [each for each in count if not each.slides] or count
-    of_each = [Fraction(each.falls + each.failed, each.followed + each.failed) for each in count]
+    count = [crack for crack in facts.cracks if crack.counts]
+    count = [number for number in count if not number.slides] or count
+    of_each = [
+        Fraction(one_number.falls + one_number.failed, one_number.followed + one_number.failed)
+        for one_number in count
+    ]
     if not of_each or facts.rests or (facts.never_overturns_because and not facts.doubts):
         return None
     return max([*of_each, *([Fraction(*facts.stacks)] if facts.stacks else [])])
@@ -554,8 +559,8 @@ def test_the_share_stands_on_the_word(draws):
         if (facts.held and facts.beyond) or facts.friction_needed > 0:
             continue
         groups = [
-            (each.falls + each.failed, each.members, math.inf if each.failed else each.farthest)
-            for each in facts.followed
+            (crack.falls + crack.failed, crack.members, math.inf if crack.failed else crack.farthest)
+            for crack in facts.followed
         ]
         groups += [(*facts.stacks, math.inf)] if facts.stacks else []
         makes = max(
@@ -574,20 +579,20 @@ def worsened(facts, chance):
     """The facts with one thing gone worse: a doubt, a component, a member or a stack more."""
     ways = [{"failures": (*facts.failures, "component Y is cut")}, {"beyond": AssessmentKind.TIES_GIVE}]
     ways.append({"friction_needed": 0.8})
-    ways += [{"doubts": (*facts.doubts, each)} for each in (OPEN, THROWN) if each not in facts.doubts]
+    ways += [{"doubts": (*facts.doubts, case)} for case in (OPEN, THROWN) if case not in facts.doubts]
     if not math.isnan(facts.run_ratio):
         ways.append({"run_ratio": math.inf})
     if facts.stacks and facts.stacks[0] < facts.stacks[1]:
         ways.append({"stacks": (facts.stacks[0] + 1, facts.stacks[1])})
-    for place, each in enumerate(facts.cracks):
-        falls, followed, failed = each.falls, each.followed, each.failed
-        worse = [(falls, followed, failed + 1, each.farthest)]
+    for place, crack in enumerate(facts.cracks):
+        falls, followed, failed = crack.falls, crack.followed, crack.failed
+        worse = [(falls, followed, failed + 1, crack.farthest)]
         if falls < followed:
-            left = each.farthest if followed > 1 else math.nan
+            left = crack.farthest if followed > 1 else math.nan
             worse += [(falls, followed - 1, failed + 1, left), (falls + 1, followed, failed, math.inf)]
         for counts in worse:
             falls, followed, failed, farthest = counts
-            other = replace(each, falls=falls, followed=followed, failed=failed, farthest=farthest)
+            other = replace(crack, falls=falls, followed=followed, failed=failed, farthest=farthest)
             ways.append({"cracks": (*facts.cracks[:place], other, *facts.cracks[place + 1 :])})
     return replace(facts, **ways[int(chance() * len(ways))])
 
@@ -599,7 +604,7 @@ def test_a_further_doubt_failure_or_fall_never_makes_a_word_safer_nor_a_share_sm
     for _ in range(draws):
         facts = drawn(chance)
         worse = worsened(facts, chance)
-        before, after = (SAFEST_FIRST.index(decide(each).word) for each in (facts, worse))
+        before, after = (SAFEST_FIRST.index(decide(case).word) for case in (facts, worse))
         assert after >= before, (facts, worse)
         changed += after > before
         first, then = decide(facts), decide(worse)

@@ -18,15 +18,15 @@ def _ensemble(falls: np.ndarray, **causes: np.ndarray) -> Ensemble:
 
 def _ensembles(*several: Ensemble, given: bool = False) -> CrackEnsembles:
     followed = (
-        FollowedCrack(f"crack {k}", float(k), each, counts=not (given and k))
-        for k, each in enumerate(several)
+        FollowedCrack(f"crack {k}", float(k), part, counts=not (given and k))
+        for k, part in enumerate(several)
     )
     return CrackEnsembles(tuple(followed))
 
 
 def test_what_is_known_from_one_cause_is_decided_by_it_and_what_is_not_by_none():
     by_sign = _ensembles(_ensemble(SIGN > 0, polarity=SIGN, restitution=OFFSET))
-    assert [(each.name, each.share) for each in deciding(by_sign)] == [("polarity", 1.0)]
+    assert [(trial.name, trial.share) for trial in deciding(by_sign)] == [("polarity", 1.0)]
     assert decided_by(by_sign) == "decided by the sign of the motion (100 %)"
     by_restitution = _ensembles(_ensemble(OFFSET > 0, polarity=SIGN, restitution=OFFSET))
     assert decided_by(by_restitution) == "decided by the restitution (100 %)"
@@ -51,7 +51,7 @@ def test_the_share_is_that_of_the_variance(share):
 
 
 def test_which_crack_opens_decides_where_they_disagree_and_none_is_given():
-    stands, falls = (_ensemble(np.full(64, each)) for each in (False, True))
+    stands, falls = (_ensemble(np.full(64, choice)) for choice in (False, True))
     assert decided_by(_ensembles(stands, falls)) == "decided by which crack opens (100 %)"
     assert decided_by(_ensembles(stands, falls, given=True)) == "", "all members of it agree"
     assert decided_by(_ensembles(stands)) == "" == decided_by(_ensembles(falls))

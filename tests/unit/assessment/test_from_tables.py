@@ -57,16 +57,16 @@ def arc(side: Side, rotation_ratio: float) -> float:
 def pulse_of(folder: Path, row: dict[str, str]) -> tuple[float, float]:
     """Amplitude [m/s²] and circular frequency [rad/s] of the pulse that predicts."""
     (pulse,) = [
-        each
-        for each in cells(folder / "pulses.csv")
-        if each["kind"] == "alternative" and each["rank"] == row["pulse_rank"]
+        cell
+        for cell in cells(folder / "pulses.csv")
+        if cell["kind"] == "alternative" and cell["rank"] == row["pulse_rank"]
     ]
     return float(pulse["amplitude_m_s2"]), float(pulse["circular_frequency_rad_s"])
 
 
 def block_of(folder: Path, structure: str) -> tuple[float, float]:
     """Uplift multiplier and p of the block that predicts, by what structures.csv says of the structure."""
-    (row,) = [each for each in cells(folder / "structures.csv") if each["structure"] == structure]
+    (row,) = [cell for cell in cells(folder / "structures.csv") if cell["structure"] == structure]
     critical = float(row["critical_rotation_rad"])
     linearised = float(row["acceleration_scale_linearised"])
     uplift = float(row["acceleration_scale_uplift"])

@@ -60,11 +60,11 @@ def made_case(seed: int) -> Case:
     factor = 1.1
     while not overturns(structure, record.scaled(factor), 1e-12):
         factor *= 1.1
-    limit = bisected(factor / 1.1, factor, lambda each: overturns(structure, record.scaled(each), 1e-12))
+    limit = bisected(factor / 1.1, factor, lambda item: overturns(structure, record.scaled(item), 1e-12))
 
     distance = rng.choice([-1, 1]) * 10 ** rng.uniform(-11.5, -9)
     motion = record.scaled(limit * (1 + distance))
-    loosely, strictly, exactly = (overturns(structure, motion, each) for each in (1e-6, 1e-9, 1e-12))
+    loosely, strictly, exactly = (overturns(structure, motion, value) for value in (1e-6, 1e-9, 1e-12))
     asked = integrate(structure, motion, 1e-6, repeat_fragile=True)
     return Case(structure, motion, loosely, strictly, exactly, asked)
 
@@ -76,17 +76,17 @@ def test_a_run_on_the_wrong_side_of_a_limit_is_called_fragile_and_repeats_itself
     Measured: 20 of the 200 end on the wrong side at 1e-6, and none of them where it is asked.
     """
     cases = list(map(made_case, range(count)))
-    misled = sum(each.loosely is not each.strictly for each in cases)
+    misled = sum(this_case.loosely is not this_case.strictly for this_case in cases)
     assert misled >= count / 40, "else the cases do not test it"
-    assert all(each.asked.fragile for each in cases)
-    assert all(each.asked.tolerance == 1e-9 for each in cases)
-    assert [each.asked.outcome is Outcome.OVERTURNS for each in cases] == [each.strictly for each in cases]
+    assert all(one_case.asked.fragile for one_case in cases)
+    assert all(other_case.asked.tolerance == 1e-9 for other_case in cases)
+    assert [case.asked.outcome is Outcome.OVERTURNS for case in cases] == [case.strictly for case in cases]
 
 
 @of_cases
 def test_the_strict_side_of_a_limit_is_the_true_one(count):
     """None of the 200 is wrong at 1e-9, whose errors of 2e-12 (docs/pages/validation.md) may turn the nearest ones."""
-    wrong = sum(each.strictly is not each.exactly for each in map(made_case, range(count)))
+    wrong = sum(number.strictly is not number.exactly for number in map(made_case, range(count)))
     assert wrong <= count / 100
 
 

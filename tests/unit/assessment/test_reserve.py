@@ -87,7 +87,7 @@ def test_it_is_what_a_scan_of_every_member_at_every_level_gives(name):
     record = RECORDS[name]()
     motions = GroundMotions.of(record)
     samples = [reserve(BLOCK.mechanism(), motions, settings, shift=shift) for shift in shifts]
-    mean = np.exp(np.mean(np.log([(each.low, each.median, each.high) for each in samples]), axis=0))
+    mean = np.exp(np.mean(np.log([(sample.low, sample.median, sample.high) for sample in samples]), axis=0))
     ratios = mean / np.array(_scanned(BLOCK, record, settings))
     assert np.abs(np.log(ratios)) == pytest.approx(0.0, abs=np.log(1.1))
 
@@ -110,8 +110,10 @@ def test_where_one_amplitude_divides_falls_from_the_rest_it_is_that_of_the_unifo
 
 def test_a_stronger_record_has_as_much_less():
     once, twice = (
-        reserve(BLOCK.mechanism(), GroundMotions.of(_record(each)), EnsembleSettings(reserve=10.0 * 3 / each))
-        for each in (3.0, 6.0)
+        reserve(
+            BLOCK.mechanism(), GroundMotions.of(_record(value)), EnsembleSettings(reserve=10.0 * 3 / value)
+        )
+        for value in (3.0, 6.0)
     )
     assert (once.low, once.median) == pytest.approx((2 * twice.low, 2 * twice.median), rel=0.02)
     assert once.low < once.median < once.high
@@ -171,20 +173,20 @@ def test_on_a_support_it_is_sought_on_the_ground_and_at_the_worst_period_alone(t
         roof = place_from_config({"name": "roof", "period_s": period, "participation": 1.3})
         scenes = {"parapet": Scene("parapet", body, roof)}
         result = Assessor(settings, store=store).assess("made", [record], scenes)
-        return {each.support_period_s: each for each in result.periods}
+        return {one_period.support_period_s: one_period for one_period in result.periods}
 
     store = RecordStore(tmp_path / "cases")
     stations = assessed([0.15, 0.6], store)
     store.save()
     worst = max((period for period in stations if period), key=lambda period: stations[period].severity)
-    sought = {period: each.reserve for period, each in stations.items() if each.reserve is not None}
+    sought = {period: station.reserve for period, station in stations.items() if station.reserve is not None}
     assert set(sought) == {0.0, worst}
     alone = assessed(worst)
-    assert {period: each.reserve for period, each in alone.items()} == sought
+    assert {period: part.reserve for period, part in alone.items()} == sought
 
     monkeypatch.setattr("rocking.assessment.one_case.reserve", None)
     again = assessed([0.15, 0.6], RecordStore(tmp_path / "cases"))
-    assert {period: each.reserve for period, each in again.items() if each.reserve is not None} == sought
+    assert {period: item.reserve for period, item in again.items() if item.reserve is not None} == sought
 
 
 def test_what_falls_as_soon_as_it_lifts_has_the_factors_at_which_it_lifts():

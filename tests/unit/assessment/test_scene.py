@@ -46,11 +46,11 @@ def test_a_range_of_periods_is_an_axis_of_one_scene(tmp_path):
     assert roof is scenes["statue"].place
     ground, *supports = roof.axis
     assert ground is None and len(supports) == PERIODS
-    periods = [roof.period_of(each) for each in roof.axis]
+    periods = [roof.period_of(value) for value in roof.axis]
     assert periods[0] == 0
     assert (periods[1], periods[-1]) == pytest.approx((0.15, 0.6))
     assert [b / a for a, b in pairwise(periods[1:])] == pytest.approx([4 ** (1 / 8)] * 8)
-    assert all(each.modes[0].participation == 1.3 for each in supports)
+    assert all(support.modes[0].participation == 1.3 for support in supports)
     for name in ("pier", "wall"):
         assert scenes[name].place is GROUND
         assert scenes[name].place.axis == (None,) and scenes[name].place.period_of(None) is None
@@ -74,7 +74,7 @@ def test_the_codes_participation_and_damping():
     assert mode.damping_ratio == 0.05
     yielding = place_from_config(floor | {"yielding_masonry": True}).supports
     assert [yielding[0].modes[0].period, yielding[-1].modes[0].period] == pytest.approx([0.45, 0.6])
-    assert {each.modes[0].damping_ratio for each in yielding} == {0.10}
+    assert {tie.modes[0].damping_ratio for tie in yielding} == {0.10}
 
 
 def test_several_modes_move_together():
@@ -82,7 +82,7 @@ def test_several_modes_move_together():
     tower = place_from_config({"name": "tower", "modes": modes}).supports
     assert len(tower) == PERIODS
     assert tower[4].modes[0].period == pytest.approx(1.0)
-    assert {each.modes[1].period for each in tower} == {0.2}
+    assert {mode.modes[1].period for mode in tower} == {0.2}
 
 
 ROOF = {"name": "roof", "period_s": 0.3, "participation": 1.3}
@@ -245,10 +245,10 @@ def test_a_variant_that_is_added_computes_no_other_case_again(tmp_path):
     more = listed(tmp_path, f"{pier}, {{name: high, height_m: 2.4}}]")
     assert list(more) == ["pier", "pier: broad", "pier: high"]
     Assessor(settings, store=store).assess("", [record], more)
-    cases = [each for key, each in store.items() if key not in before and isinstance(each, CaseResult)]
+    cases = [entry for key, entry in store.items() if key not in before and isinstance(entry, CaseResult)]
     # What is kept has no names, and so the same case may serve structures of two names.
     assert all(store[key] is before[key] for key in before)
-    assert len(cases) == sum(isinstance(each, CaseResult) for each in before.values()) / 2
+    assert len(cases) == sum(isinstance(item, CaseResult) for item in before.values()) / 2
 
 
 def test_a_restitution_above_that_of_the_geometry_is_told(tmp_path):
@@ -260,7 +260,7 @@ def test_a_restitution_above_that_of_the_geometry_is_told(tmp_path):
     (told,) = (remark for scene in scenes.values() for remark in scene.remarks)
     assert (told.kind, told.about) == (StructureKind.RESTITUTION_ABOVE, "a")
     assert told["own"] == pytest.approx(0.9423, abs=1e-4)
-    kinds = [each.structure.cautions[-1].kind for each in scenes.values()]
+    kinds = [one_scene.structure.cautions[-1].kind for one_scene in scenes.values()]
     assert kinds == [StructureKind.RESTITUTION_ABOVE, StructureKind.RESTITUTION_TYPED]
     own = scenes["b"].structure.cautions[-1]["own"]
     assert own == pytest.approx(1 - 1.5 * 0.36 / (0.36 + 9.0), rel=1e-9)
@@ -286,7 +286,9 @@ CURVE |= {"displacements_m": [0, 0.1, 0.3], "multipliers": [0.1, 0.08, 0]}
 def test_both_doors_give_the_same_structures(tmp_path, separator, encoding):
     """The shipped list with its supports, a list of one height and one of a curve: as YAML, and as a spreadsheet."""
     entries = [*yaml.safe_load(SHIPPED.read_text(encoding="utf-8")), FACADE, CURVE]
-    entries = [{key: value for key, value in each.items() if key != "variants"} for each in entries]
+    entries = [
+        {key: value for key, value in other_entry.items() if key != "variants"} for other_entry in entries
+    ]
     listed = tmp_path / "structures.yaml"
     listed.write_text(yaml.safe_dump(entries), encoding="utf-8")
 
@@ -300,10 +302,10 @@ def test_both_doors_give_the_same_structures(tmp_path, separator, encoding):
     rows = tmp_path / "structures.csv"
     with rows.open("w", encoding=encoding, newline="") as file:
         writer = csv.DictWriter(
-            file, list({key: None for each in entries for key in each}), delimiter=separator
+            file, list({key: None for entry in entries for key in entry}), delimiter=separator
         )
         writer.writeheader()
-        writer.writerows({key: cell(value) for key, value in each.items()} for each in entries)
+        writer.writerows({key: cell(value) for key, value in one_entry.items()} for one_entry in entries)
         file.write(separator * (len(writer.fieldnames) - 1) + "\n")
     by_yaml = load_scenes(listed)
     by_csv = load_scenes(rows)

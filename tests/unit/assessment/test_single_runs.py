@@ -27,7 +27,11 @@ def test_a_bulge_of_statics_is_followed_without_an_ensemble():
     result = Assessor(ONE_RUN).assess("r", [sine(8.0)], on_the_ground({"front": TIED}))
     (station,) = result.periods
     assert station.rotation_ratio < 1  # the described mechanism
-    fallen = [each for each in next(iter(station.cases.values())).variations if "bulges" in each.crack]
-    assert [each.integrated_rotation_ratio for each in fallen] == [math.inf]
+    fallen = [
+        variation
+        for variation in next(iter(station.cases.values())).variations
+        if "bulges" in variation.crack
+    ]
+    assert [item.integrated_rotation_ratio for item in fallen] == [math.inf]
     assert station.decision.word is rocking.Verdict.UNCERTAIN
     assert station.decision.share == 1.0

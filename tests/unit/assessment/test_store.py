@@ -195,7 +195,11 @@ def test_numbers_of_every_kind_come_back():
 def test_each_mechanism_of_a_wall_is_kept_by_itself(tmp_path, cases):
     """No file says in which of them it opens, so that their entries are alike."""
     wall = LoadedWall.of_size(3.2, 0.35, 20e3, tie_heights=(2.0,), tie_stiffness=5e4, tie_strength=8e3)
-    opened = [each.structure for each in wall.mechanisms() if each.structure.opening and not each.refusal]
+    opened = [
+        mechanism.structure
+        for mechanism in wall.mechanisms()
+        if mechanism.structure.opening and not mechanism.refusal
+    ]
     first, *_, last = opened
     assert first != last and first.described.entry == last.described.entry
     of_first = computed(tmp_path / "made.json", structures={"wall": first})

@@ -49,7 +49,7 @@ def test_the_floors_motion_as_a_record_gives_the_same_rows():
     there = FULL.assess("r", [record], carried)
     given = FULL.assess("r", [support.motion(record)], on_the_ground({"parapet": BODY}))
     for table in ("comparison", "verdicts"):
-        ours, theirs = (getattr(rows_of_record(each), table)[-1] for each in (there, given))
+        ours, theirs = (getattr(rows_of_record(case), table)[-1] for case in (there, given))
         for name in ours.values() if isinstance(ours, dict) else type(ours).__dataclass_fields__:
             first, second = getattr(ours, name), getattr(theirs, name)
             if name == "support_period_s":
@@ -125,9 +125,10 @@ def test_the_ground_sets_no_word_of_what_stands_on_a_floor():
             replace(row, support_period_s=period)
             for period, row in zip((0.0, 0.25), verdicts([ground, floor]), strict=True)
         ]
-        assert [each.support_period_s for each in worst_period_each(rows)] == [0.25]
+        assert [item.support_period_s for item in worst_period_each(rows)] == [0.25]
         along = [
-            SimpleNamespace(support_period_s=each.support_period_s, severity=each.severity) for each in rows
+            SimpleNamespace(support_period_s=one_row.support_period_s, severity=one_row.severity)
+            for one_row in rows
         ]
         assert SceneResult(ground.scene, tuple(along)).worst.support_period_s == 0.25
 
@@ -150,8 +151,8 @@ def test_fragility_is_against_the_intensity_of_the_ground():
     levels = [0.05, 0.1, 0.2, 0.4]
     how = {"levels": levels, "stations": ["a", "b", "c"], "intensity_measure": "pga"}
     there = fragility(records, BODY, support=support, **how).analysis
-    floors = [support.motion(each) for each in records]
-    factors = np.array([[level / each.peak_acceleration for level in levels] for each in records])
+    floors = [support.motion(record) for record in records]
+    factors = np.array([[level / one_record.peak_acceleration for level in levels] for one_record in records])
     factors *= 9.80665 if there.measure.unit == "g" else 1.0
     expected = [
         [integrate(BODY, floor.scaled(factor)).rotation_ratio for factor in row]
@@ -173,9 +174,11 @@ def test_the_bytes_that_are_kept_change_no_number(monkeypatch):
         monkeypatch.setattr(kept_motions, "_FLOOR_MOTIONS", kept_motions._FloorMotions())
         kept_motions.ground_motions.cache_clear()
         result = FULL.assess("r", [first, second], carried)
-        ratios = [each.ensembles.governing.ensemble.rotation_ratios for each in result.periods]
+        ratios = [period.ensembles.governing.ensemble.rotation_ratios for period in result.periods]
         floors = [
-            each.accelerogram.sha256 for station in result.periods for each in components(result, station)
+            component.accelerogram.sha256
+            for station in result.periods
+            for component in components(result, station)
         ]
         rows.append((np.concatenate(ratios).tobytes(), floors))
     assert rows[0] == rows[1]

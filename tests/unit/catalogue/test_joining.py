@@ -95,7 +95,7 @@ def test_an_angle_that_nobody_knows_is_told(tmp_path: Path, names: tuple[str, st
     assert (str(told) in notes(tmp_path)) == is_told
     (station,) = opened(tmp_path)
     for channel in station.horizontal:
-        assert (RecordKind.ANGLE_UNKNOWN in {each.kind for each in channel.warnings}) == is_told
+        assert (RecordKind.ANGLE_UNKNOWN in {warning.kind for warning in channel.warnings}) == is_told
 
 
 def test_components_of_unlike_length_are_joined_from_the_first_sample(tmp_path: Path) -> None:
@@ -149,7 +149,7 @@ def test_a_vertical_by_its_name_acts_upwards(tmp_path: Path) -> None:
         bare(tmp_path, f"ELC{end}.csv", factor)
     (station,) = opened(tmp_path, unit="g")
     assert len(station.horizontal) == 2 and station.vertical.component == "UP"
-    kinds = {each.kind for file in catalogue_of_folder(tmp_path).files for each in doubts_of(file)}
+    kinds = {remark.kind for file in catalogue_of_folder(tmp_path).files for remark in doubts_of(file)}
     assert not kinds & {RecordKind.DIRECTION_UNKNOWN, RecordKind.VERTICAL_IN_NAME}
 
 

@@ -51,7 +51,7 @@ def test_distances_are_those_of_the_cosine_rule_of_spherical_trigonometry():
         a, b = (
             Place(latitude=random.uniform(-85, 85), longitude=random.uniform(-180, 180)) for _ in range(2)
         )
-        p, q, turn = (math.radians(each) for each in (a.latitude, b.latitude, a.longitude - b.longitude))
+        p, q, turn = (math.radians(case) for case in (a.latitude, b.latitude, a.longitude - b.longitude))
         angle = math.acos(math.sin(p) * math.sin(q) + math.cos(p) * math.cos(q) * math.cos(turn))
         assert a.distance_to(b) == pytest.approx(6371.0088 * angle, rel=1e-9)
     assert Place(latitude=0.0, longitude=179.0).distance_to(
@@ -64,7 +64,7 @@ def test_distances_are_those_of_the_cosine_rule_of_spherical_trigonometry():
 def row(tmp_path) -> CatalogueRecord:
     """A row whose file states no coordinates."""
     times = np.arange(0, 4, STEP)
-    values = "\n".join(f"{each:.6f}" for each in 2 * np.sin(6 * times))
+    values = "\n".join(f"{item:.6f}" for item in 2 * np.sin(6 * times))
     (tmp_path / FILE).write_text(f"{values}\n", encoding="utf-8")
     return CatalogueRecord("one", FILE, unit="m/s2", time_step=STEP, component="N", folder=tmp_path)
 
@@ -72,10 +72,10 @@ def row(tmp_path) -> CatalogueRecord:
 def test_a_row_places_the_station_and_what_cannot_be_costs_the_record_nothing(row):
     (placed,) = open_station(replace(row, station_latitude=-42.6, station_longitude=173.1)).horizontal
     assert (placed.latitude, placed.longitude) == (-42.6, 173.1)
-    assert not any(each.kind.name.startswith("PLACE") for each in placed.warnings)
+    assert not any(warning.kind.name.startswith("PLACE") for warning in placed.warnings)
     wrong = {"station_latitude": 173.1, "station_longitude": -42.6, "epicentre_latitude": 42.0}
     (kept,) = open_station(replace(row, **wrong)).horizontal
-    told = [each.kind for each in kept.warnings if each.kind.name.startswith("PLACE")]
+    told = [one_warning.kind for one_warning in kept.warnings if one_warning.kind.name.startswith("PLACE")]
     assert told == [RecordKind.PLACE_SWAPPED, RecordKind.PLACE_HALF]
     assert kept.latitude is None and np.array_equal(kept.acceleration, placed.acceleration)
 
@@ -87,7 +87,7 @@ def test_a_place_unlike_that_of_the_file_is_used_and_told_with_both():
     for shift, is_told in ((0.0, False), (0.005, False), (0.5, True)):
         moved = here | {"station_latitude": here["station_latitude"] + shift}
         found = open_station(replace(shipped, **moved)).horizontal[0]
-        told = [each for each in found.warnings if each.kind is RecordKind.PLACE_UNLIKE_FILE]
+        told = [warning for warning in found.warnings if warning.kind is RecordKind.PLACE_UNLIKE_FILE]
         assert bool(told) == is_told and found.latitude == moved["station_latitude"]
     apart = Place(latitude=stated.latitude, longitude=stated.longitude).distance_to(
         Place(latitude=found.latitude, longitude=found.longitude)

@@ -65,7 +65,7 @@ def test_what_is_doubtful_of_a_file_is_kept_with_its_values(folder: Path, reads:
     first, second = (catalogue_of_folder(folder, keeps_readings=True).files for _ in range(2))
     assert len(reads) == 4
     assert [file.doubts for file in second] == [file.doubts for file in first]
-    (rare,) = (each for file in second for each in file.doubts if each.kind is RecordKind.PEAK_RARE)
+    (rare,) = (doubt for file in second for doubt in file.doubts if doubt.kind is RecordKind.PEAK_RARE)
     assert rare.about == "NS" and rare["peak_g"] == pytest.approx(4.0)
 
 

@@ -37,7 +37,7 @@ def test_the_first_level_is_found_where_soft_soil_reaches_a_capacity_three_times
     floor = FloorDemand(DesignSpectrum.ntc(level, F0, 0.35, "D"))
     crossings = Crossings.of(lambda _, levels: floor.peak(levels), capacities, level)
     found = crossings.levels(np.arange(capacities.size))
-    expected = [first_level_on_soil_d(float(each)) for each in capacities]
+    expected = [first_level_on_soil_d(float(capacity)) for capacity in capacities]
     assert found == pytest.approx(expected, rel=TO_ROUNDING)
     assert (crossings.low <= found).all()
     assert (found <= crossings.high).all()

@@ -36,10 +36,10 @@ def test_the_mean_spectrum_computed_anew_lies_within_the_limits(pool, selection)
         factor = selection.factors[place]
         of_pair = [
             [
-                factor * spectral_acceleration(each.acceleration, each.time_step, period, 0.05)
+                factor * spectral_acceleration(component.acceleration, component.time_step, period, 0.05)
                 for period in periods
             ]
-            for each in pair
+            for component in pair
         ]
         anew[place] = np.mean(of_pair, axis=0)
         np.testing.assert_allclose(anew[place], selection.spectra[place][::20], rtol=0.015)
@@ -54,7 +54,7 @@ def test_every_set_has_one_pair_a_station_and_is_another_one(pool, selection):
     more = dict(pool)
     for number in (0, 1):
         more |= {
-            f"again {number} {k}": [each.scaled(1 + 0.1 * k) for each in pool[f"R{number}"]] for k in range(3)
+            f"again {number} {k}": [item.scaled(1 + 0.1 * k) for item in pool[f"R{number}"]] for k in range(3)
         }
     several = select(more, SPECTRUM, 10, sets=40, seed=3, **LIMITS)
     stations = np.array(several.stations)
@@ -75,7 +75,7 @@ def test_a_station_under_two_names_is_one(pool):
         "unnamed": ("", ""),
     }
     records = {
-        name: [replace(each, event=event, station=station, network="") for each in pair]
+        name: [replace(component, event=event, station=station, network="") for component in pair]
         for (name, (event, station)), pair in zip(names.items(), pool.values(), strict=False)
     }
     one, again, *others = select(records, SPECTRUM, 1, below=0.9, above=9.0).stations
@@ -86,8 +86,8 @@ def test_a_station_under_two_names_is_one(pool):
 def test_one_motion_under_two_names_is_one_station(pool):
     """A file that two catalogues list, here as another station, does not count twice; another one does."""
     first, second, *_ = pool.values()
-    renamed = [replace(each, event="Manjil", station="Abbar") for each in first]
-    named = [replace(each, event="MANJIL 06/20/90", station="MANJIL") for each in first]
+    renamed = [replace(row, event="Manjil", station="Abbar") for row in first]
+    named = [replace(one_row, event="MANJIL 06/20/90", station="MANJIL") for one_row in first]
     stations = select(
         {"one": renamed, "again": named, "other": second}, SPECTRUM, 1, below=0.9, above=9.0
     ).stations

@@ -387,15 +387,15 @@ def test_a_hinge_that_is_typed_makes_no_check_better_unless_it_is_known(height, 
     plain = kinematic_check(Wall.of_size(height, thickness), spectrum)
     typed = kinematic_check(Wall.of_size(height, thickness, height / 2), spectrum)
     known = kinematic_check(Wall.of_size(height, thickness, height / 2, crack="known"), spectrum)
-    for each in plain.checks:
-        (of_typed,) = (one for one in typed.checks if one.clause == each.clause)
-        (of_known,) = (one for one in known.checks if one.clause == each.clause)
-        assert of_typed.ratio == pytest.approx(each.ratio, rel=BY_HAND)
+    for check in plain.checks:
+        (of_typed,) = (one for one in typed.checks if one.clause == check.clause)
+        (of_known,) = (one for one in known.checks if one.clause == check.clause)
+        assert of_typed.ratio == pytest.approx(check.ratio, rel=BY_HAND)
         assert of_typed.ratio < of_known.ratio
         assert known.with_any_crack(of_known).ratio == of_typed.ratio
     assert typed.verified is plain.verified
     assert typed.were_it_unknown is None
-    assert [each.description for each in known.mechanisms] == [f"hinge at {height / 2:g} m"]
+    assert [mechanism.description for mechanism in known.mechanisms] == [f"hinge at {height / 2:g} m"]
 
     rows = {row.clause: row for row in code_check_rows("wall", known)}
     assert rows["C8.7.1.2.1.8"].ratio_with_any_crack == plain.nonlinear.ratio
@@ -452,5 +452,5 @@ def test_a_check_prints_the_verdict_and_the_ratio_of_each_clause():
     spectrum = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
     for breadth, word in ((0.6, "met"), (0.15, "not met")):
         found = rocking.check(rocking.Block.of_size(breadth=breadth, height=2.0), spectrum)
-        for each in found.checks:
-            assert f"{each.clause} {word}, ratio {each.capacity / each.demand:#.3g}" in repr(found)
+        for check in found.checks:
+            assert f"{check.clause} {word}, ratio {check.capacity / check.demand:#.3g}" in repr(found)

@@ -23,7 +23,8 @@ TIE = {"tie_heights": (7.5,), "tie_stiffness": 2e6}
 
 def mechanisms(structure, **terms):
     return {
-        each.description: each for each in kinematic_check(structure, SPECTRUM, CodeTerms(**terms)).mechanisms
+        mechanism.description: mechanism
+        for mechanism in kinematic_check(structure, SPECTRUM, CodeTerms(**terms)).mechanisms
     }
 
 
@@ -81,7 +82,7 @@ def test_bulge_of_one_storey_by_hand():
     assert static.mass_ratio_of_all == pytest.approx(0.694002, abs=5e-7)
     # the hinge goes where λ is least
     found = mechanisms(wall)
-    bulge = next(each for name, each in found.items() if name.startswith("bulges between foot and tie"))
+    bulge = next(item for name, item in found.items() if name.startswith("bulges between foot and tie"))
     assert bulge.onset_multiplier == pytest.approx(0.496042, abs=5e-7)
     checked = kinematic_check(wall, SPECTRUM)
     assert checked.linear.mechanism.startswith("bulges between foot and tie, hinge at 2.706 m")
@@ -113,8 +114,8 @@ def test_stronger_and_more_ductile_ties_never_lower_a_capacity():
     for strength in strengths[1::2]:
         tied = replace(WALL, **TIE, tie_strength=strength, crack_storey=1, crack="known")
         levels = [
-            kinematic_check(replace(tied, tie_plastic_elongation=each), SPECTRUM).nonlinear.capacity
-            for each in (0.0, 0.02, 0.1, 0.4)
+            kinematic_check(replace(tied, tie_plastic_elongation=value), SPECTRUM).nonlinear.capacity
+            for value in (0.0, 0.02, 0.1, 0.4)
         ]
         assert (np.diff(levels) > -1e-9 * np.array(levels[1:])).all(), levels
 
@@ -131,7 +132,7 @@ def test_tie_example_of_the_issue_is_no_longer_punished():
 def test_limit_state_lies_before_a_break_or_behind_it_whichever_bears_more():
     strong = replace(WALL, **TIE, tie_strength=63e3, crack_storey=1, crack="known")
     weak = replace(WALL, **TIE, tie_strength=21e3, crack_storey=1, crack="known")
-    checks = [kinematic_check(each, SPECTRUM) for each in (weak, strong)]
+    checks = [kinematic_check(case, SPECTRUM) for case in (weak, strong)]
     # behind a break: .4 d₀ of the free wall, with α there, by hand
     d = 0.4 * 0.9 / 2
     assert checks[0].limit.displacement == pytest.approx(0.4 * 9.0 * math.sin(math.atan(0.1)) * 0.5, rel=0.01)
@@ -160,7 +161,7 @@ def test_tie_without_a_strength_says_what_it_must_bear():
     assert check.remark.kind is StructureKind.TIE_MUST_BEAR
     assert check.remark["needed_kN_m"] == pytest.approx(8.858030, abs=5e-6)
     # what the tie keeps shut is no mechanism of the list
-    assert not any("crack at 0 m" in each.description for each in check.mechanisms)
+    assert not any("crack at 0 m" in mechanism.description for mechanism in check.mechanisms)
     assert kinematic_check(replace(wall, tie_strength=30e3), SPECTRUM).remark is None
 
 
@@ -168,7 +169,7 @@ def test_wall_with_a_tie_between_its_supports_is_checked_below_and_above_it():
     wall = LoadedWall.of_size(
         6.4, 0.4, 19e3, top_load=1e4, one_sided=True, restitution=0.7, tie_heights=(3.2,), tie_stiffness=2e7
     )
-    names = [each.description for each in kinematic_check(wall, SPECTRUM).mechanisms]
+    names = [mechanism.description for mechanism in kinematic_check(wall, SPECTRUM).mechanisms]
     assert any(name.startswith("bulges between foot and tie") for name in names)
     assert any(name.startswith("bulges between tie and top") for name in names)
 

@@ -39,7 +39,7 @@ def bodies_of(structure) -> Stack:
     stack = structure.stack()
     if not isinstance(structure, Facade) or not structure.tie_heights:
         return stack
-    return Stack((joined(stack.courses),), tuple(replace(each, course=0) for each in stack.held))
+    return Stack((joined(stack.courses),), tuple(replace(fastening, course=0) for fastening in stack.held))
 
 
 def sampled(pulse: Pulse) -> Accelerogram:
@@ -109,7 +109,7 @@ def stacks() -> dict[str, Stack]:
 def test_free_motion_gains_no_energy_but_what_the_step_lets_it(name):
     """A contact pushes over half a step while its point still moves along: a gain of second order in the step."""
     stack, gains = stacks()[name], []
-    free = np.array([not each.guided for each in stack.courses])
+    free = np.array([not other_course.guided for other_course in stack.courses])
     count = len(stack.courses)
     start = np.zeros((count, 3))
     start[:, 0] = 0.5 * np.linspace(0, 1, count + 1)[1:] * free
@@ -117,8 +117,8 @@ def test_free_motion_gains_no_energy_but_what_the_step_lets_it(name):
     for step in (1e-3, 2.5e-4):
         still = Accelerogram(np.zeros(round(4 / step)), step)
         response = follow_stack(stack, still, step, history=True, initial_velocity=start)
-        masses = np.array([each.mass for each in stack.courses])
-        inertias = np.array([each.inertia for each in stack.courses])
+        masses = np.array([course.mass for course in stack.courses])
+        inertias = np.array([one_course.inertia for one_course in stack.courses])
         places, velocities = response.places, response.velocities
         moving = masses * (velocities[..., :2] ** 2).sum(axis=-1) + inertias * velocities[..., 2] ** 2
         energy = (moving / 2 + masses * GRAVITY * places[..., 1]).sum(axis=1)
@@ -151,9 +151,9 @@ def test_it_opens_under_a_steady_push_where_limit_analysis_has_it(structure, sha
 def test_courses_lift_together_where_each_joint_would_alone():
     """λ of a free-standing stack is the least over its joints of the lever over the height of what stands on it."""
     levels, widths = [0.0, 0.8, 2.0, 3.0], [0.9, 0.8, 0.3, 0.3]
-    stack = Stack(courses_between(levels, [(-each / 2, each / 2) for each in widths], 1.0, [1.0] * 3))
+    stack = Stack(courses_between(levels, [(-width / 2, width / 2) for width in widths], 1.0, [1.0] * 3))
     above = [joined(stack.courses[place:]) for place in range(3)]
-    least = min(-each.bottom[0] / (each.centre[1] - each.base) for each in above)
+    least = min(-part.bottom[0] / (part.centre[1] - part.base) for part in above)
     for share, lifts in ((0.97, False), (1.03, True)):
         push = np.linspace(0, share * least * GRAVITY, 3000)
         assert (follow_stack(stack, Accelerogram(push, 1e-3), 1e-3).largest_turns.max() > 1e-4) == lifts
@@ -265,7 +265,7 @@ def test_a_bulge_opens_between_elastic_holds_where_limit_analysis_has_it():
     )
     assert wall.mechanisms()[0].name.startswith("bulges between")
     # of the joints that the courses have
-    _, least = wall.held_wall.family([each.base for each in wall.stack().courses])[0]
+    _, least = wall.held_wall.family([course.base for course in wall.stack().courses])[0]
     for share, lifts in ((0.9, False), (1.1, True)):
         push = -share * least * GRAVITY
         steady = Accelerogram(np.concatenate([np.linspace(0, push, 4000), np.full(2000, push)]), 1e-3)

@@ -42,14 +42,14 @@ def shaking(peak: float, seconds: float = 6.0) -> Accelerogram:
     """Four sines of drawn phases that swell and fade."""
     chance = np.random.default_rng(4)
     times = np.arange(0, seconds, 0.01)
-    waves = sum(np.sin(2 * np.pi * each * times + chance.uniform(0, 6)) for each in (0.8, 1.4, 2.3, 3.9))
+    waves = sum(np.sin(2 * np.pi * value * times + chance.uniform(0, 6)) for value in (0.8, 1.4, 2.3, 3.9))
     waves = waves * np.sin(np.pi * times / seconds)
     return Accelerogram(peak * waves / np.abs(waves).max(), 0.01)
 
 
 def energies(stones: Stones, response: StackResponse) -> np.ndarray:
-    masses = np.array([each.mass for each in stones.stones])
-    inertias = np.array([each.inertia for each in stones.stones])
+    masses = np.array([stone.mass for stone in stones.stones])
+    inertias = np.array([one_stone.inertia for one_stone in stones.stones])
     places, velocities = response.places, response.velocities
     moving = masses * (velocities[..., :2] ** 2).sum(axis=-1) + inertias * velocities[..., 2] ** 2
     return (moving / 2 + masses * GRAVITY * places[..., 1]).sum(axis=1)
@@ -75,7 +75,7 @@ def test_stacks_move_as_they_did_before_there_were_stones():
         steps, *turns = before
         assert found.steps == steps
         assert found.largest_turns[[0, -1]] == pytest.approx(
-            [float.fromhex(each) for each in turns], rel=1e-12
+            [float.fromhex(turn) for turn in turns], rel=1e-12
         )
 
 
@@ -140,7 +140,7 @@ def test_free_motion_gains_no_energy(structure):
     response = follow_stack(stones, still, history=True)
     assert not response.falls
     energy = energies(stones, response)[310:]
-    lifting = sum(each.mass for each in stones.stones) * GRAVITY * 1.0 * response.largest_turns.max()
+    lifting = sum(stone.mass for stone in stones.stones) * GRAVITY * 1.0 * response.largest_turns.max()
     risen = np.maximum.accumulate(energy[::-1])[::-1] - energy
     assert response.largest_turns.max() > 1e-3
     assert risen.max() < 1e-3 * lifting
@@ -161,7 +161,7 @@ def test_a_portal_keeps_of_an_impact_what_the_balance_of_momentum_says(breadth, 
     """Of two flights from ω each turns to cos(α − φ) − cos α ~ ω²; both columns turn about one side's corners."""
     portal = Frame(Block.of_size(breadth, 8.0), 2, ratio)
     stones = portal.stones()
-    left, beam, right = (np.array(each.centre) for each in stones.stones)
+    left, beam, right = (np.array(stone.centre) for stone in stones.stones)
     half = breadth / 2
     arms = left - [left[0] + half, 0], np.array([-breadth, 8.0]), right - [right[0] + half, 0]
     spin = 0.1
@@ -237,7 +237,7 @@ def test_an_arch_has_the_voussoirs_that_it_states():
     assert replace(ARCH, voussoirs=400).stones().count == MOST_VOUSSOIRS
     assert ARCH.stones(7).count == 7
     assert PIERS.stones().count == 13
-    whole = sum(each.mass for each in replace(PIERS, fill_depth=0.4).stones(9).stones)
+    whole = sum(stone.mass for stone in replace(PIERS, fill_depth=0.4).stones(9).stones)
     assert whole == pytest.approx(replace(PIERS, fill_depth=0.4).ring.mass)
 
 

@@ -17,7 +17,7 @@ BENCHMARK = Path(__file__).parents[3] / "docs" / "benchmark"
 
 def _table(path: Path) -> dict[str, dict[str, str]]:
     with path.open(encoding="utf-8") as stream:
-        return {each["case"]: each for each in csv.DictReader(stream)}
+        return {row["case"]: row for row in csv.DictReader(stream)}
 
 
 def _imports(path: Path) -> list[str]:
@@ -96,4 +96,4 @@ def test_a_wrong_answer_is_counted_and_an_unknown_case_refused(tmp_path, text, s
 def test_every_case_stands_in_the_readme():
     text = (BENCHMARK / "README.md").read_text(encoding="utf-8")
     assert all(f"`{case}`" in text for case in CASES)
-    assert not math.isnan(sum(float(each["expected"]) for each in CASES.values()))
+    assert not math.isnan(sum(float(one_case["expected"]) for one_case in CASES.values()))

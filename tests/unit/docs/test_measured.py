@@ -20,8 +20,8 @@ def test_the_readme_prints_the_trade_that_was_measured():
         f"{sine.wrong_verdicts} of {sine.cases} verdicts wrong against {mechanism.wrong_verdicts}",
         sine.machine.partition(",")[0],
     )
-    for each in told:
-        assert each in README, each
+    for remark in told:
+        assert remark in README, remark
 
 
 def test_the_page_prints_each_method_and_shape_with_the_machine():

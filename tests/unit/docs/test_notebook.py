@@ -34,7 +34,7 @@ def test_every_cell_runs_and_shows_what_it_promises(notebook, monkeypatch):
     shown = [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]
     assert not [output for output in shown if output.output_type == "stream" and output.name == "stderr"]
     data = [output.data for output in shown if "data" in output]
-    assert sum("image/png" in each for each in data) >= 5
-    assert any("text/html" in each and "period_s" in each["text/html"] for each in data)
-    texts = "".join(each.get("text/plain", "") for each in data)
+    assert sum("image/png" in part for part in data) >= 5
+    assert any("text/html" in other_part and "period_s" in other_part["text/html"] for other_part in data)
+    texts = "".join(one_part.get("text/plain", "") for one_part in data)
     assert "Accelerogram(" in texts and "Mechanism(" in texts

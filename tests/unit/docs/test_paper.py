@@ -71,7 +71,7 @@ def test_the_governing_crack_goes_down_the_spire_as_the_sine_grows_longer():
     assert all(heights[period] == cracks[-1].position for period in (0.4, 1.0, 1.5))
     assert heights[2.4] == pytest.approx(3.8, abs=0.36)  # the cracks are 0.356 m apart
     assert heights[4.0] == 0
-    blocks = [each.structure.mechanism().equivalent_block("exact_at_rest") for each in cracks]
+    blocks = [crack.structure.mechanism().equivalent_block("exact_at_rest") for crack in cracks]
     for place in (20, 40, 72):
         period, least = envelope.x[place], envelope.y[place] * GRAVITY
         pulses = [
@@ -85,7 +85,7 @@ def test_the_governing_crack_goes_down_the_spire_as_the_sine_grows_longer():
 
 def errors(name: str, panel: str) -> dict[str, np.ndarray]:
     """The curves of one panel of a figure, less 1, by label."""
-    (figure,) = (each for each in equivalence_figures() if each.name == name)
+    (figure,) = (one_figure for one_figure in equivalence_figures() if one_figure.name == name)
     rows = [row for row in figure.rows if row.panel == panel]
     return {
         label: np.array([row.y - 1 for row in rows if row.curve == label])
@@ -169,13 +169,13 @@ def test_no_legend_hides_a_line(figures):
         canvas = FigureCanvasAgg(figure.figure)
         canvas.draw()
         drawn = [panel.get_legend() for panel in figure.figure.axes] + figure.figure.legends
-        boxes = [each.get_window_extent() for each in drawn if each is not None]
+        boxes = [one_figure.get_window_extent() for one_figure in drawn if one_figure is not None]
         assert boxes
         for panel in figure.figure.axes:
             for line in panel.lines:
                 vertices = line.get_transform().transform(line.get_xydata())
                 finer = np.linspace(0, len(vertices) - 1, 100 * len(vertices))
-                x, y = (np.interp(finer, np.arange(len(vertices)), each) for each in vertices.T)
+                x, y = (np.interp(finer, np.arange(len(vertices)), column) for column in vertices.T)
                 for box in boxes:
                     hidden = (box.x0 < x) & (x < box.x1) & (box.y0 < y) & (y < box.y1)
                     assert not hidden.any(), f"{figure.name}: {line.get_label()}"

@@ -206,8 +206,8 @@ def test_the_site_needs_no_network_and_its_links_lead_somewhere(site, folder):
 def test_the_site_leaves_nothing_of_the_code_out(site):
     for form in FORMATS:
         assert f"<td>{form.name}</td>" in unescape(site["formats.html"])
-    for each in (*RECORD_TABLES[:-3], *SUMMARY_TABLES):
-        for column in each.table.columns:
+    for row_class in (*RECORD_TABLES[:-3], *SUMMARY_TABLES):
+        for column in row_class.table.columns:
             assert f"<code>{column.name}</code>" in site["tables.html"]
     settings = yaml.safe_load(written(ROOT / "config" / "config.yaml"))
     for name, value in settings.items():

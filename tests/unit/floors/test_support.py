@@ -93,7 +93,7 @@ def test_a_rigid_or_a_still_mode_gives_the_ground(mode):
     record, block = smooth(3), Block(semi_diagonal=0.5, slenderness=0.25)
     floor = Support((mode,)).motion(record)
     assert floor.acceleration == pytest.approx(record.acceleration, abs=1e-12)
-    ours, grounds = (integrate(block, each).rotation_ratio for each in (floor, record))
+    ours, grounds = (integrate(block, case).rotation_ratio for case in (floor, record))
     assert ours == pytest.approx(grounds, rel=1e-12)
 
 
@@ -141,7 +141,7 @@ def test_components_share_their_samples_and_the_vertical_passes():
     vertical = Accelerogram(noise(4).acceleration, STEP, vertical=True)
     support = Support((Mode(period=0.2, damping_ratio=0.05, participation=1.3),))
     floors = support.motions((first, second, vertical))
-    assert len({(each.acceleration.size, each.time_step) for each in floors}) == 1
+    assert len({(floor.acceleration.size, floor.time_step) for floor in floors}) == 1
     finer = round(STEP / floors[2].time_step)
     own = floors[2].acceleration[::finer]
     assert np.array_equal(own[: vertical.acceleration.size], vertical.acceleration)
@@ -152,7 +152,7 @@ def test_components_share_their_samples_and_the_vertical_passes():
     together = support.motions((both, second))[0]
     places = np.arange(vertical.acceleration.size)
     total, parts = (
-        [np.interp(places * STEP, each.times, each.acceleration) for each in group]
+        [np.interp(places * STEP, record.times, record.acceleration) for record in group]
         for group in ((together,), floors[:2])
     )
     assert total[0] == pytest.approx(sum(parts), abs=1e-9)
@@ -185,7 +185,7 @@ def test_rotation_of_the_coupled_system(bodies, seconds):
             record.scaled(factor)
         )
         low, ratio, high = (
-            integrate(block, floor.scaled(each)).rotation_ratio for each in (0.999, 1.0, 1.001)
+            integrate(block, floor.scaled(value)).rotation_ratio for value in (0.999, 1.0, 1.001)
         )
         # Well conditioned: a thousandth of the motion changes the rotation by less than a hundredth.
         if 0.01 < ratio < 1 and max(abs(low - ratio), abs(high - ratio)) < 0.01 * ratio:

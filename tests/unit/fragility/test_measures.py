@@ -34,15 +34,17 @@ BLOCK = Block.of_size(0.6, 3.0)
 MECHANISM = BLOCK.mechanism()
 STEP = 0.01
 TIMES = np.arange(0, 12, STEP)
-NAMED = [each.replace("T1,T2", "0.2,2.0").replace("(T)", "(0.5)") for each in SPELLINGS]
+NAMED = [spelling.replace("T1,T2", "0.2,2.0").replace("(T)", "(0.5)") for spelling in SPELLINGS]
 
 
 @pytest.fixture(scope="module")
 def records(real_records) -> list[Accelerogram]:
     """Ten stations of FEMA P-695, one component each, followed by zeros: pyrotd wraps the end round to the start."""
     chosen = load_catalogue(ROOT / "records" / "fema_p695.csv")[:20:2]
-    read = [open_record(each, real_records)[0] for each in chosen]
-    return [Accelerogram(np.append(each.acceleration, np.zeros(6000)), each.time_step) for each in read]
+    read = [open_record(name, real_records)[0] for name in chosen]
+    return [
+        Accelerogram(np.append(channel.acceleration, np.zeros(6000)), channel.time_step) for channel in read
+    ]
 
 
 @pytest.fixture(scope="module")
@@ -149,9 +151,9 @@ def test_periods_follow_from_the_structure_alone():
         Block.of_size(0.75, 3.0, restitution=0.79),
     )
     for structure in one_swing:
-        assert {intensity_measure(each, structure).name for each in ("AvgSA", "FIV3")} == {"pgv"}
+        assert {intensity_measure(choice, structure).name for choice in ("AvgSA", "FIV3")} == {"pgv"}
     assert intensity_measure("AvgSA", Block.of_size(1.2, 3.0, restitution=0.5)).name.startswith("AvgSA(")
-    assert [each.name for each in compared(MECHANISM)][: len(INTENSITY_MEASURES)] == list(INTENSITY_MEASURES)
+    assert [row.name for row in compared(MECHANISM)][: len(INTENSITY_MEASURES)] == list(INTENSITY_MEASURES)
 
 
 @pytest.mark.parametrize(

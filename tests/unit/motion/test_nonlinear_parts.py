@@ -50,7 +50,7 @@ def test_the_series_of_a_step_solves_the_equation_of_motion(side: int, kind: str
         assert (np.abs(np.array(found) - expected) <= scale).all()
         if kind == "sine":
             continue
-        bent = tuple(side * each for each in push[2:]) if kind == "curve" else None
+        bent = tuple(side * item for item in push[2:]) if kind == "curve" else None
         short, (fifth, sixth, beyond) = kernel._short_series(
             PIECES, k, j, u, v, side * a0, side * a1, g0, g1, None, None, side, bent
         )

@@ -144,6 +144,6 @@ def test_forcings_take_no_more_bytes_than_they_may(monkeypatch):
     for record in records:
         forcings.of(record, None)
         assert forcings._bytes == own * len(forcings._kept) <= 3 * own
-    assert [each() for each in forcings._kept] == records[3:]
+    assert [forcing() for forcing in forcings._kept] == records[3:]
     del record, records
     assert (forcings._bytes, len(forcings._kept)) == (0, 0)

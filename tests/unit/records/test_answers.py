@@ -163,7 +163,7 @@ def test_no_ground_moves_at_more_than_four_metres_a_second(tmp_path: Path) -> No
         (tmp_path / "a.csv").write_text(
             "t,NS (m/s2)\n" + table(times, velocity * np.pi / 1.5 * cycle, parted=",")
         )
-        assert {each.kind for each in read(tmp_path / "a.csv")[0].warnings} == kinds
+        assert {warning.kind for warning in read(tmp_path / "a.csv")[0].warnings} == kinds
     (tmp_path / "a.csv").write_text("t,NS (g)\n" + table(times, 2 * np.pi / 1.5 * cycle, parted=","))
     with refused(RecordError, "peak", "peak velocity is 16.6 m/s"):
         read(tmp_path / "a.csv")
@@ -253,7 +253,7 @@ def test_text_below_the_numbers_is_a_tail(tmp_path: Path, tail: str) -> None:
     (record,) = read(path)
     assert record.acceleration == pytest.approx(MOTION, abs=1e-6)
     is_said = tail in TAILS[2:]
-    assert [each.kind for each in record.warnings] == ([RecordKind.TAIL_PASSED_OVER] if is_said else [])
+    assert [warning.kind for warning in record.warnings] == ([RecordKind.TAIL_PASSED_OVER] if is_said else [])
     bare = tmp_path / "bare.txt"
     bare.write_text(wrapped(MOTION, 5) + tail)
     with pytest.raises(AskedError) as asked:

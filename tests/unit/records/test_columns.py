@@ -77,7 +77,7 @@ def test_a_count_above_the_samples_is_no_sample(tmp_path, above):
     (record,) = opened(path) if len(above) == 1 else read(path, unit="m/s2")
     assert record.acceleration.size == 600 and record.time_step == 0.01
     assert record.peak_acceleration == pytest.approx(np.abs(WAVES[0]).max())
-    (told,) = (each for each in record.warnings if each.kind is RecordKind.FIRST_NUMBERS)
+    (told,) = (warning for warning in record.warnings if warning.kind is RecordKind.FIRST_NUMBERS)
     assert told["what"] == (
         "the number of samples, the time step" if len(above) == 2 else "the number of samples"
     )

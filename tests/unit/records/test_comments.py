@@ -227,4 +227,4 @@ def test_a_factor_in_a_comment_is_told_and_not_applied(tmp_path: Path, comment):
     assert record.acceleration == pytest.approx(FIRST, abs=1e-6)
     assert Remark.of(RecordKind.FACTOR_NOT_APPLIED, text=comment) in record.warnings
     (record,) = opened(tmp_path, "# number of points: 600\n" + TIMED)
-    assert RecordKind.FACTOR_NOT_APPLIED not in {each.kind for each in record.warnings}
+    assert RecordKind.FACTOR_NOT_APPLIED not in {warning.kind for warning in record.warnings}

@@ -57,7 +57,7 @@ RMS = np.sqrt(np.mean(TRUE**2)) / 9.80665
 ])  # fmt: skip
 def test_what_a_header_tells_is_warned_of(name: str, old: str, new: str, told: Kind | None) -> None:
     warnings = read_text(made(name).replace(old, new, 1))[0].warnings
-    assert told in {each.kind for each in warnings} if told else not warnings
+    assert told in {warning.kind for warning in warnings} if told else not warnings
 
 
 @pytest.mark.parametrize(("name", "old", "new"), [
@@ -108,7 +108,7 @@ def test_a_peak_out_of_its_place_is_warned_of(name: str, old: str, new: str) -> 
         return read_text(re.sub(old, new.format(round(at, 3)), text, count=1))[0].warnings
 
     known = set(told(place))
-    assert RecordKind.PEAK_ELSEWHERE not in {each.kind for each in known}
+    assert RecordKind.PEAK_ELSEWHERE not in {part.kind for part in known}
     (new_one,) = set(told(place + 12 * STEP)) - known
     assert new_one.kind is RecordKind.PEAK_ELSEWHERE
 
@@ -158,12 +158,18 @@ def test_miniseed_blocks_that_come_twice_are_told() -> None:
     """The last blocks overwritten by earlier ones: the record is shorter, without a gap."""
     content = by_obspy("MSEED", COUNTS, reclen=512, encoding="STEIM2")
     whole = read_content(content, "made", IN_MM)[0].warnings
-    assert {each.kind for each in whole} <= {RecordKind.VELOCITY_RARE}  # of a tone that is made to be loud
+    assert {remark.kind for remark in whole} <= {
+        RecordKind.VELOCITY_RARE
+    }  # of a tone that is made to be loud
     blocks = [content[i : i + 512] for i in range(0, len(content), 512)]
     (record,) = read_content(b"".join(blocks[:-3] + blocks[:3]), "made", IN_MM)
     assert record.acceleration.size < 4000
-    assert RecordKind.BLOCKS_OVERLAP in {each.kind for each in record.warnings}
-    assert all(each["after"] != 1 for each in record.warnings if each.kind is RecordKind.BLOCKS_LEAP)
+    assert RecordKind.BLOCKS_OVERLAP in {warning.kind for warning in record.warnings}
+    assert all(
+        one_warning["after"] != 1
+        for one_warning in record.warnings
+        if one_warning.kind is RecordKind.BLOCKS_LEAP
+    )
     (record,) = read_content(b"".join([*blocks[:4], *blocks[3:]]), "made", IN_MM)
     assert Remark.of(RecordKind.BLOCKS_LEAP, before=4, after=4) in record.warnings
 

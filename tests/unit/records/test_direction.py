@@ -50,7 +50,7 @@ def test_axes_whose_azimuth_is_not_known(name: str, axis: str) -> None:
 ])  # fmt: skip
 def test_a_pair_at_right_angles_by_what_its_names_mean(first: str, second: str, across: bool) -> None:
     pair = Channel(first), Channel(second)
-    assert all(doubts_of_channel(each) == () for each in pair)
+    assert all(doubts_of_channel(component) == () for component in pair)
     doubt = pair_doubt(pair)
     assert doubt is None if across else doubt is not None and doubt.kind is RecordKind.ANGLE_UNKNOWN
 

@@ -122,7 +122,7 @@ def test_what_the_c_library_says_of_a_response_is_a_warning_of_the_record(minise
     xml = XML.format(units="M/S**2").replace("</PolesZeros>", poles + "</PolesZeros>")
     (miniseed.parent / "station.xml").write_text(xml.replace("<Frequency>1<", "<Frequency>0.01<", 1))
     (record,) = read(miniseed, response="full")
-    assert RecordKind.SENSITIVITY_UNLIKE_STAGES in {each.kind for each in record.warnings}
+    assert RecordKind.SENSITIVITY_UNLIKE_STAGES in {warning.kind for warning in record.warnings}
     printed = capfd.readouterr()
     assert "sensitivities" not in printed.err + printed.out
 
@@ -275,9 +275,9 @@ def test_samples_whose_response_was_removed_are_not_divided_again() -> None:
 
 def test_what_a_rotation_made_untrue_is_not_believed() -> None:
     pair = [
-        Accelerogram(each, 0.01, name) for each, name in zip(np.eye(2, 60) + 0.1, ("HNN", "HNE"), strict=True)
+        Accelerogram(item, 0.01, name) for item, name in zip(np.eye(2, 60) + 0.1, ("HNN", "HNE"), strict=True)
     ]
-    turned = Stream([each.to_obspy() for each in pair]).rotate("NE->RT", back_azimuth=30.0)
+    turned = Stream([component.to_obspy() for component in pair]).rotate("NE->RT", back_azimuth=30.0)
     records = Accelerogram.from_obspy(turned)
     assert len(records) == 2
     for record in records:
@@ -379,8 +379,8 @@ def test_a_stored_answer_of_a_data_centre_reads_as_its_files_do(real_records: Pa
     inventory = read_inventory(str(folder / "CI.CLC.xml"), format="STATIONXML")
     found = Accelerogram.from_obspy(stream, inventory)
     assert [r.sha256 for r in found] == [read(file)[0].sha256 for file in files]
-    for each in stream:
-        each.stats.response = inventory.get_response(each.id, each.stats.starttime)
+    for item in stream:
+        item.stats.response = inventory.get_response(item.id, item.stats.starttime)
     divided = Accelerogram.from_obspy(stream.remove_sensitivity())
     for one, record in zip(divided, found, strict=True):
         assert np.allclose(one.acceleration, record.acceleration, rtol=0, atol=1e-9)

@@ -195,7 +195,7 @@ def test_a_sac_header_that_contradicts_its_channel_code_is_told(
     SACTrace(data=numbers, delta=0.01, kcmpnm=code, cmpaz=azimuth, cmpinc=inclination).write(str(path))
     (record,) = read(path, unit="m/s2")
     assert (record.azimuth, record.vertical) == (along, vertical)
-    assert (RecordKind.DIRECTION_CONTRADICTED in {each.kind for each in record.warnings}) == is_told
+    assert (RecordKind.DIRECTION_CONTRADICTED in {warning.kind for warning in record.warnings}) == is_told
 
 
 def test_the_scale_of_a_sac_file_is_told(tmp_path):

@@ -294,16 +294,18 @@ def test_a_count_and_a_step_above_two_columns(tmp_path):
 def test_three_channels_of_which_none_is_called_vertical_are_told(tmp_path):
     content = table("time (s),Ch1 (m/s2),Ch2 (m/s2),Ch3 (m/s2)\n", TIMES, *WAVES)
     for record in opened(tmp_path, content):
-        kinds = {each.kind for each in record.warnings}
+        kinds = {warning.kind for warning in record.warnings}
         assert RecordKind.SOME_MAY_BE_VERTICAL in kinds
         assert RecordKind.CHANNEL_OF_VELOCITY not in kinds
     named = table("time (s),X (m/s2),Y (m/s2),Z (m/s2)\n", TIMES, *WAVES)
-    assert RecordKind.SOME_MAY_BE_VERTICAL not in {each.kind for each in opened(tmp_path, named)[0].warnings}
+    assert RecordKind.SOME_MAY_BE_VERTICAL not in {
+        one_warning.kind for one_warning in opened(tmp_path, named)[0].warnings
+    }
 
 
 def test_numbers_none_of_which_is_negative_are_told(tmp_path):
     (record,) = opened(tmp_path, table("", TIMES, np.abs(FIRST) + 0.01), unit="m/s2")
-    assert RecordKind.NEVER_NEGATIVE in {each.kind for each in record.warnings}
+    assert RecordKind.NEVER_NEGATIVE in {warning.kind for warning in record.warnings}
 
 
 def test_a_column_of_a_floor_is_told(tmp_path):
@@ -430,7 +432,7 @@ def test_the_filling_of_the_last_row_is_left_out(tmp_path):
     (record,) = opened(tmp_path, "# Component: HNZ\n# units: m/s2, dt = 0.01 s\n" + rows)
     assert record.vertical
     assert record.acceleration == pytest.approx(FIRST, abs=1e-6)
-    assert RecordKind.ROW_FILLED_UP in {each.kind for each in record.warnings}
+    assert RecordKind.ROW_FILLED_UP in {warning.kind for warning in record.warnings}
     with refused(RecordError, "samples", "NaN"):
         opened(tmp_path, "# units: m/s2, dt = 0.01 s\n" + rows.replace(numbers[300], "NaN", 1))
 

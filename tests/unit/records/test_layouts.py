@@ -352,7 +352,7 @@ def test_a_file_that_looks_unlike_the_others_of_its_folder_is_told(tmp_path: Pat
     assert read(tmp_path / "made.txt")[0].warnings == ()
     (tmp_path / "other.txt").write_text(table(MOTION, OTHER, UP))
     (record,) = read(tmp_path / "other.txt")
-    assert RecordKind.UNLIKE_ITS_ANSWER in {each.kind for each in record.warnings}
+    assert RecordKind.UNLIKE_ITS_ANSWER in {warning.kind for warning in record.warnings}
 
 
 def test_an_answer_that_the_file_contradicts_is_refused(tmp_path: Path) -> None:

@@ -203,4 +203,6 @@ def test_one_letter_behind_a_station_s_digits_is_its_direction(tmp_path: Path) -
     _, (row,) = list_folder(tmp_path, unit="m/s2")
     assert (row["file"], row["component"]) == ("TCU052E.txt;TCU052N.txt;TCU052V.txt", "E;N;V")
     (upwards,) = read(tmp_path / "TCU052V.txt", unit="m/s2")
-    assert upwards.vertical and [each.kind for each in upwards.warnings] == [RecordKind.VERTICAL_BY_NAME]
+    assert upwards.vertical and [warning.kind for warning in upwards.warnings] == [
+        RecordKind.VERTICAL_BY_NAME
+    ]

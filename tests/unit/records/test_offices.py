@@ -168,7 +168,7 @@ def test_nothing_is_decided_by_the_words_of_a_remark(tmp_path: Path, monkeypatch
 
     def found() -> tuple[list[object], list[object]]:
         listed, rows = folder_of_records.list_folder(tmp_path, unit="m/s2", time_step=0.01)
-        files = [(file.file, file.record, file.companions, file.direction, [each.kind for each in file.doubts],
+        files = [(file.file, file.record, file.companions, file.direction, [doubt.kind for doubt in file.doubts],
                   file.separation and file.separation.kind, bool(file.refusal)) for file in listed]  # fmt: skip
         return files, [{key: cell for key, cell in row.items() if key != "note"} for row in rows]
 

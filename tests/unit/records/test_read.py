@@ -212,7 +212,7 @@ SERIES = "\n".join(f"{value:.6f}" for value in np.sin(np.arange(300) * 0.1)) + "
 def test_a_bare_series_is_vertical_where_its_file_is_called_so(tmp_path: Path, name, component) -> None:
     (record,) = read(written(tmp_path, SERIES, name), unit="m/s2", time_step=0.01)
     assert record.vertical
-    assert RecordKind.VERTICAL_BY_NAME in {each.kind for each in record.warnings}
+    assert RecordKind.VERTICAL_BY_NAME in {warning.kind for warning in record.warnings}
 
 
 @pytest.mark.parametrize(

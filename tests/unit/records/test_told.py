@@ -91,8 +91,8 @@ def test_advice_is_in_the_words_of_the_door(tmp_path: Path, door: Door, form: st
         with through(door), pytest.raises(RecordError) as told:
             read(tmp_path / name)
         assert words in str(told.value)
-        others = [each for other, each in DOORS.items() if other != door]
-        assert not any(each in str(told.value) for each in others)
+        others = [one_door for other, one_door in DOORS.items() if other != door]
+        assert not any(one_other in str(told.value) for one_other in others)
     refused = {file.file: file.refusal for file in list_folder(tmp_path)[0]}
     assert DOORS["catalogue"] in refused["a"] or not refused["a"]
 

@@ -103,14 +103,14 @@ def test_the_sine_of_the_page_is_that_of_pulses_csv(blocks, tmp_path):
 def lines_of(compared: Compared, look: str) -> list[np.ndarray]:
     """The lines of a strip whose look holds a text: across in mm, and upwards as a rotation ratio."""
     found = re.findall(rf'<polyline points="([^"]*)"[^>]*{look}', compared.picture.svg)
-    drawn = [np.array([list(map(float, pair.split(","))) for pair in each.split()]) for each in found]
+    drawn = [np.array([list(map(float, pair.split(","))) for pair in item.split()]) for item in found]
     return [np.column_stack([line[:, 0], REACH * (1 - 2 * line[:, 1] / HEIGHT)]) for line in drawn]
 
 
 def test_the_history_reaches_what_the_number_says_and_the_band_what_the_closed_form_says(blocks):
     seen = set()
     for report in blocks:
-        by_name = {each.verdict.structure: each.case for each in report.conclusions}
+        by_name = {conclusion.verdict.structure: conclusion.case for conclusion in report.conclusions}
         for compared in against_of(report).compared:
             case = by_name[compared.name]
             (history,) = lines_of(compared, 'stroke="black" stroke-width="0.28"')
@@ -133,16 +133,18 @@ def test_the_history_reaches_what_the_number_says_and_the_band_what_the_closed_f
 def test_those_at_rest_stand_in_one_line_and_have_no_strip(blocks):
     for report in blocks:
         page = against_of(report)
-        resting = {each.verdict.structure for each in report.conclusions if each.ratios[-1] <= 1e-3}
-        assert {each.name for each in page.compared} | resting == set(report.structures)
-        assert not resting & {each.name for each in page.compared}
+        resting = {
+            conclusion.verdict.structure for conclusion in report.conclusions if conclusion.ratios[-1] <= 1e-3
+        }
+        assert {row.name for row in page.compared} | resting == set(report.structures)
+        assert not resting & {one_row.name for one_row in page.compared}
         assert all(re.search(rf"\b{name}\b", page.at_rest) for name in resting)
 
 
 def test_the_worst_comes_first_as_on_page_one(blocks):
     for report in blocks:
-        order = [each.verdict.structure for each in report.conclusions]
-        names = [each.name for each in against_of(report).compared]
+        order = [conclusion.verdict.structure for conclusion in report.conclusions]
+        names = [row.name for row in against_of(report).compared]
         assert names == [name for name in order if name in names]
 
 
@@ -200,14 +202,14 @@ def test_a_structure_that_cannot_be_drawn_costs_no_other_its_strip(example, monk
             raise ZeroDivisionError("of a structure")
         return name
 
-    whole = {each.name for each in against_of(example).compared}
+    whole = {row.name for row in against_of(example).compared}
     monkeypatch.setattr("rocking.reports.against.sizes_of", fails)
-    assert {each.name for each in against_of(example).compared} == whole - {"block 4 m"}
+    assert {one_row.name for one_row in against_of(example).compared} == whole - {"block 4 m"}
 
 
 def test_without_a_sine_the_closed_forms_are_dashes(example):
     none = {"printed_rotation_ratio": math.nan, "predicted_rotation_ratio": math.nan, "printed_holds": None}
     rows = [replace(row, **none) for row in example.tables.comparison]
     bare = replace(example, tables=replace(example.tables, comparison=rows, pulses=()))
-    assert {(each.printed, each.form) for each in against_of(bare).compared} == {("–", "–")}
-    assert [each.facts for each in against_of(bare).grounds] == [()]
+    assert {(one_row.printed, one_row.form) for one_row in against_of(bare).compared} == {("–", "–")}
+    assert [ground.facts for ground in against_of(bare).grounds] == [()]

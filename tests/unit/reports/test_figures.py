@@ -33,7 +33,7 @@ def test_every_figure_of_a_report_is_a_file_of_each_kind(data):
     for name in vectors:
         svg = ElementTree.fromstring(archive.read(f"{name}.svg"))
         width, height = (
-            float(svg.get(each).removesuffix("pt").removesuffix("mm")) for each in ("width", "height")
+            float(svg.get(choice).removesuffix("pt").removesuffix("mm")) for choice in ("width", "height")
         )
         pixels = Image.open(io.BytesIO(archive.read(f"{name}.png"))).size
         assert pixels[0] / pixels[1] == pytest.approx(width / height, rel=0.25), "but for the margin of 4 pt"
@@ -60,7 +60,7 @@ def test_the_figures_of_a_document_stand_beside_it(tmp_path, kinds, named):
         for method in TradeMethod
     ]
     write_trade_report({TradeRow: rows}, tmp_path / "trade.pdf", tmp_path / "trade.svg", kinds)
-    assert sorted(each.name for each in tmp_path.iterdir()) == sorted(["trade.pdf", "trade.svg", *named])
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(["trade.pdf", "trade.svg", *named])
     assert write_document(tmp_path / "a.pdf", PlainPage(title="a"), kinds)
     for name in named:
         assert len(opened((tmp_path / name).read_bytes()).namelist()) == 1

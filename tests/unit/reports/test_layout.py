@@ -42,7 +42,7 @@ def covered(page: list[Word]) -> list[tuple[str, str]]:
     for one, other in itertools.combinations(page, 2):
         width = min(one[2], other[2]) - max(one[0], other[0])
         height = min(one[3], other[3]) - max(one[1], other[1])
-        smaller = min((each[2] - each[0]) * (each[3] - each[1]) for each in (one, other))
+        smaller = min((case[2] - case[0]) * (case[3] - case[1]) for case in (one, other))
         if width > 0 and height > 0 and width * height > smaller / 2:
             pairs.append((one[4], other[4]))
     return pairs
@@ -119,7 +119,7 @@ def test_the_summary_is_well_laid(example, count, records):
     rows = [of_structures(example, kind, record).tables for record in sixty("record", records)]
     tables = RecordRows(
         **{
-            table.name: [row for each in rows for row in getattr(each, table.name)]
+            table.name: [row for one_row in rows for row in getattr(one_row, table.name)]
             for table in fields(RecordRows)
         }
     )
@@ -140,13 +140,17 @@ def test_the_first_page_of_the_summary_holds_matrix_and_scatter_in_at_most_260_w
     rows = [of_structures(example, kind, record).tables for record in named]
     tables = RecordRows(
         **{
-            table.name: [row for each in rows for row in getattr(each, table.name)]
+            table.name: [row for one_row in rows for row in getattr(one_row, table.name)]
             for table in fields(RecordRows)
         }
     )
-    structures = {name: example.structures[each] for name, each in kind.items()}
+    structures = {name: example.structures[item] for name, item in kind.items()}
     level = DesignSpectrum.ntc(ag=0.3, f0=2.5, tc_star=0.35)
-    checks = [row for name, each in structures.items() for row in code_check_rows(name, check(each, level))]
+    checks = [
+        row
+        for name, structure in structures.items()
+        for row in code_check_rows(name, check(structure, level))
+    ]
     shown = summarised(tables, structures) | {CodeCheckRow: checks}
     by_the_code = code_conclusion_in_words(code_conclusions(checks))
     page = pages(compile_document(summary_data(shown, SETTINGS, other_conclusions=[by_the_code])))[0]

@@ -33,22 +33,22 @@ def basis(structure, share=None, forces=()):
 
 
 def texts(rows):
-    return [" | ".join(str(each) for each in row) for row in rows]
+    return [" | ".join(str(cell) for cell in row) for row in rows]
 
 
 def test_the_table_names_each_kind_of_mechanism_once_with_the_force_that_holds_it():
     """Section 12.7: α₀ = .496 and R = 8.86 kN/m as the storey bulges below its tie."""
     rows = texts(basis(ONE_STOREY).mechanisms.rows)
-    (bulge,) = [each for each in rows if each.startswith("bulges between foot and tie")]
+    (bulge,) = [one_row for one_row in rows if one_row.startswith("bulges between foot and tie")]
     assert "0.496" in bulge
     assert "tie at 3.60 m: 8.86 kN/m" in bulge
     # of cracks at eleven heights the weakest one, about the foot, in which the tie pulls with its strength
-    (whole,) = [each for each in rows if each.startswith("overturns about its foot")]
+    (whole,) = [row for row in rows if row.startswith("overturns about its foot")]
     assert "1.49" in whole
     followed = texts(basis(ONE_STOREY, share=0.25, forces=[12e3]).mechanisms.rows)
     assert len(followed) == len(mechanisms_of(ONE_STOREY))
-    assert all("25\u00a0%" in each for each in followed)
-    assert any("tie at 3.60 m: 8.86 (12.0) kN/m" in each for each in followed)
+    assert all("25\u00a0%" in crack for crack in followed)
+    assert any("tie at 3.60 m: 8.86 (12.0) kN/m" in one_crack for one_crack in followed)
 
 
 def test_the_page_says_what_holds_the_top_and_what_slips():
@@ -81,7 +81,7 @@ def test_a_tie_that_brings_a_weaker_mechanism_is_told_with_both_ratios(top, lowe
         wall = replace(wall, tie_strength=100.0)
     tied, free = check(wall, SPECTRUM), check(wall.without_ties(), SPECTRUM)
     assert (tied.nonlinear.ratio < free.nonlinear.ratio * (1 - 1e-6)) is lowers
-    told = [each for each in basis(wall).sentences if each.startswith("With the tie another")]
+    told = [sentence for sentence in basis(wall).sentences if sentence.startswith("With the tie another")]
     assert len(told) == lowers
     if lowers:
         assert tied.linear.ratio > free.linear.ratio

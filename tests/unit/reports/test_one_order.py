@@ -98,14 +98,14 @@ def test_of_equal_worst_cases_the_one_under_which_more_falls_comes_first():
 def test_every_document_has_one_order_of_records_and_structures_and_counts_the_same(tmp_path):
     rows = made_rows()
     made = conclusions(rows, [])
-    worst = {each.verdict.structure: each.verdict.record for each in worst_of_each(made)}
+    worst = {item.verdict.structure: item.verdict.record for item in worst_of_each(made)}
     assert list(worst.items()) == [("wall", "b"), ("arch", "d"), ("pier", "d")]
 
     beside = matrix(made, [], [])
-    assert [each.name for each in beside.heads] == RECORDS
-    assert [each.name for each in beside.rows] == STRUCTURES
+    assert [head.name for head in beside.heads] == RECORDS
+    assert [one_row.name for one_row in beside.rows] == STRUCTURES
     mapped = severity_map(worst_period_each(rows), [])
-    assert [each.record for each in mapped.rows] == RECORDS
+    assert [other_row.record for other_row in mapped.rows] == RECORDS
     assert list(mapped.heads) == STRUCTURES
     table = structure_table(rows)
     assert [line[0].text for line in table.rows] == STRUCTURES
@@ -127,8 +127,8 @@ def test_every_document_has_one_order_of_records_and_structures_and_counts_the_s
     ]
     page = explore_page(contents, dict.fromkeys(("pier", "arch", "wall"), Block(2.0, 0.2))).decode()
     content = json.loads(re.search(r'<script type="application/json" id="content">(.*?)</script>', page)[1])
-    for each, names in (("records", [*RECORDS, "e"]), ("structures", STRUCTURES)):
-        ranks = {one.get("id") or one["name"]: one["rank"] for one in content[each]}
+    for case, names in (("records", [*RECORDS, "e"]), ("structures", STRUCTURES)):
+        ranks = {one.get("id") or one["name"]: one["rank"] for one in content[case]}
         assert sorted(ranks, key=ranks.__getitem__) == names
     assert "4 records, 3 structures" in page, "one that failed is no record that was judged"
 
@@ -138,7 +138,7 @@ def test_every_document_has_one_order_of_records_and_structures_and_counts_the_s
 
 def cell(row):
     """What the page to explore is told of a case, as far as it orders by it."""
-    return {"verdict": row.verdict, "severity": [max(each, -1e9) for each in row.severity]}
+    return {"verdict": row.verdict, "severity": [max(number, -1e9) for number in row.severity]}
 
 
 def carried_rows():

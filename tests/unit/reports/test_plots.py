@@ -93,7 +93,7 @@ def test_the_mechanism_is_drawn_over_its_values_at_rest():
     assert np.all(drawn["I"] == 1)
     unlike = rocking.RigidBody(left=0.3, right=0.5, centre_height=1.5, inertia=1.0, restitution=0.9)
     *curves, _ = unlike.mechanism().plot().lines  # three for each side and the line at 0
-    away, back = (each.critical_rotation for each in unlike.mechanism().sides)
+    away, back = (one_side.critical_rotation for one_side in unlike.mechanism().sides)
     assert [line.get_xdata()[-1] for line in curves] == [away] * 3 + [-back] * 3
 
 
@@ -126,7 +126,7 @@ def test_a_history_is_drawn_with_its_impacts_and_the_band_of_its_members_up_to_a
     _, history, impacts = axes.lines
     assert np.array_equal(history.get_ydata(), ratio)
     assert (impacts.get_xdata().tolist(), impacts.get_ydata().tolist()) == ([2.0], [0.0])
-    bars = [each.get_window_extent().transformed(axes.transData.inverted()) for each in axes.patches]
+    bars = [patch.get_window_extent().transformed(axes.transData.inverted()) for patch in axes.patches]
     assert [[bar.ymin, bar.ymax] for bar in bars] == [pytest.approx([0.2, 1.0]), pytest.approx([-1.0, -0.2])]
 
 
@@ -268,7 +268,7 @@ def test_a_long_name_is_wrapped_before_it_is_cut():
     assert name.startswith(first) and second.endswith("…") and name[len(first) + 1 :].startswith(second[:-1])
     first, second = wrapped("4 Donaudampfschifffahrtsgesellschaft", 20, 2).split("\n")
     assert first.endswith("-") and len(first) > 12
-    assert all(elided(line, 20) == line for each in (3, 2) for line in wrapped(name, 20, each).split("\n"))
+    assert all(elided(line, 20) == line for value in (3, 2) for line in wrapped(name, 20, value).split("\n"))
 
 
 def test_a_drawing_makes_room_for_its_texts_and_keeps_its_scale():
@@ -291,7 +291,7 @@ def test_a_drawing_makes_room_for_its_texts_and_keeps_its_scale():
 
 def test_the_thickness_of_a_hollow_spire_is_drawn_level_at_its_base_and_inwards():
     spire = rocking.Spire(width=3.0, height=15.0, wall_thickness=0.25)
-    (thickness,) = (each for each in spire.dimensions() if each.text.startswith("0.25"))
+    (thickness,) = (path for path in spire.dimensions() if path.text.startswith("0.25"))
     assert thickness.feet[:, 0] == pytest.approx([1.25, 1.5]) and thickness.feet[:, 1] == pytest.approx(0.0)
 
 

@@ -42,11 +42,13 @@ def slips(count: int):
             count -= 1
             continue
         form = forms[chance.integers(len(forms))]
-        values = {each.key: each.value.example for each in form.fields if each.required}
+        values = {attribute.key: attribute.value.example for attribute in form.fields if attribute.required}
         sizes = [
-            each
-            for each in form.fields
-            if each.value.unit in UNITS and each.value.usual and np.isscalar(each.value.example)
+            one_attribute
+            for one_attribute in form.fields
+            if one_attribute.value.unit in UNITS
+            and one_attribute.value.usual
+            and np.isscalar(one_attribute.value.example)
         ]
         size = sizes[chance.integers(len(sizes))]
         low, high = size.value.usual
@@ -75,7 +77,7 @@ def notices(remarks) -> list[str]:
     """What stands above page one of a record."""
     of_study = RemarkRow.of_study(remarks)
     report = RecordReport(RecordResult(record="r"), RecordRows(), {}, SETTINGS, of_study=of_study)
-    return [each.text for each in report.page().notices]
+    return [notice.text for notice in report.page().notices]
 
 
 def assumed(report: RecordReport) -> str:
@@ -102,11 +104,15 @@ def test_a_size_or_a_level_in_another_unit_stands_on_page_one_or_is_refused(monk
         if remarks is None:
             refused += 1
             continue
-        told = [each for each in remarks if each.kind in TO_CHECK and each.about.endswith(key)]
+        told = [
+            one_remark
+            for one_remark in remarks
+            if one_remark.kind in TO_CHECK and one_remark.about.endswith(key)
+        ]
         if not told:
             silent.append((key, entry))
         page = notices(remarks)
-        assert all(any(str(each) in notice for notice in page) for each in told[:2]), (key, entry)
+        assert all(any(str(remark) in notice for notice in page) for remark in told[:2]), (key, entry)
     assert not silent, silent
     assert refused < TYPED_WRONGLY / 2
 
@@ -115,10 +121,10 @@ def test_a_size_or_a_level_in_another_unit_stands_on_page_one_or_is_refused(monk
 def test_of_many_slips_page_one_tells_the_first_in_full_and_how_many_more_of_what():
     wall = wall_in_millimetres(2200.0)
     remarks = study_remarks(Settings(), on_the_ground({f"wall {place}": wall for place in range(150)}))
-    to_check = [each for each in remarks if each.kind in TO_CHECK]
+    to_check = [remark for remark in remarks if remark.kind in TO_CHECK]
     assert len(to_check) == 300
     *first, rest = notices(remarks)[-3:]
-    assert first == [str(each) for each in to_check[:2]]
+    assert first == [str(item) for item in to_check[:2]]
     assert lines_told(RemarkRow.of_study(remarks)) == [*first, rest], "as the terminal tells them"
     assert "298 values" in rest and "wall 1, wall 2, " in rest and "remarks.csv" in rest
 
@@ -139,18 +145,20 @@ def test_every_document_of_a_study_reads_the_same_remarks(example):
 
     report = replace(example, of_study=rows)
     page = report.page()
-    assert told == [each.text for each in page.notices if each.text in told]
+    assert told == [notice.text for notice in page.notices if notice.text in told]
     (models,) = (topic.texts for topic in page.known.topics if topic.topic == "Models")
     assert rows[-1].sentence in models
 
     tables = summarised(example.tables, example.structures) | {RemarkRow: rows}
-    assert told == [each.text for each in summary_data(tables, SETTINGS).notices if each.text in told]
+    assert told == [
+        one_notice.text for one_notice in summary_data(tables, SETTINGS).notices if one_notice.text in told
+    ]
 
     spectrum = DesignSpectrum.ntc(1.96 * GRAVITY, 2.4, 0.35)
     block = Block.of_size(0.6, 2.0)
     signed = CheckedStructure(name="A", structure=block, checked=check(block, spectrum), remarks=remarks)
     (sheet,) = structures_data([signed], spectrum, settings.for_pages).sheets
-    assert told == [each for each in sheet.details if each in told]
+    assert told == [detail for detail in sheet.details if detail in told]
     assert rows[-1].sentence in sheet.answers[0].assumptions
 
     assert told == [line for line in lines_told([*rows, *rows]) if line in told]
@@ -162,16 +170,16 @@ def test_every_document_of_a_study_reads_the_same_remarks(example):
 
 
 def test_a_vertical_component_that_is_asked_for_and_missing_is_told(example):
-    asked, unasked = (rows_of_record(example.result, vertical=each).remarks for each in (True, False))
+    asked, unasked = (rows_of_record(example.result, vertical=choice).remarks for choice in (True, False))
     assert [row.kind for row in asked if row not in unasked] == [AssessmentKind.VERTICAL_MISSING]
-    (row,) = (each for each in asked if each.kind is AssessmentKind.VERTICAL_MISSING)
+    (row,) = (question for question in asked if question.kind is AssessmentKind.VERTICAL_MISSING)
     assert (row.record, row.about) == (example.result.record, "vertical")
     report = replace(example, tables=replace(example.tables, remarks=asked))
-    assert row.sentence in [each.text for each in report.page().notices]
+    assert row.sentence in [notice.text for notice in report.page().notices]
     assert "vertical" not in assumed(report), "the remark says it, and no second sentence does"
     assert row.sentence in lines_told(asked) and row.sentence not in lines_told(unasked)
     report = replace(example, tables=replace(example.tables, remarks=unasked))
     assert "vertical component is left out" in assumed(report)
-    acting = [replace(each, vertical_component="UP") for each in example.tables.record]
+    acting = [replace(item, vertical_component="UP") for item in example.tables.record]
     report = replace(example, tables=replace(example.tables, remarks=unasked, record=acting))
     assert "UP" in assumed(report)

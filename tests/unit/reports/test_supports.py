@@ -44,9 +44,9 @@ def test_the_page_after_the_first_says_it_once_for_all_periods_and_page_one_name
     assert [
         text for topic in data.known.topics for text in topic.texts if text.startswith("parapet on roof")
     ] == [f"{sentence}."]
-    (row,) = (each for each in data.page_one.rows if each.name == "parapet")
-    carried = [each for each in report.tables.verdicts if each.support_period_s]
-    worst = max(carried, key=lambda each: each.severity)
+    (row,) = (one_row for one_row in data.page_one.rows if one_row.name == "parapet")
+    carried = [verdict for verdict in report.tables.verdicts if verdict.support_period_s]
+    worst = max(carried, key=lambda item: item.severity)
     assert row.below.endswith(f"; T_b {worst.support_period_s:.3g}\u00a0s")
 
 

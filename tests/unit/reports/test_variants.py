@@ -54,7 +54,7 @@ def test_a_list_says_which_structure_a_variant_is_of(tmp_path):
 
 
 def test_each_variant_has_its_difference_to_the_first(made):
-    first, thicker = (VariantRow.of(each) for each in made["wall"])
+    first, thicker = (VariantRow.of(row) for row in made["wall"])
     assert (first.variant, thicker.variant) == ("wall", "thicker")
     assert math.isnan(first.share_difference) and math.isnan(first.reserve_ratio)
     assert thicker.share_difference == pytest.approx(16 / 64 - 48 / 64)
@@ -93,12 +93,12 @@ def test_summary_page_to_explore_and_page_to_sign_hold_the_strip(made):
     pages = [
         CheckedStructure(
             name=name,
-            structure=each,
-            checked=check(each, SPECTRUM),
+            structure=structure,
+            checked=check(structure, SPECTRUM),
             variant_of="" if name == "wall" else "wall",
             worst=made["wall"][place].conclusion,
         )
-        for place, (name, each) in enumerate(STRUCTURES.items())
+        for place, (name, structure) in enumerate(STRUCTURES.items())
     ]
     for page in structures_data(pages, SPECTRUM, Settings().for_pages).sheets:
         told = [[cell.difference for cell in strip.cells] for strip in page.answers[0].basis.strips]

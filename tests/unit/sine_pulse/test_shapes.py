@@ -49,7 +49,7 @@ def test_every_shape_turns_the_block_as_scipy_integrates_it(shape):
         predicted = predict_maximum(block, pulse)
         expected = largest_rotation(eta, a, omega, *SHAPES[shape])
         near = [predict_maximum(block, pulse_of(shape, a * f, omega)) for f in (1 - 1e-6, 1 + 1e-6)]
-        overturn = {each.rotation_ratio == math.inf for each in near}
+        overturn = {response.rotation_ratio == math.inf for response in near}
         seen.add(predicted.regime)
         if True in overturn:
             assert False in overturn or predicted.rotation_ratio == expected == math.inf

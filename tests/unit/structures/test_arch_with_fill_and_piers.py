@@ -64,8 +64,8 @@ def test_other_mechanisms_have_the_multiplier_of_virtual_work(arch):
     """Of masses from quadrature, with fill and with piers that turn or stand still."""
     found = arch.candidates(6)
     assert len(found) >= 4
-    for each in found:
-        assert each.multiplier == pytest.approx(multiplier(arch, places_of(each.structure)), rel=1e-9)
+    for row in found:
+        assert row.multiplier == pytest.approx(multiplier(arch, places_of(row.structure)), rel=1e-9)
 
 
 @pytest.mark.parametrize("arch", [ONE, BOTH], ids=["one pier", "both piers"])

@@ -54,7 +54,7 @@ def test_a_load_that_only_rises_takes_no_part_sideways():
 
 
 def test_a_structure_that_rocks_to_one_side_has_the_curve_of_that_side_alone():
-    both, one = (Block.of_size(0.6, 6.0, restitution=0.5, one_sided=each) for each in (False, True))
+    both, one = (Block.of_size(0.6, 6.0, restitution=0.5, one_sided=choice) for choice in (False, True))
     assert np.array_equal(one.capacity_curve(1).multiplier, both.capacity_curve(1).multiplier)
     assert np.array_equal(both.capacity_curve(-1).multiplier, both.capacity_curve(1).multiplier)
     for structure, side, count in ((one, -1, 9), (both, 0, 9), (both, 1, 1)):

@@ -104,13 +104,15 @@ def test_any_curve_has_a_mechanism_that_overturns_where_it_comes_down_to_zero():
         displacements = [0.0, *np.cumsum(rng.uniform(1e-3, 0.4, points - 1))]
         multipliers = [*rng.uniform(0.01, 0.5, points - 1), rng.choice([0.0, -rng.uniform(0, 0.1)])]
         if number % 2:
-            displacements = [round(each, 2) + 0.01 * place for place, each in enumerate(displacements)]
-            multipliers = [round(each, 2) for each in multipliers]
+            displacements = [
+                round(displacement, 2) + 0.01 * place for place, displacement in enumerate(displacements)
+            ]
+            multipliers = [round(multiplier, 2) for multiplier in multipliers]
             multipliers[0] = max(multipliers[0], 0.01)
         curve = CapacityCurve(tuple(displacements), tuple(multipliers), weight=50e3, restitution=0.9)
         side = curve.mechanism().positive
         reach = curve.height * side.critical_rotation
-        place = next(k for k, each in enumerate(multipliers) if each <= 0)
+        place = next(k for k, one_multiplier in enumerate(multipliers) if one_multiplier <= 0)
         start, end = displacements[place - 1 : place + 1]
         slope = (multipliers[place] - multipliers[place - 1]) / (end - start)
         assert start < reach <= end * (1 + 1e-15)

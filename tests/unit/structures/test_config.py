@@ -44,7 +44,7 @@ def test_shipped_structures_stand_and_pass_the_schema():
     path = WORKFLOW.parent / "config" / "structures.yaml"
     jsonschema.validate(yaml.safe_load(path.read_text(encoding="utf-8")), SCHEMA)
     scenes = load_scenes(path)
-    carried = [len(each.place.supports) for each in scenes.values() if each.place.supports]
+    carried = [len(one_scene.place.supports) for one_scene in scenes.values() if one_scene.place.supports]
     assert len(scenes) == 10 + 2
     assert sorted(carried) == [1, PERIODS]
     structures = {name: scene.structure for name, scene in scenes.items()}
@@ -220,9 +220,11 @@ def test_a_body_that_is_broader_than_tall_gets_a_remark(tmp_path, sizes, told):
     path = tmp_path / "list.yaml"
     path.write_text(f"- {{name: w, {sizes}}}\n")
     said = [
-        str(each) for each in load_scenes(path)["w"].remarks if each.kind is StructureKind.BROADER_THAN_TALL
+        str(remark)
+        for remark in load_scenes(path)["w"].remarks
+        if remark.kind is StructureKind.BROADER_THAN_TALL
     ]
-    assert [told in each for each in said] == ([True] if told else [])
+    assert [told in item for item in said] == ([True] if told else [])
 
 
 def test_a_file_in_other_letters_says_how_to_save_it(tmp_path):
@@ -264,7 +266,9 @@ def test_what_is_not_usual_is_a_remark_and_not_a_refusal(tmp_path):
     text = "- {name: w, type: wall, height_m: 3200, hinge_height_m: 1600, thickness_m: 250}"
     path = tmp_path / "list.yaml"
     path.write_text(text)
-    said = [str(each) for each in load_scenes(path)["w"].remarks if each.kind is StructureKind.SIZE_UNUSUAL]
+    said = [
+        str(remark) for remark in load_scenes(path)["w"].remarks if remark.kind is StructureKind.SIZE_UNUSUAL
+    ]
     assert len(said) == 3
     assert "w: height_m is 3200 m, but is usually between 0.5 and 60 m" in said[0]
 

@@ -27,7 +27,7 @@ def test_statics_puts_the_hinge_where_the_multiplier_is_least(options):
     wall = LoadedWall.of_size(3.2, 0.25, 20e3, restitution=0.8, **options)
     heights = np.linspace(1.2, 2.7, 90)
     scanned = [wall.cracked_at(float(height)).linkages[0] for height in heights]
-    multipliers = np.array([float(each.gravity(0.0) / each.ground(0.0)) for each in scanned])
+    multipliers = np.array([float(pulse.gravity(0.0) / pulse.ground(0.0)) for pulse in scanned])
     assert wall.static_multiplier == pytest.approx(wall.mechanism().uplift_multiplier, rel=1e-8)
     assert multipliers.min() * (1 - 1e-3) < wall.static_multiplier < multipliers.min() * (1 + 1e-6)
     assert wall.hinge_height == pytest.approx(heights[multipliers.argmin()], abs=0.02)
@@ -35,12 +35,12 @@ def test_statics_puts_the_hinge_where_the_multiplier_is_least(options):
 
 def test_each_crack_has_its_own_balance_where_no_restitution_is_given():
     wall = Wall.of_size(3.2, 0.25)
-    for each in wall.candidates():
-        alone = Wall.hinged_at(3.2, each.position, 0.25, crack="known")
+    for one_candidate in wall.candidates():
+        alone = Wall.hinged_at(3.2, one_candidate.position, 0.25, crack="known")
         balance = max(alone._momentum_balance(False), 0.0)
-        assert each.structure.mechanism().restitution == pytest.approx(balance)
+        assert one_candidate.structure.mechanism().restitution == pytest.approx(balance)
     given = Wall.of_size(3.2, 0.25, restitution=0.7)
-    assert {each.structure.mechanism().restitution for each in given.candidates()} == {0.7}
+    assert {candidate.structure.mechanism().restitution for candidate in given.candidates()} == {0.7}
 
 
 def least_overturning(mechanism, period):
@@ -57,7 +57,7 @@ def test_the_base_of_a_spire_governs_statically_and_under_long_pulses_its_top_un
     cracks = Spire(3.0, 15.0, wall_thickness=0.25).candidates(6)
     assert cracks[0].position == 0
     for period, lowest in ((0.6, 14.25), (1.0, 14.25), (4.0, 0.0), (8.0, 0.0)):
-        least = [least_overturning(each.structure.mechanism(), period) for each in cracks]
+        least = [least_overturning(crack.structure.mechanism(), period) for crack in cracks]
         assert cracks[int(np.argmin(least))].position == lowest
 
 
@@ -80,17 +80,17 @@ def test_a_facade_cracked_within_a_storey_is_the_facade_that_stands_above_the_cr
             assert getattr(one, name)(rotations) == pytest.approx(getattr(other, name)(rotations), rel=1e-12)
     assert whole.mechanism().restitution == pytest.approx(above.mechanism().restitution, rel=1e-12)
     free = {"tie_heights": (), "tie_stiffness": 0.0, "tie_strength": None}
-    (course,), (same,) = (replace(each, **free).stack().courses for each in (whole, above))
+    (course,), (same,) = (replace(case, **free).stack().courses for case in (whole, above))
     assert (course.mass, course.inertia) == pytest.approx((same.mass, same.inertia), rel=1e-12)
     assert whole.outline()[0][:, 1].max() == whole.outline()[1][:, 1].min() == 1.2
 
 
 def test_a_facade_may_open_at_the_foot_of_every_storey_and_between():
     facade = Facade((3.5, 3.0), (0.6, 0.2), 20e3)
-    places = sorted(each.position for each in facade.candidates(11))
+    places = sorted(candidate.position for candidate in facade.candidates(11))
     assert {0.0, 3.5} <= set(places)
     assert np.diff(places).max() <= 0.0951 * 6.5 and max(places) == pytest.approx(0.95 * 6.5)
-    assert {each.structure.crack_position for each in facade.candidates(11)} == set(places)
+    assert {one_candidate.structure.crack_position for one_candidate in facade.candidates(11)} == set(places)
     weakest = facade.candidates(11)[0]
     assert (weakest.position, weakest.structure.crack_storey) == (3.5, 2)
     known = Facade((3.5, 3.0), (0.6, 0.2), 20e3, crack_height=1.0, crack="known")
@@ -114,8 +114,8 @@ def test_a_facade_may_open_at_the_foot_of_every_storey_and_between():
 def test_a_crack_that_is_typed_is_one_more_candidate_and_decides_only_where_it_is_known(plain, typed):
     """It takes none of the others away, whatever key types it: the first is that of least λ, and every one counts."""
     at_a_place = replace(plain, **typed)
-    places = {each.description for each in at_a_place.candidates()}
-    without = {each.description for each in plain.candidates()}
+    places = {this_candidate.description for this_candidate in at_a_place.candidates()}
+    without = {candidate.description for candidate in plain.candidates()}
     assert places - without <= {at_a_place.crack_in_words}, (
         "but for the place that is typed they are the same"
     )
@@ -124,22 +124,26 @@ def test_a_crack_that_is_typed_is_one_more_candidate_and_decides_only_where_it_i
         plain, Wall | LoadedWall
     ):  # of which the place of statics is the one of their description
         assert without <= places
-    assert all(each.counts for each in at_a_place.candidates())
-    assert at_a_place.candidates()[0].multiplier == min(each.multiplier for each in at_a_place.candidates())
+    assert all(one_candidate.counts for one_candidate in at_a_place.candidates())
+    assert at_a_place.candidates()[0].multiplier == min(
+        other_candidate.multiplier for other_candidate in at_a_place.candidates()
+    )
     assert at_a_place.static_multiplier == pytest.approx(plain.static_multiplier, rel=1e-12)
 
     known = replace(at_a_place, crack="known")
     first, *beside = known.candidates()
     # but for a top that slips, which it may wherever the wall is cracked
-    assert first.counts and beside and not any(each.counts for each in beside if not each.bulges)
+    assert (
+        first.counts and beside and not any(neighbour.counts for neighbour in beside if not neighbour.bulges)
+    )
     assert first.description == at_a_place.crack_in_words and first.structure is known
     assert first.multiplier == at_a_place.mechanism().uplift_multiplier
     assert known.static_multiplier == pytest.approx(first.multiplier, rel=1e-12)
     if isinstance(plain, Arch):
         return  # no file states the angles of hinges
-    for each in (at_a_place, known):
-        again = structure_from_config(each.described.entry)
-        assert again == each and again.crack_is_known is each.crack_is_known
+    for case in (at_a_place, known):
+        again = structure_from_config(case.described.entry)
+        assert again == case and again.crack_is_known is case.crack_is_known
 
 
 @pytest.mark.parametrize("word", ["given", "unknown"])
@@ -155,4 +159,4 @@ def test_a_known_crack_stands_where_another_one_would_not():
     with pytest.raises(DoesNotStandError):
         Facade((3.5, 3.0), (0.6, 0.2), 20e3, **pushed)
     known = Facade((3.5, 3.0), (0.6, 0.2), 20e3, **pushed, crack_storey=1, crack="known")
-    assert all(each.structure.mechanism().uplift_multiplier > 0 for each in known.candidates())
+    assert all(candidate.structure.mechanism().uplift_multiplier > 0 for candidate in known.candidates())

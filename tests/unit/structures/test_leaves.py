@@ -105,13 +105,17 @@ def test_each_leaf_has_the_multiplier_of_its_courses(number):
         number -= 1
         held += bool(wall.bonder_heights)
         for place, name in enumerate(names[len(wall.leaves)]):
-            own = [each for each in wall.mechanisms() if each.part == name]
-            found = min(each.uplift_multiplier for each in own)
+            own = [mechanism for mechanism in wall.mechanisms() if mechanism.part == name]
+            found = min(member.uplift_multiplier for member in own)
             stops = [*wall.bonder_heights, *([height] if kind in TOP_HELD else [])]
             spans = np.unique([0.0, *stops, height])
-            openings = [each.structure.opening for each in own if getattr(each.structure, "opening", None)]
-            places = [each.position for each in own if not np.isnan(each.position)]
-            places += [z for each in openings for z in (each.foot, each.hinge) if z is not None]
+            openings = [
+                other_member.structure.opening
+                for other_member in own
+                if getattr(other_member.structure, "opening", None)
+            ]
+            places = [one_member.position for one_member in own if not np.isnan(one_member.position)]
+            places += [z for opening in openings for z in (opening.foot, opening.hinge) if z is not None]
             storeys = np.cumsum(wall.storey_heights) if kind == "facade" else []
             fine = [] if kind != "gable" else np.linspace(0, height, 120).tolist()
             joints = [*spans, *storeys, *places]
@@ -144,7 +148,7 @@ def test_loaded_leaf_is_computed_and_no_other_scales_but_its_multiplier():
     inner = LoadedWall.of_size(3.2, 0.25, 18e3, top_load=20e3)
     found = alone["inner leaf"].candidates()[0]
     assert found.uplift_multiplier == pytest.approx(inner.static_multiplier, rel=1e-4)
-    together = min(each.uplift_multiplier for each in wall.candidates() if not each.part)
+    together = min(candidate.uplift_multiplier for candidate in wall.candidates() if not candidate.part)
     assert 0.7 * together < found.uplift_multiplier < 0.9 * together
     side = alone["inner leaf"].mechanism().positive
     assert side.frequency_parameter > 1.2 * whole.frequency_parameter
@@ -169,13 +173,13 @@ def test_its_leaves_are_named_everywhere(kind):
     names = ["outer leaf", "inner leaf"]
     assert [name for name, _ in wall.leaves_alone] == names
     for listed in (wall.candidates(), wall.mechanisms(), mechanisms_of(wall)):
-        assert list(dict.fromkeys(each.part for each in listed if each.part)) == names
-        assert all(each.name.startswith(f"{each.part} alone") for each in listed if each.part)
-    assert len({each.description for each in wall.candidates()}) == len(wall.candidates())
+        assert list(dict.fromkeys(file.part for file in listed if file.part)) == names
+        assert all(one_file.name.startswith(f"{one_file.part} alone") for one_file in listed if one_file.part)
+    assert len({candidate.description for candidate in wall.candidates()}) == len(wall.candidates())
     assert wall.candidates() is wall.candidates()
     outer = wall.leaves_alone[0].structure
     assert wall.static_multiplier == pytest.approx(outer.static_multiplier, rel=1e-12)
-    assert {each.part for each in cracks(wall)} == {"", *names}
+    assert {crack.part for crack in cracks(wall)} == {"", *names}
     spectrum = rocking.DesignSpectrum.ntc(0.15 * G, 2.5, 0.35, "B")
     assert kinematic_check(wall, spectrum).governing.candidate.part == "outer leaf"
 
@@ -190,7 +194,7 @@ def test_its_word_is_that_of_the_worst_part():
     told = rocking.assess(motion, wall, settings=settings)
     by_itself = rocking.assess(motion, outer, settings=settings)
     as_one = rocking.assess(motion, replace(wall, **wall._as_one_leaf), settings=settings)
-    assert told.verdict.badness == max(each.verdict.badness for each in (told, by_itself, as_one))
+    assert told.verdict.badness == max(case.verdict.badness for case in (told, by_itself, as_one))
     assert by_itself.verdict is rocking.Verdict.OVERTURNS and told.crack.startswith("outer leaf alone")
 
 
@@ -218,10 +222,16 @@ def test_bonders_at_a_spacing_leave_a_whole_spacing_free_at_the_top():
     assert wall.bonder_heights == pytest.approx((0.6, 1.3))
     at_heights = described("free_wall", leaves_m=[0.15, 0.3], bonders_m=[1.3, 0.6])
     assert at_heights.static_multiplier == pytest.approx(wall.static_multiplier, rel=1e-9)
-    least = min(each.uplift_multiplier for each in wall.mechanisms() if each.part == "outer leaf")
+    least = min(
+        mechanism.uplift_multiplier for mechanism in wall.mechanisms() if mechanism.part == "outer leaf"
+    )
     assert least == pytest.approx(0.15 / 0.7, rel=1e-9)  # t/h of the part that stands on the uppermost one
     gable = described("gable", leaves_m=[0.15, 0.3], bonders_m=0.7)
-    least = min(each.uplift_multiplier for each in gable.mechanisms() if each.part == "outer leaf")
+    least = min(
+        one_mechanism.uplift_multiplier
+        for one_mechanism in gable.mechanisms()
+        if one_mechanism.part == "outer leaf"
+    )
     assert least == pytest.approx(1.5 * 0.15 / 0.7, rel=1e-9)  # of a triangle, h/3 up
 
 
@@ -258,30 +268,34 @@ def test_bonders_alone_hold_a_leaf_that_they_hold():
     sizes = {"storey_heights_m": [3.5], "thicknesses_m": [0.6], "floor_loads_kN_m": [0.0]}
     wall = described("facade", **sizes, **ties, leaves_m=[0.2, 0.3], bonders_m=[1.0, 2.0])
     assert [structure.tie_heights for _, structure in wall.leaves_alone] == [(), ()]
-    least = min(each.uplift_multiplier for each in wall.mechanisms() if each.part == "outer leaf")
+    least = min(
+        mechanism.uplift_multiplier for mechanism in wall.mechanisms() if mechanism.part == "outer leaf"
+    )
     assert least == pytest.approx(0.2 / 1.5, rel=1e-9)
 
 
 def test_taken_as_one_leaf_where_nothing_is_said():
     for kind in SIZES:
-        (said,) = (each for each in described(kind).cautions if each.kind is StructureKind.ONE_LEAF)
+        (said,) = (
+            one_remark for one_remark in described(kind).cautions if one_remark.kind is StructureKind.ONE_LEAF
+        )
         assert said["thickness"] == {"facade": "0.6, 0.5"}.get(kind, "0.5")
         assert not [
-            each
-            for each in described(kind, leaves_m=[0.2, 0.2]).cautions
-            if each.kind is StructureKind.ONE_LEAF
+            other_remark
+            for other_remark in described(kind, leaves_m=[0.2, 0.2]).cautions
+            if other_remark.kind is StructureKind.ONE_LEAF
         ]
     for other in (Block.of_size(0.5, 2.0), rocking.Arch(5.0, 0.9, 2.7)):
-        assert StructureKind.ONE_LEAF not in {each.kind for each in other.cautions}
+        assert StructureKind.ONE_LEAF not in {remark.kind for remark in other.cautions}
 
 
 def test_leaves_are_drawn_with_their_bonders_and_dimensions():
     wall = described("free_wall", leaves_m=[0.15, 0.3], bonders_m=[0.8])
-    marks = {kind: [each.line for each in wall.marks() if each.kind == kind] for kind in ("leaf", "bonder")}
+    marks = {kind: [mark.line for mark in wall.marks() if mark.kind == kind] for kind in ("leaf", "bonder")}
     # .05 m is left between them: the outer face stands at .25 m
     assert [line[0, 0] for line in marks["leaf"]] == pytest.approx([0.1, 0.05])
     assert marks["bonder"][0].tolist() == [[-0.25, 0.8], [0.25, 0.8]]
-    lengths = {each.letter: float(np.ptp(each.feet[:, 0])) for each in wall.dimensions()}
+    lengths = {path.letter: float(np.ptp(path.feet[:, 0])) for path in wall.dimensions()}
     assert lengths["l₁"] == pytest.approx(0.15) and lengths["l₂"] == pytest.approx(0.3)
     assert "leaves 0.15, 0.3 m" in wall.description and "bonders every or at 0.8 m" in wall.description
     assert rocking.structure_from_config(wall.described.entry) == wall
@@ -302,8 +316,8 @@ def test_contact_dynamics_follows_each_leaf():
     )
     bonded = replace(wall, bonders=0.8).leaves_alone[0].structure.stack()
     assert (
-        sum(each.tie is not None for each in bonded.held)
-        == sum(each.stop is not None for each in bonded.held)
+        sum(fastening.tie is not None for fastening in bonded.held)
+        == sum(one_fastening.stop is not None for one_fastening in bonded.held)
         == 3
     )
 
@@ -384,17 +398,17 @@ def under(wall, draw):
 
 
 def words_of(motion, *walls):
-    return [rocking.assess(motion, each, settings=AUTO).verdict for each in walls]
+    return [rocking.assess(motion, wall, settings=AUTO).verdict for wall in walls]
 
 
 def limits_of(wall):
     """λ and the least critical rotation of each of its mechanisms, by leaf and name."""
     return {
-        (each.part, each.name): (
-            each.uplift_multiplier,
-            min(side.critical_rotation for side in each.structure.mechanism().sides),
+        (mechanism.part, mechanism.name): (
+            mechanism.uplift_multiplier,
+            min(side.critical_rotation for side in mechanism.structure.mechanism().sides),
         )
-        for each in wall.mechanisms()
+        for mechanism in wall.mechanisms()
     }
 
 
@@ -418,7 +432,7 @@ def test_what_is_stronger_or_thicker_never_gets_a_worse_word(draws):
             front, of_leaves = drawn_front(draw)
         except RockingError:
             continue
-        motions = [under(each, draw) for each in (front, of_leaves)]
+        motions = [under(case, draw) for case in (front, of_leaves)]
         closer, stronger, thicker = draw.uniform([0.2, 1.2, 1.05], [0.9, 3.0, 1.3]).tolist()
         of_ties = words_of(
             motions[0],

@@ -68,8 +68,11 @@ def test_without_loads_a_facade_is_a_block_and_a_loaded_wall_a_wall():
     """To 1e-12, at zero and in the limit of vanishing loads and stiffness."""
     block, wall = Block.of_size(0.6, 6.0).mechanism(), Wall(2.0, 1.4, 0.3).mechanism()
     soft = {"tie_heights": (1.0,), "tie_stiffness": 1e-11}
-    cases = [(Facade((6.0,), (0.6,), 20e3, **each), block) for each in ({}, soft | {"floor_loads": (1e-11,)})]
-    cases += [(LoadedWall(2.0, 1.4, 0.3, 19e3, **each), wall) for each in ({}, soft, {"top_load": 1e-11})]
+    cases = [
+        (Facade((6.0,), (0.6,), 20e3, **one_case), block)
+        for one_case in ({}, soft | {"floor_loads": (1e-11,)})
+    ]
+    cases += [(LoadedWall(2.0, 1.4, 0.3, 19e3, **case), wall) for case in ({}, soft, {"top_load": 1e-11})]
     for structure, expected in cases:
         found = structure.mechanism()
         at = np.linspace(0, 1, 7) * expected.critical_rotation

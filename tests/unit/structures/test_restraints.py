@@ -20,7 +20,9 @@ WEIGHT = 18e3 * HEIGHT * THICKNESS
 
 def slipping(wall):
     return next(
-        each for each in wall.mechanisms() if each.name.endswith("its top slipping") and each.sign > 0
+        mechanism
+        for mechanism in wall.mechanisms()
+        if mechanism.name.endswith("its top slipping") and mechanism.sign > 0
     )
 
 
@@ -132,15 +134,15 @@ def test_beside_a_known_crack_a_top_that_friction_holds_may_slip(friction):
     """Between two supports the known crack is the only bulge: what a top on friction adds is that it slips."""
     wall = replace(WALL, top_friction=friction, crack="known")
     own, others = [], []
-    for each in wall.mechanisms():
-        opening = each.structure.opening
-        (others if opening is not None and wall.held_wall.slip(opening) else own).append(each)
+    for one_mechanism in wall.mechanisms():
+        opening = one_mechanism.structure.opening
+        (others if opening is not None and wall.held_wall.slip(opening) else own).append(one_mechanism)
     assert len(own) == 1 and own[0].structure == wall
     assert others, "it slips, however rough the top is"
-    assert min(others, key=lambda each: each.uplift_multiplier).uplift_multiplier > 0
+    assert min(others, key=lambda item: item.uplift_multiplier).uplift_multiplier > 0
     held = replace(WALL, top_load=0.0, crack="known")
     assert not held.held_wall.top_may_slip
-    assert [each.structure for each in held.mechanisms()] == [held]
+    assert [mechanism.structure for mechanism in held.mechanisms()] == [held]
 
 
 @pytest.mark.parametrize(
@@ -152,7 +154,7 @@ def test_an_anchor_grips_by_the_friction_of_the_joints(friction, grip, slides_at
         (3.5, 3.0), (0.5, 0.5), 20e3, behind="cross_walls", restitution=0.5, tie_heights=(6.0,), tie_stiffness=2e7,
         joints=Joints(friction),
     )  # fmt: skip
-    (tie,) = [each for each in front.restraints() if each.kind == "tie"]
+    (tie,) = [restraint for restraint in front.restraints() if restraint.kind == "tie"]
     assert tie.grip == pytest.approx(grip, rel=BY_HAND)
     assert front.anchors_slide_at == pytest.approx(slides_at, abs=5e-4)
     assert tie.slides_out["friction"] == friction

@@ -25,11 +25,12 @@ LIST = "config/structures.yaml"
 def test_the_signature_of_a_structure_is_its_parameters_and_their_types(kind: type[Structure]) -> None:
     shown = inspect.signature(kind)
     assert "Annotated" not in str(shown) and "Value(" not in str(shown)
-    assert all(len(str(each)) < 120 for each in shown.parameters.values())  # a line each
+    assert all(len(str(parameter)) < 120 for parameter in shown.parameters.values())  # a line each
     true = list(inspect.signature(kind.__init__).parameters.values())[1:]
-    assert [(each.name, each.default, each.kind) for each in shown.parameters.values()] == [
-        (each.name, each.default, each.kind) for each in true
-    ]
+    assert [
+        (one_parameter.name, one_parameter.default, one_parameter.kind)
+        for one_parameter in shown.parameters.values()
+    ] == [(other_parameter.name, other_parameter.default, other_parameter.kind) for other_parameter in true]
     assert "meaning=" not in str(inspect.signature(kind.__init__))
 
 

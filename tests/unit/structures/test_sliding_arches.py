@@ -84,7 +84,7 @@ def by_blocks(structure: Arch | Frame, friction: float, spacing: float = 0.0) ->
         parts = [(pier, right * [-1, 1]), *parts, (pier, right)]
         feet = np.array([[springing[0], foot], [springing[0] + structure.pier_width, foot]])
         joints = np.array([feet * [-1, 1], *joints, feet])
-    masses, centres = (np.array(each) for each in zip(*parts, strict=True))
+    masses, centres = (np.array(part) for part in zip(*parts, strict=True))
     return blocks.greatest_multiplier(joints, masses, centres, friction)
 
 
@@ -161,9 +161,9 @@ def test_a_level_joint_below_a_pier_slides_at_its_friction():
 def test_hinges_that_are_typed_slide_as_all_joints_do():
     first, *others = SLIDES.candidates(4)
     assert others[0].multiplier > first.multiplier
-    for each in (first, *others):
+    for case in (first, *others):
         assert (
-            each.structure.on_joints(Joints(0.4)).slides_at() == SLIDES.on_joints(Joints(0.4)).slides_at() > 0
+            case.structure.on_joints(Joints(0.4)).slides_at() == SLIDES.on_joints(Joints(0.4)).slides_at() > 0
         )
 
 

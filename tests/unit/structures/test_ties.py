@@ -247,10 +247,10 @@ def test_the_critical_rotation_is_where_the_way_out_loses_its_hold():
 def test_the_defect_of_the_block_knows_a_tie_that_breaks_at_once(stiffness):
     """However early it breaks, it held until then: its defect is that of a tie that yields by a hair first."""
     brittle, hair = (
-        replace(WALL, tie_stiffness=stiffness, tie_plastic_elongation=each)
+        replace(WALL, tie_stiffness=stiffness, tie_plastic_elongation=value)
         .mechanism()
         .block_defects.restoring
-        for each in (0.0, 1e-9)
+        for value in (0.0, 1e-9)
     )
     assert 0.1 < brittle == pytest.approx(hair, rel=1e-3)
 
@@ -260,7 +260,7 @@ def test_a_tie_where_nothing_moves_does_nothing(height):
     """At the top that the floor holds, or at the foot: its motion is rounding, and its strength holds nothing back."""
     free, still = replace(WALL, **UNTIED), replace(WALL, tie_heights=(height,))
     found, expected = (
-        history(each, Pulse(amplitude=-6.0, circular_frequency=8.0))[:2] for each in (still, free)
+        history(case, Pulse(amplitude=-6.0, circular_frequency=8.0))[:2] for case in (still, free)
     )
     assert expected[0] > 1e-3
     assert found == pytest.approx(expected, rel=1e-6)  # what a strength of .07 weights does over 1e-9 m

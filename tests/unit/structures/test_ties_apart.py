@@ -35,7 +35,7 @@ SPECTRUM = rocking.DesignSpectrum.ntc(0.15 * G, 2.5, 0.35, "B")
 
 
 def triangle(wall):
-    return next(each for each in wall.mechanisms() if each.name == TRIANGLE)
+    return next(mechanism for mechanism in wall.mechanisms() if mechanism.name == TRIANGLE)
 
 
 @pytest.mark.parametrize(("held", "expected"), [(True, 0.268880), (False, 0.162855)])
@@ -57,9 +57,9 @@ def test_triangle_is_that_of_hand(held, expected):
     slope = -side.at("gravity_slope", 0.0) * G / side.at("inertia", 0.0)
     assert slope == pytest.approx(stiffness / inertia, rel=1e-9)
     (checked,) = (
-        each
-        for each in kinematic_check(replace(FRONT, loads_held=held), SPECTRUM).mechanisms
-        if each.description == TRIANGLE
+        mechanism
+        for mechanism in kinematic_check(replace(FRONT, loads_held=held), SPECTRUM).mechanisms
+        if mechanism.description == TRIANGLE
     )
     assert checked.onset_multiplier == pytest.approx(by_hand, rel=1e-12)
     if not held:  # one weight each of the triangle and its load, whose middles move by u/3 and u/2
@@ -147,15 +147,15 @@ def test_triangle_is_on_the_safe_side_of_a_bonded_wall(thickness, load):
 def test_triangle_joins_where_ties_stand_farther_apart_than_three_units():
     near, far = replace(FRONT, tie_spacing=1.5), replace(FRONT, tie_spacing=1.51)
     floor = replace(FRONT, held_between="floor", unit_length=None)
-    assert TRIANGLE not in {each.name for each in (*near.mechanisms(), *floor.mechanisms())}
+    assert TRIANGLE not in {one_mechanism.name for one_mechanism in (*near.mechanisms(), *floor.mechanisms())}
     assert near.static_multiplier == floor.static_multiplier == pytest.approx(0.513077, abs=5e-7)
     assert far.static_multiplier == triangle(far).uplift_multiplier
-    followed = {each.description: each for each in cracks(far)}
+    followed = {crack.description: crack for crack in cracks(far)}
     assert followed[f"crack at 0 m ({TRIANGLE})"].bulges
-    assert TRIANGLE in {each.name for each in mechanisms_of(far)}
+    assert TRIANGLE in {mechanism.name for mechanism in mechanisms_of(far)}
     unsaid = replace(FRONT, tie_spacing=None, unit_length=None)
-    kinds = [[each.kind for each in wall.cautions] for wall in (unsaid, near, floor)]
-    assert [StructureKind.TIES_ALL_ALONG in each for each in kinds] == [True, False, False]
+    kinds = [[remark.kind for remark in wall.cautions] for wall in (unsaid, near, floor)]
+    assert [StructureKind.TIES_ALL_ALONG in kind for kind in kinds] == [True, False, False]
 
 
 def test_the_front_between_two_ties_shows_the_triangle_and_what_stands_above_it():
@@ -168,7 +168,7 @@ def test_the_front_between_two_ties_shows_the_triangle_and_what_stands_above_it(
     corners = [((left + right) / 2, 0.0), (right, 2.9), (right, 3.2), (left, 3.2), (left, 2.9)]
     assert falls == pytest.approx(np.array(corners))
     assert bay.ties[:, 1].tolist() == [2.9, 2.9]
-    assert bay.outline[:, 0].min() > max(each[:, 0].max() for each in wall.outline())
+    assert bay.outline[:, 0].min() > max(path[:, 0].max() for path in wall.outline())
     assert triangle(wall).structure.bay.falls[0] == pytest.approx(falls)
     assert replace(wall, held_between="floor").bay is None
 
@@ -279,8 +279,8 @@ def test_what_stands_but_for_its_anchors_only_probably_stands():
     for peak in (0.4, 0.55):  # at the first nothing lifts by its mechanisms
         doubted = of(ALL_ALONG, peak)
         assert doubted.verdict is rocking.Verdict.PROBABLY_STANDS
-        assert AssessmentKind.ANCHOR_GIVES in {each.kind for each in doubted.decision.doubts}
-        assert AssessmentKind.ANCHORS in {each.kind for each in doubted.decision.would_settle}
+        assert AssessmentKind.ANCHOR_GIVES in {doubt.kind for doubt in doubted.decision.doubts}
+        assert AssessmentKind.ANCHORS in {remark.kind for remark in doubted.decision.would_settle}
         assert of(replace(ALL_ALONG, anchor_height=1.0), peak).verdict.stays_up
     assert of(ALL_ALONG, 0.2).verdict.stays_up
 
@@ -341,7 +341,7 @@ def test_rods_are_spread_over_the_metre():
         tie_pretension=5e3,
     )
     assert rods.static_multiplier == spread.static_multiplier
-    (said,) = (each for each in rods.assumptions if each.kind is StructureKind.RODS_SPREAD)
+    (said,) = (remark for remark in rods.assumptions if remark.kind is StructureKind.RODS_SPREAD)
     assert said["stiffness_kN_m2"] == pytest.approx(7540, rel=1e-3)
     assert replace(rods, floor_loads=(6e3,)).tie_stiffness == rods.tie_stiffness
 

@@ -77,11 +77,11 @@ def test_a_structure_list_says_what_vibrates_freely_and_what_falls(study):
     changed = read_settings(settings | DESIGN)
     write_checks(Study(structures, changed), folder, [], [])
     spectrum = changed.design_spectrum.spectrum()
-    rows = {(each.structure, each.check): each for each in read_table(CodeCheckRow, folder)}
+    rows = {(row.structure, row.check): row for row in read_table(CodeCheckRow, folder)}
     expected = check(STRUCTURES["parapet"], spectrum, elastic_period=0.12, support_loss=0.05)
     for name, by_hand in (("free", expected), ("plain", check(STRUCTURES["parapet"], spectrum))):
-        for each, kind in ((by_hand.linear, "linear"), (by_hand.nonlinear, "nonlinear")):
-            assert rows[name, kind].level_capacity_m_s2 == pytest.approx(each.capacity, rel=1e-12)
+        for case, kind in ((by_hand.linear, "linear"), (by_hand.nonlinear, "nonlinear")):
+            assert rows[name, kind].level_capacity_m_s2 == pytest.approx(case.capacity, rel=1e-12)
     assert rows["free", "nonlinear"].level_capacity_m_s2 < rows["plain", "nonlinear"].level_capacity_m_s2
     assert structures["free"].structure == structures["plain"].structure
     for wrong in ("elastic_period_s: 0", "support_loss_m: -1", "elastic_period_s: soon"):
@@ -101,14 +101,14 @@ def test_every_structure_has_its_checks_and_its_page(study):
         told.append,
     )
     rows = read_table(CodeCheckRow, folder)
-    assert [(each.structure, each.check) for each in rows] == [
+    assert [(row.structure, row.check) for row in rows] == [
         (name, kind) for name in STRUCTURES for kind in ("linear", "nonlinear", "dynamic")
     ]
     spectrum = read_settings(DESIGN).design_spectrum.spectrum()
-    for each in rows[:2]:
-        alone = getattr(check(STRUCTURES["parapet"], spectrum), each.check)
-        assert each.level_capacity_m_s2 == alone.capacity and each.ratio == alone.ratio
-        assert each.passed == alone.passed and each.clause == alone.clause
+    for one_row in rows[:2]:
+        alone = getattr(check(STRUCTURES["parapet"], spectrum), one_row.check)
+        assert one_row.level_capacity_m_s2 == alone.capacity and one_row.ratio == alone.ratio
+        assert one_row.passed == alone.passed and one_row.clause == alone.clause
     assert (folder / "structures.pdf").read_bytes().startswith(b"%PDF")
     assert len(told) == 2 and told[0].startswith("parapet: linear")
 
@@ -148,7 +148,7 @@ def test_without_sets_the_formulas_stand_and_the_page_says_so(study):
         [],
         [],
     )
-    assert {each.check for each in read_table(CodeCheckRow, folder)} == {"linear", "nonlinear"}
+    assert {row.check for row in read_table(CodeCheckRow, folder)} == {"linear", "nonlinear"}
 
 
 def test_checks_without_a_design_level_are_refused(study):
@@ -191,7 +191,7 @@ def test_a_structure_that_cannot_be_checked_costs_no_other(study):
         told.append,
     )
     assert "the spectrum ends at 1 s" in told[0]
-    assert {each.structure for each in read_table(CodeCheckRow, folder)} == {"stout"}
+    assert {row.structure for row in read_table(CodeCheckRow, folder)} == {"stout"}
 
 
 def found(passed, exceeding=0, **others):
@@ -228,7 +228,7 @@ def test_the_most_detailed_check_that_has_an_answer_decides(formulas, dynamic, c
     checked = replace(formulas, dynamic=dynamic)
     assert checked.decisive.clause == clause
     assert checked.verified == verified
-    assert [checked.part_of(each) for each in checked.checks] == parts
+    assert [checked.part_of(check) for check in checked.checks] == parts
     (conclusion,) = code_conclusions(code_check_rows("wall", checked))
     assert str(conclusion.remark) == f"{'verified' if verified else 'not verified'} by {clause}"
     beside = "other stations would" in str(conclusion)
@@ -247,7 +247,7 @@ def test_of_a_support_the_worst_period_counts_and_never_the_ground_below_it():
     assert conclusion.period == 0.4
     assert conclusion.name == "parapet, T_b 0.4 s"
     assert not conclusion.verified
-    assert {each.period for each in conclusion.elsewhere} == {0.0, 0.2}
+    assert {sentence.period for sentence in conclusion.elsewhere} == {0.0, 0.2}
     assert conclusion.ratios["dynamic"] == "0.500"
 
 
@@ -296,7 +296,7 @@ def test_the_same_conclusion_stands_in_terminal_summary_workbook_and_page_to_exp
     assert data.conclusions == (sentence,) and data.panels == (panel,)
     ((name, *ratios, conclusion, others),) = data.panels[0].parts[0].table.rows
     assert [name.text, conclusion] == ["pier", "verified by C8.7.1.2.1.9"]
-    assert ratios == [each.ratio_in_words for each in checked.checks]
+    assert ratios == [check.ratio_in_words for check in checked.checks]
     assert others == "20–100\u00a0%"
     notes = {structure: [note] for structure, note in work.notes(beside).items()}
     page = explore_page([], {"pier": STRUCTURES["parapet"]}, "", [kept], notes).decode()
@@ -369,13 +369,13 @@ def test_a_page_says_that_a_crack_is_known_and_what_the_check_would_be_were_it_n
     wall = Wall.of_size(3.2, 0.25, 1.6, crack="known")
     words = Sentences(language)
     told = {}
-    for each in (wall, replace(wall, crack=None)):
-        page = CheckedStructure(name="wall", structure=each, checked=check(each, spectrum))
-        (told[each.crack],) = structures_data([page], spectrum, Settings(language=language).for_pages).sheets
+    for case in (wall, replace(wall, crack=None)):
+        page = CheckedStructure(name="wall", structure=case, checked=check(case, spectrum))
+        (told[case.crack],) = structures_data([page], spectrum, Settings(language=language).for_pages).sheets
     known = words.of(Remark.of(StructureKind.CRACK_KNOWN_AT, height_m=1.6))
     assert f"{known[:1].upper()}{known[1:]}." in told["known"].answers[0].assumptions
     assert not any(known in line.lower() for line in told[None].answers[0].assumptions)
-    (other,) = (each for each in told["known"].details if words.number(0.888) in each)
+    (other,) = (detail for detail in told["known"].details if words.number(0.888) in detail)
     assert "C8.7.1.2.1.8" in other
     assert told["known"].met and not told[None].met
 
@@ -431,7 +431,7 @@ def test_the_page_tells_a_reserve_that_was_not_sought_from_one_that_was_not_reac
             reserve_doubts=doubts,
         )
         (data,) = structures_data([page], spectrum, Settings().for_pages).sheets
-        lines = [f"{each.value} {each.text}" for each in data.answers[0].sure[1:]]
+        lines = [f"{sentence.value} {sentence.text}" for sentence in data.answers[0].sure[1:]]
         return lines[0] if lines else data.answers[0].basis.share
 
     never = Reserve(low=math.nan, median=math.nan, high=math.nan, limit=3.0)
@@ -469,7 +469,7 @@ def test_the_page_to_sign_carries_the_caveat_of_page_one(study, monkeypatch):
     write_checks(Study(on_the_ground(STRUCTURES), changed), folder, verdicts, records)
     data = structures_data(pages, DesignSpectrum.ntc(1.0, 2.5, 0.3), Settings().for_pages)
     signed = {
-        page.name: " ".join(each.text for each in text.answers[0].sure)
+        page.name: " ".join(sentence.text for sentence in text.answers[0].sure)
         for page, text in zip(pages, data.sheets, strict=True)
     }
     caveat = station.reserve_in_words.partition("; ")[2]
@@ -498,16 +498,16 @@ def test_a_page_says_on_what_its_structure_stands_and_what_is_not_checked(tmp_pa
     pages = [
         CheckedStructure(
             name=name,
-            structure=each.structure,
-            checked=check(each.structure, spectrum, support=support),
-            place=each.place,
+            structure=load_scene.structure,
+            checked=check(load_scene.structure, spectrum, support=support),
+            place=load_scene.place,
             support=support,
         )
-        for name, each in load_scenes(listed).items()
-        for support in each.place.axis
+        for name, load_scene in load_scenes(listed).items()
+        for support in load_scene.place.axis
     ]
     data = structures_data(pages, spectrum, Settings().for_pages)
-    page = {each.name: each for each in data.sheets}
+    page = {sheet.name: sheet for sheet in data.sheets}
     assert list(page) == ["parapet", "plain", "tied"], "the ground of a support is a line of its page"
     assert "stands on roof, a support of period 0.250" in " ".join(page["parapet"].answers[0].assumptions)
     assert page["parapet"].place == "roof with T_b 0.250 s."
@@ -516,7 +516,7 @@ def test_a_page_says_on_what_its_structure_stands_and_what_is_not_checked(tmp_pa
     assert ground[0] == "on the ground (for comparison)"
     assert ground[1] == pages[0].checked.linear.ratio_in_words
     assert page["plain"].answers[0].basis.periods.rows == ()
-    (tied,) = [each.checked.remark for each in pages if each.name == "tied"]
+    (tied,) = [one_page.checked.remark for one_page in pages if one_page.name == "tied"]
     assert tied.kind is StructureKind.TIE_MUST_BEAR
     assert str(tied) in " ".join(page["tied"].answers[0].basis.sentences)
     assert not any("strength" in text for text in page["plain"].answers[0].basis.sentences)
@@ -535,7 +535,7 @@ def test_a_limit_displacement_is_drawn_on_the_capacity_curve_in_every_unit(units
     spectrum = DesignSpectrum.ntc(1.0, 2.5, 0.3)
     page = CheckedStructure(name="parapet", structure=block, checked=check(block, spectrum))
     structures_data([page], spectrum, Settings(display_units=units).for_pages)
-    (axes,) = (each for each in figures[-1].axes if each.get_xlabel())
+    (axes,) = (one_axes_ for one_axes_ in figures[-1].axes if one_axes_.get_xlabel())
     curve, *others = axes.lines
     marked = [line.get_xydata()[0] for line in others if line.get_marker() == "o"]
     assert len(marked) == 2
@@ -562,7 +562,7 @@ def test_each_page_tells_the_share_of_its_own_structure(study, monkeypatch):
     pages = {}
 
     def report(structures, *_):
-        pages.update((each.name, each) for each in structures)
+        pages.update((structure.name, structure) for structure in structures)
         return {}
 
     monkeypatch.setattr("rocking.products.checks.work.structures_data", report)

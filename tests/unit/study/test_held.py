@@ -27,8 +27,10 @@ def study(tmp_path):
     (folder / "records").mkdir(parents=True)
     rows = []
     for name, pair in made_pool(STATIONS).items():
-        for place, each in enumerate(pair):
-            lines = [f"{t:.2f} {a:.17g}" for t, a in zip(each.times, each.acceleration, strict=True)]
+        for place, component in enumerate(pair):
+            lines = [
+                f"{t:.2f} {a:.17g}" for t, a in zip(component.times, component.acceleration, strict=True)
+            ]
             file = f"{name}_{place}.txt"
             (folder / "records" / file).write_text("\n".join(lines) + "\n")
             direction = "NS" if place else "EW"
@@ -53,13 +55,15 @@ def test_what_holds_a_parapet_is_what_python_says_of_the_same_records(study, cap
     assert str(table) in told and table.with_suffix(".svg").read_text().startswith("<?xml")
     given, *tried = read_rows(StrengtheningRow, table)
     assert given.is_given and given.value == 0.2 and len(tried) == 15
-    records = [each for pair in made_pool(STATIONS).values() for each in pair]
+    records = [component for pair in made_pool(STATIONS).values() for component in pair]
     names = [name for name in made_pool(STATIONS) for _ in range(2)]
     parapet = rocking.Block.of_size(breadth=0.2, height=2.0)
     found = rocking.strengthen(records, parapet, "breadth", between=(0.2, 1.6), target=0.3, stations=names)
-    assert [each.overturning_share for each in tried] == [each.share for each in found.tried]
-    assert [each.holds for each in tried] == [each.value >= found.value for each in found.tried]
-    assert {each.stations for each in tried} == {STATIONS}
+    assert [this_trial.overturning_share for this_trial in tried] == [
+        other_trial.share for other_trial in found.tried
+    ]
+    assert [trial.holds for trial in tried] == [trial.value >= found.value for trial in found.tried]
+    assert {one_trial.stations for one_trial in tried} == {STATIONS}
 
 
 @pytest.mark.process

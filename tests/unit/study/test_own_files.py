@@ -70,7 +70,7 @@ def test_a_folder_and_an_archive_give_the_record_that_their_files_give(folder: P
 def test_a_component_beside_a_file_that_is_not_given_is_named(folder: Path) -> None:
     (folder / "RSN2_OTHER_XX000.AT2").write_text(FILES["RSN1_MADE_ST000.AT2"].replace("Made", "Elsewhere"))
     own = stations_of(paths(folder)[:1], NOTHING)
-    assert {(each.kind, each["other"]) for each in own.remarks} == {
+    assert {(remark.kind, remark["other"]) for remark in own.remarks} == {
         (StudyKind.SIBLING_NOT_USED, "RSN1_MADE_ST090.AT2"),
         (StudyKind.SIBLING_NOT_USED, "RSN1_MADE_ST-UP.AT2"),
     }

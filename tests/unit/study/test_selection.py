@@ -55,17 +55,24 @@ def test_two_rows_of_one_station_and_earthquake_are_one_pair_with_one_factor(stu
         writer = csv.DictWriter(stream, list(rows[0]))
         writer.writeheader()
         writer.writerows(rows)
-    pool = {each.id: [open_record(each)[0]] for each in load_catalogue(path) if each.id != "gone"}
+    pool = {
+        one_record.id: [open_record(one_record)[0]]
+        for one_record in load_catalogue(path)
+        if one_record.id != "gone"
+    }
     joined = joined_by_station(pool)
     assert len(joined) == 11
-    assert [each.component for each in joined["R1 + R2"]] == ["EW", "NS"]
+    assert [record.component for record in joined["R1 + R2"]] == ["EW", "NS"]
     config = yaml.safe_load((study / "config.yaml").read_text())
     config["checks"]["stations"] = 11
     config["checks"]["largest_factor"] = 100.0
     (study / "config.yaml").write_text(yaml.safe_dump(config))
     assert main(["select", str(study)]) == 0
     assert "11 records of as many stations out of 11" in capsys.readouterr().out
-    factors = {each.id: each.scale_factor for each in load_catalogue(study / "records" / "selected.csv")}
+    factors = {
+        other_record.id: other_record.scale_factor
+        for other_record in load_catalogue(study / "records" / "selected.csv")
+    }
     assert len(factors) == 12
     assert factors["R1"] == factors["R2"]
 
@@ -92,13 +99,13 @@ def test_the_catalogue_of_the_set_holds_the_factors_and_can_be_opened(study, cap
     assert main(["select", str(study)]) == 0
     told = capsys.readouterr().out
     assert "gone: not used" in told and "3 records of as many stations out of 12" in told
-    pool = {each.id: each for each in load_catalogue(study / "records" / "catalogue.csv")}
+    pool = {record.id: record for record in load_catalogue(study / "records" / "catalogue.csv")}
     chosen = load_catalogue(study / "records" / "selected.csv")
     assert len(chosen) == 3
-    for each in chosen:
-        factor = each.scale_factor / pool[each.id].scale_factor
-        assert f"{each.id}: factor {factor:.4g}" in told
-        ratio = open_record(each)[0].acceleration / open_record(pool[each.id])[0].acceleration
+    for name in chosen:
+        factor = name.scale_factor / pool[name.id].scale_factor
+        assert f"{name.id}: factor {factor:.4g}" in told
+        ratio = open_record(name)[0].acceleration / open_record(pool[name.id])[0].acceleration
         np.testing.assert_allclose(ratio, factor, rtol=1e-9)
     first = (study / "records" / "selected.csv").read_bytes()
     assert b"target" in (study / "records" / "selected.svg").read_bytes()

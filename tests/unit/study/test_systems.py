@@ -69,7 +69,7 @@ def test_a_program_that_runs_a_study_is_told_of_the_blank(
 def test_the_package_names_the_systems_that_it_runs_on() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     assert "Operating System :: POSIX :: Linux" in project["classifiers"]
-    assert not any("Windows" in each for each in project["classifiers"])
+    assert not any("Windows" in item for item in project["classifiers"])
     for page in ("README.md", "docs/pages/installing.md"):
         text = (ROOT / page).read_text(encoding="utf-8")
         assert all(name in text for name in ("Linux", "macOS", "WSL"))

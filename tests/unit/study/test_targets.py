@@ -87,10 +87,12 @@ def test_a_file_of_the_user_is_refused_before_any_work(folder, monkeypatch, caps
     path.parent.mkdir(exist_ok=True, parents=True)
     if not path.exists():
         path.write_bytes(b"%PDF-1.7\n of another program" if path.suffix == ".pdf" else b"id,name\n1,mine\n")
-    before = {each: each.read_bytes() for each in folder.rglob("*") if each.is_file()}
+    before = {one_path: one_path.read_bytes() for one_path in folder.rglob("*") if one_path.is_file()}
     assert main([argument.format(target) for argument in PLACES[verb, option]]) == 2
     assert path.name in capsys.readouterr().err
-    assert {each: each.read_bytes() for each in folder.rglob("*") if each.is_file()} == before
+    assert {
+        other_path: other_path.read_bytes() for other_path in folder.rglob("*") if other_path.is_file()
+    } == before
 
 
 @pytest.mark.parametrize(("verb", "option"), [key for key, line in PLACES.items() if "out" not in line])

@@ -13,7 +13,7 @@ from tests.unit.assessment.made_rows import broken, case, compared, failure, sta
 
 def alone(*stations: PeriodResult) -> list[SceneResult]:
     """Results of scenes on the ground."""
-    return [SceneResult(each.scene, (each,)) for each in stations]
+    return [SceneResult(station.scene, (station,)) for station in stations]
 
 
 def carried(count: int) -> list[SceneResult]:
@@ -84,12 +84,12 @@ def compared_as(station_: PeriodResult, record: str, predicted: float) -> list[C
     return [
         compared(
             name,
-            each.integrated_rotation_ratio,
+            case.integrated_rotation_ratio,
             station_.structure,
             record=record,
             predicted_rotation_ratio=predicted,
         )
-        for name, each in station_.cases.items()
+        for name, case in station_.cases.items()
     ]
 
 
@@ -130,7 +130,10 @@ def test_lines_at_the_end_are_no_wider_than_104_letters_whatever_the_names() -> 
     names_of_records = [f"record {number} whose name no column has room for, by far" for number in range(12)]
     rows = [row for record in names_of_records for row in verdicts(stations, record)]
     comparison = [
-        row for record in names_of_records for each in stations for row in compared_as(each, record, 0.1)
+        row
+        for record in names_of_records
+        for one_station in stations
+        for row in compared_as(one_station, record, 0.1)
     ]
     failures = [failure("", "", "not read.", record) for record in names_of_records]
     lines = list(closing_lines(rows, comparison, failures))
