@@ -51,11 +51,14 @@ def test_shipped_structures_stand_and_pass_the_schema():
     assert {type(structure) for structure in structures.values()} == {
         Arch,
         Block,
+        Facade,
         FreeWall,
         Frame,
         Spire,
         Wall,
     }
+    front = structures["facade"]
+    assert front.tie_heights and front.anchor_height and front.floor_loads and front.leaves and front.bonders
     assert all(structure.mechanism().uplift_multiplier > 0 for structure in structures.values())
     assert structures["arch 10 m"] == Arch(10, 1.5, np.radians(157.5), restitution=0.9)
 
