@@ -17,6 +17,7 @@ from rocking.assessment.rows import (
     worst_period_each,
 )
 from rocking.quantities import counted, listed, percents
+from rocking.records.sample import interval_words
 from rocking.remarks import Remark
 from rocking.structures.kinds import StructureKind
 
@@ -211,7 +212,7 @@ def falls_in_words(falls: Sequence[ExpectedFallsRow]) -> str:
             if 0.5 <= middle <= of_all.structures - 0.5:
                 falling = "the same number is"
             because = f"; wide, as under most of the records, of {sample}, {falling} expected to fall"
-        sentence += f" (90 %: {interval}{because})"
+        sentence += f" ({interval_words(of_all.earthquakes)}: {interval}{because})"
     if of_all.still:
         sentence += f"; nothing lifts any of them at {of_all.still} of {counted(of_all.stations, 'station')}"
     if not of_all.without_share:

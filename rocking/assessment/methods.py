@@ -53,6 +53,27 @@ def rocks(rotation_ratio: float) -> bool:
     return _severity(rotation_ratio) == 1
 
 
+class Acts(StrEnum):
+    """When the pulse of a prediction acts, beside the fall of the integration."""
+
+    BEFORE = "before"
+    DURING = "during"
+    AFTER = "after"
+
+
+STILL_FALLING = 6.0
+"""Time after the end of a pulse, in 1/p, within which a body that it threw may still fall."""
+
+
+def acts(*, start: float, end: float, fall: float, frequency_parameter: float) -> Acts | None:
+    """Return when a pulse from `start` to `end` acts beside a fall at the time `fall`; None where nothing falls."""
+    if math.isnan(fall):
+        return None
+    if fall < start:
+        return Acts.AFTER
+    return Acts.DURING if fall <= end + STILL_FALLING / frequency_parameter else Acts.BEFORE
+
+
 def agreement(*, predicted: float, integrated: float) -> Agreement:
     """Compare two rotation ratios (inf: overturns, nan: missing)."""
     if math.isnan(predicted) or math.isnan(integrated):

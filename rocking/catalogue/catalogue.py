@@ -14,6 +14,7 @@ from rocking.quantities import acceleration_factor, shown
 from rocking.records.formats.format import plain
 from rocking.records.formats.text import is_number
 from rocking.records.kinds import RecordKind
+from rocking.records.sample import MADE
 from rocking.records.scaling import ScalingTarget
 from rocking.remarks import Remark
 from rocking.tables import edited_text, read_edited
@@ -91,7 +92,11 @@ class CatalogueRecord:
         "what the larger peak of the horizontal components is scaled to, by one factor on all components, in place "
         "of scale_factor: `pga 0.35 g` or `pgv 50 cm/s`",
     )
-    event: str = described("", "the earthquake, for the reader; a day in it overrides that of the file")
+    event: str = described(
+        "",
+        "the earthquake, for the reader; a day in it overrides that of the file. Cases of a record of which it says "
+        f"`{MADE}` are counted apart",
+    )
     station: str = described("", "the station, for the reader")
     licence: str = described("", "licence of the files, for the reader")
     inventory: str = described("", "StationXML of a miniSEED or SAC file, a path like `file`")

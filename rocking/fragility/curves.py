@@ -138,7 +138,7 @@ class Fragility(Drawn):
     def __repr__(self) -> str:
         low, high = self.interval
         unit = f" {self.unit}" if self.unit else ""
-        interval = f"90 %: {low:.3g} to {high:.3g}"
+        interval = f"{self.sample.interval_words}: {low:.3g} to {high:.3g}"
         unreached = listed([f"{level:g}" for level in self.unreached])
         if (gap := self.gap) is not None:
             interval = f"between levels {gap[0]:.3g} and {gap[1]:.3g}, too far apart for an interval"

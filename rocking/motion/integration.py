@@ -346,6 +346,8 @@ def _response(
     rocks = outcome is Outcome.ROCKS
     begin = forcing.start_time
     states = _states(table_of(reduced, forcing.vertical), log, begin) if history else {}
+    if history and outcome is Outcome.OVERTURNS:
+        states["fall_time"] = _fall_time(sides, states["times"], states["rotation"])
     return Response(
         rotation_ratio=math.inf if outcome is Outcome.OVERTURNS else ratios[largest],
         outcome=outcome,
@@ -394,6 +396,13 @@ def _states(table: MechanismTable, log: np.ndarray, begin: float) -> dict[str, A
         rotation[rows] = sign * side.rotation(within_end)
         velocity[rows] = speeds[rows] * side.slope(within_end)
     return {"times": times + begin, "rotation": rotation, "angular_velocity": velocity}
+
+
+def _fall_time(sides: Sequence[Any], times: np.ndarray, rotation: np.ndarray) -> float:
+    """The time at which a history first passes the critical rotation; its end where it stops at that."""
+    limits = np.where(rotation > 0, sides[0].critical_rotation, sides[-1].critical_rotation)
+    passed = np.flatnonzero(np.abs(rotation) >= limits * (1 - 1e-9))
+    return float(times[passed[0] if passed.size else -1])
 
 
 def _sensitivity(reduced: Mechanism | EquivalentBlock, forcing: Forcing, start: Start) -> float:

@@ -32,6 +32,9 @@ class Response(Drawn):
         How many times φ = 0 was reached.
     peak_time : float, default nan
         Time from the first sample to the largest rotation, s; nan if it overturned or never lifted.
+    fall_time : float, default nan
+        Time at which it first passes its critical rotation where it overturns, s; nan else, and without a
+        history.
     uplift_time : float, default nan
         Time of the first uplift, s; nan without one.
     peak_side : int, default 0
@@ -75,6 +78,7 @@ class Response(Drawn):
     outcome: Outcome
     impacts: int = 0
     peak_time: float = np.nan
+    fall_time: float = np.nan
     uplift_time: float = np.nan
     peak_side: int = 0
     sensitivity: float = np.nan

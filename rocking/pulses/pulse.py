@@ -167,42 +167,8 @@ class PulseSettings:
             )
 
 
-@dataclass(frozen=True, kw_only=True)
-class Worth:
-    """What the closed form under a record's best sine is worth, where that explains so much of the record's energy.
-
-    energy: the least share of the acceleration energy of the class. same_outcome_share: of the cases in which it ends
-    as the integration under the record does. falls_found: of the falls of the integration that it sees. words: of the
-    sine, wherever a person reads them.
-    """
-
-    energy: float
-    same_outcome_share: float
-    falls_found: float
-    words: str
-
-
-DOMINATES, LEADS = 0.5, 0.3
-"""Shares of a record's energy from which on its best sine is said to dominate it, or to lead: of the falls under such
-records the closed form finds nine in ten, or three in four, and of those under others about half or less."""
-WORTHS = (
-    Worth(energy=DOMINATES, same_outcome_share=0.83, falls_found=0.90, words="One sine dominates"),
-    Worth(energy=LEADS, same_outcome_share=0.74, falls_found=0.76, words="One sine leads"),
-    Worth(energy=0.2, same_outcome_share=0.65, falls_found=0.59, words="No sine dominates"),
-    Worth(energy=0.1, same_outcome_share=0.59, falls_found=0.52, words="No sine dominates"),
-    Worth(energy=0.0, same_outcome_share=0.51, falls_found=0.36, words="No sine dominates"),
-)
-"""Measured by docs/research/worth.py: a row of docs/measured/figures.csv says on what, and when."""
-
-
-def worth_of(explained_energy: float) -> Worth:
-    """Return what the closed form is worth under a sine that explains this share of a record's acceleration energy.
-
-    >>> from rocking.pulses.pulse import worth_of
-    >>> worth_of(0.38).words, worth_of(0.11).falls_found
-    ('One sine leads', 0.52)
-    """
-    return next(worth for worth in WORTHS if explained_energy >= worth.energy)
+DOMINATES = 0.5
+"""Share of a record's energy from which on its best sine is said to dominate it."""
 
 
 @dataclass(frozen=True, kw_only=True)

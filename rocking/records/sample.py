@@ -29,6 +29,8 @@ REPLICATES = 1000
 """Samples that are drawn for an interval."""
 TAIL = 0.05
 """Beyond either end of an interval of 90 %."""
+MADE = "Synthetic, not recorded"
+"""In place of the earthquake of a record that nobody recorded: what comes of it is counted apart."""
 UNNAMED = "not named"
 """The one earthquake of all records whose earthquake neither a catalogue nor a header names."""
 
@@ -221,6 +223,22 @@ class Spread:
         return students(freedom=self.count - 1, tail=tail) * self.error
 
 
+def interval_words(earthquakes: int) -> str:
+    """Return what an interval over so many earthquakes is called, wherever one is printed.
+
+    From FEWEST on it holds nine times in ten; of fewer it is computed alike, and holds less often; of one there is
+    none.
+
+    >>> interval_words(3), interval_words(7)
+    ('interval of 3 earthquakes, which holds less than nine times in ten', '90 % interval')
+    """
+    if earthquakes >= FEWEST:
+        return "90 % interval"
+    if earthquakes < 2:
+        return "interval, which one earthquake does not give"
+    return f"interval of {earthquakes} earthquakes, which holds less than nine times in ten"
+
+
 def students(*, freedom: float, tail: float = TAIL) -> float:
     """Return the quantile of Student's law that is exceeded with the risk `tail`; inf where nothing is free."""
     from scipy.special import stdtrit  # slow to import for the main job of a study
@@ -333,6 +351,11 @@ class Sample:
         """The number of stations."""
         return len(self.station_names)
 
+    @property
+    def interval_words(self) -> str:
+        """What an interval over these earthquakes is called."""
+        return interval_words(self.earthquakes)
+
     @cached_property
     def sizes(self) -> np.ndarray:
         """(e,): the number of stations of each earthquake."""
@@ -381,9 +404,19 @@ class Sample:
         count = self.earthquakes
         of_events = rng.multinomial(count, np.full(count, 1 / count), replicates)
         drawn = np.zeros((replicates, self.count))
-        for event, size in enumerate(self.sizes.tolist()):
-            members = np.flatnonzero(self.of_station == event)
-            drawn[:, members] = rng.multinomial(of_events[:, event] * size, np.full(size, 1 / size))
+        # By name, so that the order of the records draws no other samples.
+        event_of = dict(zip(self.stations, self.events, strict=True))
+        by_name = np.array(
+            sorted(
+                range(self.count),
+                key=lambda place: (event_of[self.station_names[place]], self.station_names[place]),
+            ),
+            dtype=int,
+        )
+        for column, event in enumerate(dict.fromkeys(self.of_station[by_name].tolist())):
+            members = by_name[self.of_station[by_name] == event]
+            again = of_events[:, column] * members.size
+            drawn[:, members] = rng.multinomial(again, np.full(members.size, 1 / members.size))
         return drawn
 
     @cached_property

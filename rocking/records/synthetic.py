@@ -13,6 +13,7 @@ import numpy as np
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY, finite, positive
 from rocking.records.accelerogram import Accelerogram
+from rocking.records.sample import MADE
 
 _EPSILON = 0.2
 _ETA = 0.05
@@ -53,7 +54,7 @@ def synthetic_record(recipe: SyntheticRecord) -> Accelerogram:
     """Return the accelerogram of `recipe`: pulse plus noise, m/s²."""
     times = np.arange(round(recipe.duration / recipe.time_step)) * recipe.time_step
     values = pulse(recipe, times) + noise(recipe, times.size)
-    names: dict[str, Any] = {"component": "H1", "station": recipe.name, "event": "Synthetic, not recorded"}
+    names: dict[str, Any] = {"component": "H1", "station": recipe.name, "event": MADE}
     return Accelerogram(values, recipe.time_step, **names, processed=True)
 
 

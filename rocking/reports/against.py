@@ -46,7 +46,8 @@ HEADS = (
 """The methods whose results stand at the strips."""
 LEGEND = (
     "Black: the mechanism under the whole record, with the crack of its row in comparison.csv, under the component "
-    "that turns it farthest; a triangle where it falls. Band: closed form of the equivalent block under the sine. "
+    "that turns it farthest; a triangle where it falls. Band: closed form of the equivalent block under the sine, "
+    "which falls later where that begins after the fall. "
     "Dotted: Eqs. 15 and 16 of the source paper as printed, with its block (λ by Eq. 7 in g, p by Eq. 11 in rad/s; "
     "φ_cr in rad), grey outside of the regime in which Eq. 15 holds."
 )
@@ -277,6 +278,7 @@ def _each_compared(
 def compared_in_words(moving: Moving, structure: Structure, several: bool) -> ComparedWords:
     """Return the texts at the strip of a structure. several: whether its component is to be named."""
     case = moving.case
+    both_fall = case.predicted_rotation_ratio == case.integrated_rotation_ratio == math.inf
     crack = case.crack or moving.conclusion.verdict.crack
     period = case.support_period_s
     notes = [
@@ -296,7 +298,7 @@ def compared_in_words(moving: Moving, structure: Structure, several: bool) -> Co
         note=", ".join(filter(None, notes)),
         printed=in_words(case.printed_rotation_ratio),
         outside=case.printed_holds is False,
-        form=in_words(case.predicted_rotation_ratio),
+        form="falls later" if both_fall and not case.sees_fall else in_words(case.predicted_rotation_ratio),
         whole=in_words(case.integrated_rotation_ratio),
     )
 

@@ -140,13 +140,14 @@ def moving_span(histories: Iterable[tuple[np.ndarray, np.ndarray]]) -> tuple[flo
 class CurveBand(NamedTuple):
     """A fragility curve over the levels of its intensity measure, (k,) each.
 
-    interval: of 90 %, its lower and its upper end. Both it and the lognormal curve may be left out.
+    interval: its lower and its upper end, called as `interval_words` says. It and the lognormal curve may be left out.
     """
 
     levels: np.ndarray
     probability: np.ndarray
     interval: tuple[np.ndarray, np.ndarray] | None = None
     lognormal: np.ndarray | None = None
+    interval_words: str = "interval"
 
 
 def draw_probability(axes: Axes, curve: CurveBand, label: str = "empirical", colour: str = "C0") -> None:
@@ -159,7 +160,7 @@ def draw_probability(axes: Axes, curve: CurveBand, label: str = "empirical", col
             color=colour,
             alpha=0.2,
             linewidth=0,
-            label="90 % interval, by earthquakes",
+            label=f"{curve.interval_words}, by earthquakes",
         )
     axes.plot(levels, curve.probability, ".-", color=colour, linewidth=0.9, markersize=3, label=label)
     if curve.lognormal is not None:
@@ -217,7 +218,8 @@ def _plot_fragility(fragility: Fragility, axes: Axes) -> None:
     event = "overturning" if overturning else f"a rotation above {fragility.threshold:g} of the critical one"
     interval = fragility.probability_low, fragility.probability_high
     label = f"empirical, {fragility.sample.words}"
-    curve = CurveBand(fragility.levels, fragility.probability, interval, fragility.lognormal)
+    words = fragility.sample.interval_words
+    curve = CurveBand(fragility.levels, fragility.probability, interval, fragility.lognormal, words)
     draw_probability(axes, curve, label)
     axes.set(xlabel=f"{fragility.measure} [{fragility.unit or '-'}]", ylabel=f"probability of {event} [-]")
     axes.legend(loc="upper left")
@@ -304,7 +306,7 @@ def _plot_strengthening(strengthening: Strengthening, axes: Axes) -> None:
     low, high = zip(*(trial.interval for trial in tried), strict=True)
     label = f"share of {strengthening.sample.words}"
     axes.fill_between(
-        values, low, high, color="C0", alpha=0.2, linewidth=0, label="one-sided 90 % bounds, by station"
+        values, low, high, color="C0", alpha=0.2, linewidth=0, label="one-sided 90 % bounds, by earthquake"
     )
     axes.plot(values, [trial.share for trial in tried], ".-", color="C0", linewidth=0.9, label=label)
     axes.axhline(

@@ -34,7 +34,6 @@ from rocking.assessment.scene import variants_of
 from rocking.assessment.variants import variants
 from rocking.errors import FaultError, one_structure
 from rocking.floors.kinds import FloorKind
-from rocking.pulses.pulse import DOMINATES, LEADS, worth_of
 from rocking.quantities import GRAVITY, counted, listed, percent, percents
 from rocking.records.formats.text import day_of
 from rocking.remarks import Kind, Remark
@@ -87,12 +86,6 @@ MOST_NOTICED = 3
 """Failures that stand above everything; failures.csv holds all."""
 TOLD_FIRST = (StructureKind.RESTITUTION_TYPED, ReportKind.CRUSHING_WOULD_TELL)
 """Remarks on the models that page one says briefly, before their sentences."""
-_TRUST = {
-    DOMINATES: "rings and dots agree",
-    LEADS: "rings and dots mostly agree",
-}
-"""Whom to trust where closed form and integration differ, by the share of the energy from which on it holds."""
-_TRUST_DOTS = "trust the dots, not the rings"
 MOST_ROWS = 12
 """Structures that have a row, the worst first; the others are named by their words below."""
 _MOST_UNCERTAIN = 2
@@ -354,14 +347,10 @@ def page_one(report: RecordReport) -> PageOne:
     motion = report.motion
     pulse = report.dominant(motion.accelerogram.component) if motion else None
     drawn, others = report.conclusions[:MOST_ROWS], report.conclusions[MOST_ROWS:]
-    clause = "No sine was found: there are no rings."
-    if pulse is not None:
-        worth = worth_of(pulse.explained_energy)
-        clause = f"{worth.words}: {_TRUST.get(worth.energy, _TRUST_DOTS)}."
     return PageOne(
         trace=(ground_strip(motion),) if motion else (),
         peaks=_peaks(report),
-        sine=Sine(share=percents(pulse.explained_energy) if pulse else "", clause=clause),
+        sine=Sine(share=percents(pulse.explained_energy) if pulse else "", clause=_rings_beside_dots(drawn)),
         rows=tuple(
             structure_row(conclusion, report.structures.get(conclusion.verdict.structure))
             for conclusion in drawn
@@ -380,6 +369,23 @@ def page_one(report: RecordReport) -> PageOne:
         uncertain=tuple(_uncertain(report)),
         legend=_legend(report, drawn),
     )
+
+
+def _rings_beside_dots(drawn: Sequence[Conclusion]) -> str:
+    """In how many of the rows the closed form ends as the record does, and how many of their falls it sees."""
+    cases = [conclusion.case for conclusion in drawn if conclusion.case is not None]
+    compared = [row for row in cases if row.agreement is not Agreement.UNKNOWN]
+    if not compared:
+        return "No sine was found: there are no rings."
+    falls = sum(row.integrated_rotation_ratio == math.inf for row in compared)
+    sees = sum(row.sees_fall for row in compared)
+    both_stand = [
+        row
+        for row in compared
+        if row.agreement is Agreement.SAME and row.integrated_rotation_ratio < math.inf
+    ]
+    seen = f", and sees {sees} of {counted(falls, 'fall')}" if falls else ""
+    return f"The sine ends as the record in {sees + len(both_stand)} of {len(compared)}{seen}."
 
 
 def _legend(report: RecordReport, drawn: Sequence[Conclusion]) -> str:
@@ -569,19 +575,17 @@ def _components(report: RecordReport) -> Table:
         ("period [s]", "1", "r"),
         ("onset [s]", "1", "r"),
         ("energy [%]", "1", "r"),
-        ("same outcome [%]", "1.1", "r"),
     ]
     cells = []
     for row in report.tables.record:
         sine = report.dominant(row.component)
-        of_sine = [printing.NOTHING] * 5
+        of_sine = [printing.NOTHING] * 4
         if sine is not None:
             of_sine = [
                 number(abs(sine.amplitude_m_s2) / acceleration.size),
                 number(sine.period_s),
                 number(sine.start_time_s),
                 percent(sine.explained_energy),
-                percent(sine.same_outcome_share),
             ]
         cells.append(
             [

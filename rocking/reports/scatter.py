@@ -56,11 +56,12 @@ def prediction_scatter(
     places = np.stack([_placed(predicted), _placed(integrated)])
     sees = np.isinf(predicted)
     falls = np.isinf(integrated)
+    late = sees & falls & ~np.array([row.sees_fall for row in cases], dtype=bool)
     _spread(places[0], places[1], falls & ~sees)
     _spread(places[1], places[0], sees & ~falls)
     packed = _pack(places, sees & falls)
     count = len(cases)
-    for which, colour in ((~dark, _LIGHT), (dark, _DARK)):
+    for which, colour in ((~dark & ~late, _LIGHT), (dark & ~late, _DARK), (late, "white")):
         shown = which & ~(sees & falls & ~packed)
         axes.plot(
             *places[:, shown],
@@ -72,8 +73,8 @@ def prediction_scatter(
             rasterized=count > _MOST_POINTS,
             label=f"cases ({int(which.sum())})",
         )
-    _write_counts(axes, predicted, integrated)
-    _write_key(figure, energy, sees, falls, 20 + size + 6, height)
+    _write_counts(axes, predicted, integrated, late)
+    _write_key(figure, energy, sees & ~late, falls, 20 + size + 6, height)
     return figure
 
 
@@ -144,8 +145,11 @@ def _draw_quadrants(axes: Axes) -> None:
     )
 
 
-def _write_counts(axes: Axes, predicted: np.ndarray, integrated: np.ndarray) -> None:
-    """Write into each quadrant how many cases stand there; of those that rock in both, how many within a factor two."""
+def _write_counts(axes: Axes, predicted: np.ndarray, integrated: np.ndarray, late: np.ndarray) -> None:
+    """Write into each quadrant how many cases stand there; of those that rock in both, how many within a factor two.
+
+    late: whether both fall, but by a sine that begins after the fall.
+    """
     sees = np.isinf(predicted)
     falls = np.isinf(integrated)
     rock = (predicted > 0) & (integrated > 0) & ~sees & ~falls
@@ -156,7 +160,10 @@ def _write_counts(axes: Axes, predicted: np.ndarray, integrated: np.ndarray) -> 
     large: dict[str, Any] = {"fontsize": 11.5, "fontweight": "bold", "bbox": paper}
     to_the_right: dict[str, Any] = {"ha": "right", "bbox": paper}
     axes.text(low, _END - 0.05, f"{int((falls & ~sees).sum())} missed", color=_MISSED, va="top", **large)
-    axes.text(_ZONE + 0.05, _END - 0.05, f"{int((falls & sees).sum())} right", va="top", **large)
+    axes.text(_ZONE + 0.05, _END - 0.05, f"{int((falls & sees & ~late).sum())} right", va="top", **large)
+    if late.any():
+        note = f"{int(late.sum())} by a sine\nafter the fall"
+        axes.text(_END - 0.05, _ZONE + 0.05, note, fontsize=8.5, va="bottom", **to_the_right)
     axes.text(
         _ZONE + 0.05,
         low + 0.4,

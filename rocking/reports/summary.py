@@ -31,7 +31,9 @@ from rocking.assessment.rows import (
     StructureRow,
     SupportRow,
     VerdictRow,
+    counted_apart,
     counted_cases,
+    made_records,
     worst_period_each,
 )
 from rocking.assessment.scene import placed
@@ -141,9 +143,11 @@ def _page(
     verdicts = rows_of(VerdictRow, rows)
     shown = worst_period_each(verdicts)
     comparison = list(counted_cases(rows_of(ComparisonRow, rows), verdicts))
-    made = conclusions(verdicts, comparison)
+    recorded, _ = counted_apart(comparison, made_records(rows_of(RecordRow, rows)))
+    concluded = conclusions(verdicts, comparison)
     words_of_all = {
-        conclusion.verdict.structure: conclusion.verdict.decision.word for conclusion in worst_of_each(made)
+        conclusion.verdict.structure: conclusion.verdict.decision.word
+        for conclusion in worst_of_each(concluded)
     }
     judged = {row.record for row in shown}
     many = len(judged) > MOST_RECORDS_BESIDE
@@ -166,7 +170,7 @@ def _page(
         conclusion=conclusion_in_words(words_of_all, len(judged)),
         falls=falls_in_words(rows_of(ExpectedFallsRow, rows)),
         conclusions=tuple(other_conclusions),
-        matrix=matrix(made, records, pulses),
+        matrix=matrix(concluded, records, pulses),
         notices=(
             *_notices(records, comparison, len(failures)),
             *map(Notice, to_check(rows_of(RemarkRow, rows))),
@@ -192,7 +196,7 @@ def _page(
             caption=_OF_SUPPORTS,
         ),
         structures=Part(table=structure_table(shown, structures), caption=_STRUCTURE_TABLE, size=_LETTERS),
-        scatter=_scatter(comparison, pulses, agreed[0], _LOW if low else _HIGH),
+        scatter=_scatter(recorded, pulses, agreed, _LOW if low else _HIGH),
         panels=tuple(panels),
         failures=Part(
             heading="Failures" if failures else "",
@@ -211,7 +215,7 @@ def _page(
         methods=Part(
             heading="What each method is worth",
             level=2,
-            table=method_table(comparison),
+            table=method_table(recorded),
             caption=_METHOD_TABLE,
             size=_LETTERS,
         ),
@@ -279,13 +283,20 @@ _COUNTED = (
 
 
 def _scatter(
-    comparison: Sequence[ComparisonRow], pulses: Sequence[PulseRow], of_all: AgreementRow, height: float
+    comparison: Sequence[ComparisonRow],
+    pulses: Sequence[PulseRow],
+    agreed: Sequence[AgreementRow],
+    height: float,
 ) -> tuple[Scatter, ...]:
     """The scatter of all cases, so many mm high, with what the closed form saw of the falls as its heading."""
     if sum(map(lifts, comparison)) < FEWEST_POINTS:
         return ()
+    of_all, *others = agreed
     falls = f"{of_all.overturning_hits} of {counted(of_all.overturning, 'fall')}"
-    heading = f"The closed form sees {falls}"
+    of_made = [
+        f", and {row.overturning_hits} of {row.overturning} under made records" for row in others if row.made
+    ]
+    heading = f"The closed form sees {falls}{''.join(of_made)}"
     alt = "Scatter of the rotation ratio by closed form against that by integration, in four quadrants."
     figure = prediction_scatter(comparison, pulses, height)
     carried = any(row.support_period_s is not None for row in comparison)
@@ -515,7 +526,7 @@ def _worth(method: Method, comparison: Sequence[ComparisonRow]) -> _Worth:
 
 
 AGREEMENT_COLUMNS: list[Column] = [
-    ("Structure", "1.4", "l", lambda row: row.structure or "all"),
+    ("Structure", "1.4", "l", lambda row: row.structure or ("all, made records" if row.made else "all")),
     *columns_of(
         AgreementRow,
         "stations=0.7 earthquakes=1 cases=0.5 both_rock=0.7 within_factor_two=0.8 median_ratio=0.7 overturning=1 "

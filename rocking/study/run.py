@@ -15,7 +15,14 @@ from pathlib import Path
 from threading import Thread
 from typing import Any, TextIO
 
-from rocking.assessment.rows import ComparisonRow, ExpectedFallsRow, FailureRow, RemarkRow
+from rocking.assessment.rows import (
+    ComparisonRow,
+    ExpectedFallsRow,
+    FailureRow,
+    RecordRow,
+    RemarkRow,
+    made_records,
+)
 from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import counted, shown
 from rocking.study import close_doors
@@ -158,7 +165,8 @@ def _print_outcome(folder: Path, plan: Plan) -> int:
     comparison = read_rows(ComparisonRow, results / "summary" / ComparisonRow.table.file_name)
     falls = read_table(ExpectedFallsRow, results / "summary")
     remarks = read_rows(RemarkRow, results / "summary" / RemarkRow.table.file_name)
-    lines = [*closing_lines(verdicts, comparison, failures, falls, remarks)]
+    not_recorded = made_records(read_rows(RecordRow, results / "summary" / RecordRow.table.file_name))
+    lines = [*closing_lines(verdicts, comparison, failures, falls, remarks, not_recorded)]
     for product in made:
         lines += conclusion_lines(kept_conclusion(kept_of(results, product.name)))
     opened = {

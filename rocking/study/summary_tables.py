@@ -24,6 +24,7 @@ from rocking.assessment.rows import (
     counted_cases,
     falls_over,
     falls_under,
+    made_records,
     sample_of_records,
     structure_rows,
 )
@@ -104,7 +105,7 @@ def write_summary(
         names = dict(zip(identifiers, zip(sample.stations, sample.events, strict=True), strict=True))
         of_all = falls_over(falls_of_records, Sample.named(names[falls.record] for falls in falls_of_records))
         kept[ExpectedFallsRow] = [*falls_of_records, *([of_all] if of_all else [])]
-        kept[AgreementRow] = list(agreement_rows(cases, names))
+        kept[AgreementRow] = list(agreement_rows(cases, names, made_records(read)))
         write_tables({row_class: rows for row_class, rows in kept.items() if row_class not in write}, target)
     return kept, pages, spectra, sums
 

@@ -2,7 +2,7 @@
 
 import math
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from textwrap import wrap
 from typing import TYPE_CHECKING
@@ -81,13 +81,14 @@ def closing_lines(
     failures: Sequence[FailureRow],
     expected: Sequence[ExpectedFallsRow] = (),
     remarks: Iterable[RemarkRow] = (),
+    made: Container[str] = (),
 ) -> Iterator[str]:
     """Yield the conclusion on all structures, the worst with closed form, block and integration, and the others' words.
 
     Below them stand what the closed form saw of the falls among `counted_cases`, the records that failed, and what has
     to be checked of what was typed. comparison: is gone through once, and not kept. expected: how many fall, by record
-    and of all. remarks: on the study and on its records, which are gone through once as well. At most _NAMED structures
-    are named.
+    and of all. remarks: on the study and on its records, which are gone through once as well. made: the
+    records that nobody recorded. At most _NAMED structures are named.
     """
     worst = worst_of_each(conclusions(verdicts, []))
     records = len({verdict.record for verdict in verdicts})  # one that failed gives none
@@ -97,17 +98,11 @@ def closing_lines(
     taken = worst_period_each(verdicts)
     carried = any(verdict.support_period_s is not None for verdict in taken)
     of_shown: list[ComparisonRow] = []
-    seen = false = 0
-    missed = Counter[str]()
+    of_recorded, of_made = Counter[tuple[str, str]](), Counter[tuple[str, str]]()
     for row in counted_cases(comparison, taken):
         if (row.record, row.structure) in shown:
             of_shown.append(row)
-        predicted = row.predicted_rotation_ratio
-        integrated = row.integrated_rotation_ratio
-        if not (math.isnan(predicted) or math.isnan(integrated)):
-            seen += predicted == integrated == math.inf
-            missed[row.record] += predicted < integrated == math.inf
-            false += integrated < predicted == math.inf
+        (of_made if row.record in made else of_recorded)[row.record, _end(row)] += 1
     if worst:
         count = f"{counted(records, 'record')}, {counted(len(worst), 'structure')}. "
         words = {conclusion.verdict.structure: conclusion.verdict.decision.word for conclusion in worst}
@@ -136,25 +131,48 @@ def closing_lines(
         text = "; ".join(map(": ".join, _named(names, _NAMED - _WORST).items()))
         yield from wrap(text, WIDTH, initial_indent="Others  ", subsequent_indent=" " * 8)
     of_what = COUNTED if carried else ""
-    yield from _closed_form_lines(seen, missed if records > 1 else missed.total(), false, of_what)
+    yield from _closed_form_lines(
+        of_recorded or of_made, of_made if of_recorded else Counter(), records > 1, of_what
+    )
     yield from _failing_lines(failures)
     for sentence in to_check(remarks):
         yield from wrap(sentence, WIDTH, subsequent_indent=" " * 8)
 
 
-def _closed_form_lines(seen: int, missed: Counter[str] | int, false: int, of_what: str) -> Iterator[str]:
-    """What the closed form saw of the falls, where there is one. missed: by record, where there are several."""
-    where = ""
-    if isinstance(missed, Counter):
-        most, count_of_most = (missed.most_common(1) or [("", 0)])[0]
-        where = f" ({count_of_most} of them in {_cut(most, 24)})" if count_of_most else ""
-        missed = missed.total()
-    if falls := seen + missed:
-        text = (
-            f"Closed form against integration{of_what}: {seen} of {counted(falls, 'fall')} seen, "
-            f"{missed} missed{where}, {counted(false, 'false alarm').replace(' ', NO_BREAK)}"
-        )
-        yield from (line.replace(NO_BREAK, " ") for line in wrap(text, WIDTH, subsequent_indent=" " * 8))
+def _end(row: ComparisonRow) -> str:
+    """What the closed form makes of a fall: it is "seen" or "missed", or "false" where nothing falls; else ""."""
+    if math.isnan(row.predicted_rotation_ratio) or math.isnan(row.integrated_rotation_ratio):
+        return ""
+    if row.integrated_rotation_ratio == math.inf:
+        return "seen" if row.sees_fall else "missed"
+    return "false" if row.predicted_rotation_ratio == math.inf else ""
+
+
+def _closed_form_lines(
+    ends: Counter[tuple[str, str]], of_made: Counter[tuple[str, str]], several: bool, of_what: str
+) -> Iterator[str]:
+    """What the closed form saw of the falls, where there is one.
+
+    ends: cases by record and `_end`. of_made: those under made records beside them. several: whether there are several
+    records.
+    """
+    missed, seen, false = (
+        Counter({record: count for (record, end), count in ends.items() if end == wanted})
+        for wanted in ("missed", "seen", "false")
+    )
+    falls = missed.total() + seen.total()
+    if not falls:
+        return
+    most = missed.most_common(1) if several else []
+    where = "".join(f" ({count} of them in {_cut(record, 24)})" for record, count in most)
+    text = (
+        f"Closed form against integration{of_what}: {seen.total()} of {counted(falls, 'fall')} seen, "
+        f"{missed.total()} missed{where}, {counted(false.total(), 'false alarm').replace(' ', NO_BREAK)}"
+    )
+    made = Counter(end for (_, end), count in of_made.items() for _ in range(count))
+    if made["seen"] + made["missed"]:
+        text += f"; under made records {made['seen']} of {made['seen'] + made['missed']} seen"
+    yield from (line.replace(NO_BREAK, " ") for line in wrap(text, WIDTH, subsequent_indent=" " * 8))
 
 
 def _failing_lines(failures: Sequence[FailureRow]) -> Iterator[str]:

@@ -8,6 +8,7 @@ import pytest
 from docs.research.sites import SiteRecord
 from docs.research.worth import FACTORS, Case, cases_of, worth_scores
 from rocking import Accelerogram, Block, Pulse
+from rocking.assessment.methods import Acts
 
 
 def test_a_record_that_is_one_sine_is_explained_by_it_and_ends_as_said():
@@ -20,14 +21,15 @@ def test_a_record_that_is_one_sine_is_explained_by_it_and_ends_as_said():
 
 
 def test_each_class_counts_its_own_outcomes():
-    """Of three falls under weak sines one is found; where the sine dominates the one that rocks does so in both."""
+    """Of four falls under weak sines one is found, and one is over before; where the sine dominates, both rock."""
     cases = [
         Case("a", "A", 0.05, math.inf, math.inf),
         Case("b", "B", 0.05, math.inf, 0.3),
         Case("b", "B", 0.05, math.inf, 0.0),
+        Case("b", "B", 0.05, math.inf, math.inf, Acts.AFTER),
         Case("c", "C", 0.7, 0.4, 0.2),
     ]
     found = {(row.part, row.measure): row.value for row in worth_scores(cases)}
-    assert found["0 or more of the energy", "falls found"] == pytest.approx(1 / 3)
-    assert found["0 or more of the energy", "same outcome"] == pytest.approx(1 / 3)
+    assert found["0 or more of the energy", "falls found"] == pytest.approx(1 / 4)
+    assert found["0 or more of the energy", "same outcome"] == pytest.approx(2 / 4)
     assert found["0.5 or more of the energy", "same outcome"] == 1

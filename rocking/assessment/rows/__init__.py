@@ -43,10 +43,12 @@ from rocking.assessment.rows.of_study import CountedFalls as CountedFalls
 from rocking.assessment.rows.of_study import ExpectedFallsRow as ExpectedFallsRow
 from rocking.assessment.rows.of_study import SpectrumRow as SpectrumRow
 from rocking.assessment.rows.of_study import agreement_rows as agreement_rows
+from rocking.assessment.rows.of_study import counted_apart as counted_apart
 from rocking.assessment.rows.of_study import falls_over as falls_over
 from rocking.assessment.rows.of_study import falls_under as falls_under
 from rocking.assessment.rows.of_study import hardly_spread as hardly_spread
 from rocking.assessment.rows.of_study import interval_of_mean as interval_of_mean
+from rocking.assessment.rows.of_study import made_records as made_records
 from rocking.assessment.rows.of_study import named_records as named_records
 from rocking.assessment.rows.of_study import sample_of_records as sample_of_records
 from rocking.assessment.rows.of_study import spectrum_rows as spectrum_rows

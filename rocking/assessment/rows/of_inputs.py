@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypeVar
 from rocking.catalogue.place import Place
 from rocking.errors import StructureError
 from rocking.pulses import Pulse, PulseEvidence, VelocityPulse
-from rocking.pulses.pulse import PulseAnalysis, worth_of
+from rocking.pulses.pulse import PulseAnalysis
 from rocking.records.measures import RecordMeasures, record_measures
 from rocking.remarks import Kind
 from rocking.structures import Side, Structure
@@ -278,10 +278,6 @@ class PulseRow(ComponentRow[FoundPulse]):
     explained_energy: float = of_pulse(
         "Share of the acceleration energy that the pulse explains (EVa)",
         lambda found: found.evidence.explained_energy,
-    )
-    same_outcome_share: float = of_pulse(
-        "Share of cases with such pulses in which closed form and integration end alike",
-        lambda found: worth_of(found.evidence.explained_energy).same_outcome_share,
     )
     flags: tuple[Kind, ...] = of_pulse(
         "Kinds of reason to doubt the pulse",

@@ -12,8 +12,10 @@ from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.methods import (
     BOTH_COMPONENTS,
     POLARITIES,
+    Acts,
     Agreement,
     Method,
+    acts,
     agreement,
     within_factor_two,
 )
@@ -111,6 +113,18 @@ class ComparedCase(OfStructure):
         sides = cracked(self.period_result.scene.structure, self.case.crack).mechanism().sides
         prediction = self.case.prediction
         return sides[-1 if prediction is not None and prediction.pulse.amplitude > 0 else 0]
+
+    @property
+    def acts(self) -> Acts | None:
+        """When the pulse acts beside the fall of the integration."""
+        prediction, response = self.case.prediction, self.case.response
+        if prediction is None or response is None:
+            return None
+        pulse = prediction.pulse
+        p = prediction.block.frequency_parameter
+        return acts(
+            start=pulse.start_time, end=pulse.end_time, fall=response.fall_time, frequency_parameter=p
+        )
 
 
 of_case = Columns(ComparedCase)
@@ -230,6 +244,14 @@ class ComparisonRow(DecidedRow[ComparedCase]):
     peak_time_s: float = of_response(
         "Time of the largest rotation after the first sample", lambda response: response.peak_time
     )
+    fall_time_s: float = of_response(
+        "Time at which it passes its critical rotation where it overturns",
+        lambda response: response.fall_time,
+    )
+    pulse_acts: Acts | None = of_case(
+        "Whether the pulse acts before, during or after that fall; empty without one. After it predicted none",
+        lambda of: of.acts,
+    )
     fragile: bool | None = of_response(
         "Whether a change of 1 % in the ground motion, or chaotic motion, decides the outcome",
         lambda response: response.fragile,
@@ -251,6 +273,12 @@ class ComparisonRow(DecidedRow[ComparedCase]):
     ties: str = of_check(
         "Which ties yield or break on the way to the largest rotation", lambda check: check.ties
     )
+
+    @property
+    def sees_fall(self) -> bool:
+        """Whether the closed form falls with the integration, by a pulse that begins before the fall."""
+        both_fall = self.predicted_rotation_ratio == self.integrated_rotation_ratio == math.inf
+        return both_fall and self.pulse_acts is not Acts.AFTER
 
 
 RATIO_COLUMNS = {

@@ -2,7 +2,7 @@
 
 import math
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
@@ -13,7 +13,7 @@ import numpy as np
 from rocking.assessment.rows import of_inputs as inputs
 from rocking.assessment.rows import of_record as rows
 from rocking.records import Accelerogram
-from rocking.records.sample import TAIL, UNNAMED, Sample
+from rocking.records.sample import MADE, TAIL, UNNAMED, Sample
 from rocking.tables import Columns, Row, RowOf, row
 
 
@@ -35,13 +35,33 @@ def sample_of_records(
     return list(firsts), Sample.of(list(firsts.values()), rows=list(firsts), each_unnamed=each_unnamed)
 
 
+def made_records(records: Iterable[inputs.RecordRow]) -> set[str]:
+    """Return the identifiers of the records that nobody recorded."""
+    return {component.record for component in records if component.event == MADE}
+
+
+def counted_apart(
+    comparison: Iterable[rows.ComparisonRow], made: Container[str]
+) -> tuple[list[rows.ComparisonRow], list[rows.ComparisonRow]]:
+    """Return the cases under what was recorded, and those under made records; where all were made, they come first."""
+    recorded: list[rows.ComparisonRow] = []
+    beside: list[rows.ComparisonRow] = []
+    for case in comparison:
+        (beside if case.record in made else recorded).append(case)
+    return (recorded, beside) if recorded else (beside, [])
+
+
 @dataclass(frozen=True, eq=False)
 class CountedCases:
-    """The cases of one structure ("": of all) that have both ratios. names: station and earthquake of each record."""
+    """The cases of one structure ("": of all) that have both ratios.
+
+    names: station and earthquake of each record. made: whether they are those under made records.
+    """
 
     structure: str
     cases: Sequence[rows.ComparisonRow]
     names: Mapping[str, tuple[str, str]]
+    made: bool = False
 
     @cached_property
     def sample(self) -> Sample:
@@ -88,13 +108,12 @@ class CountedCases:
 
     @cached_property
     def agreements(self) -> Counter[str]:
-        """How many fall in both (hits), in the integration alone (misses), in the closed form alone (false_alarms)."""
-        names = {(True, True): "hits", (False, True): "misses", (True, False): "false_alarms"}
-        falls = (
-            (math.isinf(row.predicted_rotation_ratio), math.isinf(row.integrated_rotation_ratio))
-            for row in self.cases
+        """How many falls the closed form sees (hits), how many not (misses); how many it sees alone (false_alarms)."""
+        hits = sum(row.sees_fall for row in self.cases)
+        false = sum(
+            row.integrated_rotation_ratio < row.predicted_rotation_ratio == math.inf for row in self.cases
         )
-        return Counter(names[record] for record in falls if record in names)
+        return Counter(hits=hits, misses=self.overturning - hits, false_alarms=false)
 
     @property
     def rock_ratios(self) -> list[float]:
@@ -115,6 +134,10 @@ class AgreementRow(RowOf[CountedCases]):
 
     structure: str = of_cases(
         "Name of the structure in the structure list; empty for all together", lambda of: of.structure
+    )
+    made: bool = of_cases(
+        "Whether of the made records alone, which no other row counts beside recorded ones",
+        lambda of: of.made,
     )
     records: int = of_cases("Number of records", lambda of: len({row.record for row in of.cases}))
     stations: int = of_cases("Number of stations of these", lambda of: of.stations)
@@ -141,10 +164,11 @@ class AgreementRow(RowOf[CountedCases]):
         lambda of: of.overturning,
     )
     overturning_hits: int = of_cases(
-        "Number of these that overturn in the closed form", lambda of: of.agreements["hits"]
+        "Number of these that the closed form sees: it overturns by a pulse that begins before the fall",
+        lambda of: of.agreements["hits"],
     )
     overturning_misses: int = of_cases(
-        "Number of these that stand in the closed form", lambda of: of.agreements["misses"]
+        "Number of these that it does not see", lambda of: of.agreements["misses"]
     )
     overturning_false_alarms: int = of_cases(
         "Number of cases that overturn in the closed form alone", lambda of: of.agreements["false_alarms"]
@@ -152,20 +176,26 @@ class AgreementRow(RowOf[CountedCases]):
 
 
 def agreement_rows(
-    comparison: Iterable[rows.ComparisonRow], names: Mapping[str, tuple[str, str]]
+    comparison: Iterable[rows.ComparisonRow],
+    names: Mapping[str, tuple[str, str]],
+    made: Container[str] = (),
 ) -> Iterator[AgreementRow]:
-    """Yield the counts of all and of each structure.
+    """Yield the counts of all, of all under made records where there are any, and of each structure.
 
-    comparison: the cases that are counted, of all records. names: station and earthquake of each record.
+    comparison: the cases that are counted, of all records. names: station and earthquake of each record. made: the
+    records that nobody recorded.
     """
     compared = [
         row
         for row in comparison
         if not (math.isnan(row.predicted_rotation_ratio) or math.isnan(row.integrated_rotation_ratio))
     ]
-    yield AgreementRow.of(CountedCases("", compared, names))
+    recorded, of_made = counted_apart(compared, made)
+    yield AgreementRow.of(CountedCases("", recorded, names))
+    if of_made:
+        yield AgreementRow.of(CountedCases("", of_made, names, made=True))
     of_each: dict[str, list[rows.ComparisonRow]] = {}
-    for case in compared:
+    for case in recorded:
         of_each.setdefault(case.structure, []).append(case)
     for structure, cases in of_each.items():
         yield AgreementRow.of(CountedCases(structure, cases, names))

@@ -22,7 +22,7 @@ from rocking.products.fragility.rows import (
     IntensityMeasureRow,
 )
 from rocking.quantities import counted
-from rocking.records.sample import FEWEST
+from rocking.records.sample import FEWEST, interval_words
 from rocking.reports.pages import CaptionedTable, Panel, Part, PlainPage
 from rocking.reports.panels import CurveBand, draw_probability
 from rocking.reports.printing import (
@@ -105,6 +105,7 @@ def fragility_data(
     """Return the page. The tables are fragility, fragility_summary, ida and intensity_measures."""
     stations = max((row.stations for row in summary), default=0)
     earthquakes = max((row.earthquakes for row in summary), default=0)
+    label = interval_words(earthquakes)
     sample = f"{counted(stations, 'station')} of {counted(earthquakes, 'earthquake')}"
     scaled = (
         "Each record of the study is scaled up until the structure overturns; a level counts by its stations."
@@ -113,14 +114,14 @@ def fragility_data(
     of_curves = (
         "Share of the stations that overturn each structure with the crack that governs, the worst of those that may "
         "form, and that exceed a rotation (overturns, or a share of the critical rotation φcr) with that of statics. "
-        "Dot and bar: the median of overturning with the crack that governs, and its 90 % interval."
+        f"Dot and bar: the median of overturning with the crack that governs, and its {label}."
     )
     parts = [Part(text=scaled + few * (stations < FEW_STATIONS or earthquakes < FEWEST))]
     names = list(dict.fromkeys(curves["structure"]))
     for first in range(0, len(names), ON_A_PAGE):
         page = names[first : first + ON_A_PAGE]
         figure = fragility_figure(curves[curves["structure"].isin(page)], summary)
-        alt = f"Fragility curves of {counted(len(page), 'structure')} with 90 % intervals."
+        alt = f"Fragility curves of {counted(len(page), 'structure')}, each with its {label}."
         parts.append(Part(pictures=(picture(figure, alt),), caption=of_curves))
     parts.append(_part(fragility_table(summary, ida)))
     if faults:
@@ -145,6 +146,7 @@ def fragility_panel(rows: Mapping[type[Row], Iterable[Row]]) -> Panel:
 
 def fragility_table(summary: Sequence[FragilitySummaryRow], ida: "DataFrame") -> CaptionedTable:
     """Return one row per structure: its median, that with the worst crack, and what overturns it first."""
+    label = interval_words(max((row.earthquakes for row in summary), default=0))
     falls = [row for row in summary if row.threshold == math.inf]
     first_rows = _governing_rows(summary)
     governed = {row.structure for row in falls if row.governing}
@@ -155,11 +157,11 @@ def fragility_table(summary: Sequence[FragilitySummaryRow], ida: "DataFrame") ->
     first = "First to overturn it, and at what level"
     elsewhere = "Median with the crack of statics"
     of_statics: Column = (elsewhere, "1.0", "l", lambda row: words(by_statics.get(row.structure)))
-    rate: Column = ("Annual rate and its 90 % interval [1/year]", "1.0", "r", _rate_with_interval)
+    rate: Column = (f"Annual rate and its {label} [1/year]", "1.0", "r", _rate_with_interval)
     table = table_of(
         list(first_rows.values()),
         ("Structure", "1.3", "l", lambda row: row.structure),
-        ("Median and its 90 % interval", "1.3", "l", lambda row: _with_interval(row, row.intensity_measure)),
+        (f"Median and its {label}", "1.3", "l", lambda row: _with_interval(row, row.intensity_measure)),
         *([of_statics] if by_statics else []),
         ("Disper\u00adsion [-]", "0.6", "r", lambda row: number(row.dispersion, 2)),
         (
@@ -174,7 +176,7 @@ def fragility_table(summary: Sequence[FragilitySummaryRow], ida: "DataFrame") ->
         *([rate] if any(row.annual_rate_high > 0 for row in falls) else []),
     )
     caption = (
-        "Level that half of the stations overturn each structure at, with its 90 % interval by earthquakes (– where "
+        f"Level that half of the stations overturn each structure at, with its {label} by earthquakes (– where "
         "it is not known), for the crack that governs, the worst of those that may form, and for that of statics; the "
         "stations that reach this level within the largest factor, and the factor with which nine in ten would; "
         "dispersion of the lognormal curve; "
@@ -322,7 +324,9 @@ def _draw_median(panel: Axes, row: FragilitySummaryRow) -> None:
         return
     high = row.median_high if math.isfinite(row.median_high) else panel.get_xlim()[1]
     panel.plot([row.median_low, high], [0.5, 0.5], color="black", linewidth=2.2, solid_capstyle="butt")
-    panel.plot(row.median, 0.5, "o", color="black", markersize=5, label="median, 90 %")
+    panel.plot(
+        row.median, 0.5, "o", color="black", markersize=5, label=f"median, {interval_words(row.earthquakes)}"
+    )
 
 
 def _draw_curve(panel: Axes, curve: "DataFrame") -> None:

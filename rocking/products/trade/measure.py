@@ -22,7 +22,7 @@ from rocking.pulses import DEMAND_CANDIDATES, PulseEvidence, extract_pulses
 from rocking.pulses.pulse import DOMINATES
 from rocking.quantities import counted
 from rocking.records import Accelerogram
-from rocking.records.sample import Sample
+from rocking.records.sample import Sample, interval_words
 from rocking.sine_pulse import predict_as_printed, predict_maximum
 from rocking.structures import EquivalentBlock, Mechanism, Structure
 
@@ -240,7 +240,7 @@ def _in_words(row: TradeRow) -> str:
     bounds = ""
     if row.earthquakes > 1:
         share = f"{100 * row.wrong_share_low:.0f}–{100 * row.wrong_share_high:.0f} %"
-        bounds = f" (90 %: {share} of such cases, by {counted(row.earthquakes, 'earthquake')})"
+        bounds = f" ({interval_words(row.earthquakes)}: {share} of such cases)"
     return f"{row.wrong_verdicts} of {row.cases} verdicts wrong{bounds}{unsafe}{error}"
 
 

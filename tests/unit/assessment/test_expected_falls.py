@@ -133,7 +133,8 @@ def test_a_class_is_told_in_one_sentence() -> None:
         )
     ]
     assert falls_in_words(rows) == (
-        "41 of 300 structures are expected to fall under such a record (90 %: 33–50, by the spread over 7 stations "
+        "41 of 300 structures are expected to fall under such a record (interval of 2 earthquakes, which holds less "
+        "than nine times in ten: 33–50, by the spread over 7 stations "
         "of 2 earthquakes); nothing lifts any of them at 3 of 7 stations; "
         "11.5 more cannot be told per record on average."
     )

@@ -135,9 +135,7 @@ def test_below_so_many_structures_a_record_the_closed_form_costs_more():
         assert (by_sine > structures * MECHANISM.cpu_s) is dear
     told = list(what_follows([ONE_SINE, MECHANISM]))
     assert "below 45 structures a record the closed form is the slower method" in told[0]
-    assert (
-        "8 of 200 verdicts wrong (90 %: 1–9 % of such cases, by 8 earthquakes), 1 of them unsafe" in told[1]
-    )
+    assert "8 of 200 verdicts wrong (90 % interval: 1–9 % of such cases), 1 of them unsafe" in told[1]
     assert break_even(ONE_SINE, made(TradeMethod.MECHANISM, cpu_s=1e-5)) == np.inf
     assert list(what_follows([MECHANISM])) == []
 

@@ -13,7 +13,6 @@ from docs.site.build import written_pages
 from docs.site.measured import FIGURES, ROOT, code_sha256, figures, main, meaning, records_sha256
 from docs.site.pages import filled
 from rocking.errors import ConfigurationError
-from rocking.pulses.pulse import WORTHS
 from rocking.reports.printing import MEASURED
 
 SOURCE = '''"""A module."""
@@ -182,13 +181,3 @@ def test_a_figure_is_older_where_its_list_of_records_has_changed():
     figure = replace(next(iter(figures().values())), records_sha256=records_sha256("near_fault"))
     figure = replace(figure, code_sha256=code_sha256(figure.files.split()))
     assert not figure.is_older and replace(figure, records_sha256="0" * 16).is_older
-
-
-def test_what_a_report_says_of_a_sine_is_what_was_measured():
-    for worth in WORTHS:
-        part = f"{worth.energy:g} or more of the energy"
-        same, found = (
-            kept.score("worth", "closed form under the best sine", part, measure).value
-            for measure in ("same outcome", "falls found")
-        )
-        assert (round(same, 2), round(found, 2)) == (worth.same_outcome_share, worth.falls_found), part

@@ -11,7 +11,7 @@ from docs.research.earthquakes import sample_of, weighted_median
 from rocking.errors import ConfigurationError
 from rocking.records import Accelerogram
 from rocking.records.kinds import RecordKind
-from rocking.records.sample import CORRELATION, FEWEST, Sample, earthquakes_of
+from rocking.records.sample import CORRELATION, FEWEST, Sample, earthquakes_of, interval_words
 from tests.refusals import refused
 
 
@@ -184,3 +184,27 @@ def test_the_interval_of_a_median_holds_it_with_few_earthquakes_of_several_stati
             held[trial, column] = low <= 1.0 <= high
     inside, as_if = held.mean(axis=0)
     assert inside >= 0.85 and as_if < inside - 0.1
+
+
+def test_the_order_of_the_catalogue_draws_no_other_samples():
+    """Each station is drawn as often, wherever it stands; by the share of its draws that are zero, one, two, ..."""
+    stations, events = tuple("abcdefg"), tuple("XXYZZZY")
+    order = np.random.default_rng(2).permutation(7)
+    drawn = Sample(stations, events).redrawn(200)
+    again = Sample(
+        tuple(stations[place] for place in order), tuple(events[place] for place in order)
+    ).redrawn(200)
+    assert np.array_equal(again, drawn[:, order])
+
+
+@pytest.mark.parametrize(
+    ("earthquakes", "words"),
+    [
+        (1, "interval, which one earthquake does not give"),
+        (FEWEST - 1, "interval of 4 earthquakes, which holds less than nine times in ten"),
+        (FEWEST, "90 % interval"),
+    ],
+)
+def test_an_interval_is_called_by_how_many_earthquakes_are_behind_it(earthquakes, words):
+    assert interval_words(earthquakes) == words
+    assert Sample.scattered([f"{each}" for each in range(earthquakes)]).interval_words == words

@@ -9,10 +9,10 @@ import pytest
 
 from rocking.assessment.decide import ORDER
 from rocking.assessment.kinds import AssessmentKind
-from rocking.assessment.methods import Agreement
+from rocking.assessment.methods import Acts, Agreement
 from rocking.assessment.rows import rows_of_record, structure_rows
 from rocking.assessment.scene import Scene
-from rocking.pulses.pulse import worth_of
+from rocking.quantities import counted
 from rocking.records.accelerogram import Accelerogram
 from rocking.remarks import Remark
 from rocking.reports import printing
@@ -139,16 +139,21 @@ def test_a_client_gets_a_page_to_look_at_of_at_most_330_words(example, count):
 
 
 @pytest.mark.usefixtures("undrawn")
-def test_whether_one_sine_dominates_is_said(example):
-    """By the words of the table of what the closed form is worth, at its edges."""
-    clauses = {}
-    for share in (0.05, 0.299, 0.3, 0.499, 0.5, 0.9):
-        pulses = [replace(row, explained_energy=share) for row in example.tables.pulses]
-        clauses[share] = with_tables(example, pulses=pulses).page_one.sine.clause
-    for share, clause in clauses.items():
-        assert clause.startswith(worth_of(share).words)
-        assert ("trust the dots" in clause) == (worth_of(share).falls_found < 0.6)
-    assert len({clause.partition(":")[0] for clause in clauses.values()}) == 3
+def test_page_one_counts_in_its_rows_how_the_sine_ends(example):
+    """A fall that is over before the sine begins is none that it sees."""
+    falling = {"predicted_rotation_ratio": np.inf, "integrated_rotation_ratio": np.inf}
+    for acting, sees in ((Acts.DURING, True), (Acts.BEFORE, True), (Acts.AFTER, False)):
+        rows = [
+            replace(row, **falling, agreement=Agreement.SAME, pulse_acts=acting)
+            for row in example.tables.comparison
+        ]
+        page = with_tables(example, comparison=rows).page_one
+        count = len(page.rows)
+        seen = count if sees else 0
+        assert (
+            page.sine.clause
+            == f"The sine ends as the record in {seen} of {count}, and sees {seen} of {counted(count, 'fall')}."
+        )
 
 
 @pytest.mark.usefixtures("undrawn")
