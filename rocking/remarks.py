@@ -6,10 +6,11 @@ reads them.
 """
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from string import Formatter
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 if TYPE_CHECKING:
     from pydantic_core import CoreSchema
@@ -69,6 +70,23 @@ def kind_of(code: str) -> Kind:
     if code not in (kinds := every_kind()):
         raise ValueError(f"remark {code!r} is of no kind that is declared.")
     return kinds[code]
+
+
+class Phrase(str):
+    """English words with their values, which are also known by their parts, so that a page can say them in Italian.
+
+    text: with its values in braces. values: texts, which may be phrases themselves, and numbers.
+    """
+
+    text: str
+    values: Mapping[str, Value]
+
+    def __new__(cls, text: str, /, **values: Value) -> Self:
+        """Make the phrase of a text and the values that it names."""
+        phrase = super().__new__(cls, text.format(**values))
+        phrase.text = text
+        phrase.values = values
+        return phrase
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,7 @@ from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.motion.response import lifting_friction
 from rocking.motion.table import table_of
-from rocking.remarks import Remark
+from rocking.remarks import Phrase, Remark
 from rocking.structures import Structure
 from rocking.structures.crackable import WEAK_MASONRY
 from rocking.structures.leaves import of_leaf, parts_of
@@ -146,7 +146,7 @@ def _with_geometry(several: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
     )
     if len(several) == 1:
         typed = first.mechanism.restitution
-        several = (replace(first, description=f"restitution {typed:.2f} as typed"),)
+        several = (replace(first, description=Phrase("restitution {typed:.2f} as typed", typed=typed)),)
     return (*several, livelier)
 
 

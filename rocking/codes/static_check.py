@@ -20,7 +20,7 @@ from rocking.codes.kinds import CheckKind
 from rocking.errors import ConfigurationError, DoesNotStandError, StructureError
 from rocking.quantities import GRAVITY, kind_of, positive
 from rocking.records.design_spectrum import DesignSpectrum
-from rocking.remarks import Remark
+from rocking.remarks import Phrase, Remark
 from rocking.structures import Structure
 from rocking.structures.crackable import Crackable
 from rocking.structures.joints import USUAL
@@ -179,15 +179,15 @@ def _opening(structure: Structure) -> Iterator[Candidate]:
     bulges = [candidate for candidate in family if candidate.bulges and not candidate.refusal]
     for candidate in cracked:
         body = candidate.structure
-        opens = "" if candidate.description == AS_DESCRIBED else f"{candidate.description}, "
         opens_elsewhere = bulges and not structure.crack_is_known
         shut = opens_elsewhere and isinstance(body, Tied) and not body.lets_go
         for sign, side in _sides(body):
             if shut and sign > 0:
                 continue
-            falls = "" if body.symmetric else side
-            words = f"{opens}{falls}".removesuffix(", ") or AS_DESCRIBED
-            yield replace(candidate, description=words, sign=sign)
+            opens = candidate.description
+            if not body.symmetric:
+                opens = side if opens == AS_DESCRIBED else Phrase("{opens}, {side}", opens=opens, side=side)
+            yield replace(candidate, description=opens, sign=sign)
     for candidate in bulges:
         wall = candidate.structure
         assert isinstance(wall, Tied)

@@ -14,7 +14,7 @@ from typing import Any
 
 from rocking import quantities
 from rocking.assessment.decide import Verdict
-from rocking.remarks import Remark
+from rocking.remarks import Phrase, Remark
 from rocking.reports import printing
 from rocking.reports.pages import Language
 from rocking.reports.printing import unit_of
@@ -56,6 +56,16 @@ class Sentences:
 
     def _translated(self, text: str, context: str = "") -> str:
         return catalogue(self.language).get((context, text), text)
+
+    def phrase(self, words: str) -> str:
+        """Return words that a structure is described with, each of their parts in the language."""
+        if not isinstance(words, Phrase):
+            return self._translated(words)
+        values = {
+            name: self.phrase(value) if isinstance(value, str) else value
+            for name, value in words.values.items()
+        }
+        return self(words.text, **values)
 
     def of(self, remark: Remark) -> str:
         """Return a remark in words."""

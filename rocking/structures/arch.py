@@ -15,6 +15,7 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 
 from rocking.errors import DoesNotStandError, SizeError, StructureError, StructureWarning
+from rocking.remarks import Phrase
 from rocking.structures.arch_mechanism import (
     FourBar,
     NoMechanism,
@@ -214,13 +215,16 @@ class Arch(Crackable):
         return self._in_words(self.onset.hinges)
 
     def _in_words(self, angles: np.ndarray) -> str:
-        return "hinges at " + ", ".join(map(self._hinge_text, angles))
+        hinges = dict(zip("abcd", map(self._hinge_text, angles), strict=True))
+        return Phrase("hinges at {a}, {b}, {c}, {d}", **hinges)
 
     def _hinge_text(self, angle: float) -> str:
         foot = self.ring.feet(angle - self.embrace_angle / 2)
         if foot:
             return "the left foot" if foot < 0 else "the right foot"
-        return f"{abs(np.degrees(angle)):.0f}°"  # candidates lie several degrees apart
+        return Phrase(
+            "{angle:.0f}°", angle=float(abs(np.degrees(angle)))
+        )  # candidates lie several degrees apart
 
     @cached_property
     def static_multiplier(self) -> float:

@@ -10,7 +10,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 import numpy as np
 
 from rocking.errors import DoesNotStandError, SizeError, StructureError, StructureWarning
-from rocking.remarks import Remark
+from rocking.remarks import Phrase, Remark
 from rocking.structures.fields import CompressiveStrength, Value
 from rocking.structures.kinds import StructureKind
 from rocking.structures.linkage import HIGHEST_SHARE
@@ -154,7 +154,7 @@ class CrackedAtHeight(Crackable):
         return self._in_words(self.crack_position)
 
     def _in_words(self, height: float) -> str:
-        return f"{self.crack_name} at {height:.4g} m"
+        return Phrase(f"{self.crack_name} at {{height:.4g}} m", height=float(height))
 
     def _places(self, count: int) -> list[float]:
         """The heights above the base [m] at which it may open, `count` over its height at least."""

@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from rocking.remarks import Phrase
 from rocking.structures.drawing import rectangle
 from rocking.structures.joints import USUAL, Joints
 from rocking.structures.linkage import (
@@ -605,31 +606,33 @@ class HeldWall:
     def name(self, opening: Opening) -> str:
         """Return what it does, in words."""
         below = self._kind_at(opening.foot)
-        side = "" if opening.outwards else "inwards"
+        inwards = "" if opening.outwards else " inwards"
         if opening.is_triangle:
             return "falls between two ties of a row"
         if opening.between:
-            return f"{self._between_ties.name(replace(opening, between=False))}, between ties of a row"
+            does = self._between_ties.name(replace(opening, between=False))
+            return Phrase("{does}, between ties of a row", does=does)
         if opening.hinge is None:
             highest = max((hold.height for hold in self.holds if hold.outwards), default=np.inf)
             if opening.foot == 0:
                 slips = ", its top slipping" if self.slip(opening) else ""
-                return " ".join(filter(None, ("overturns", side, "about its foot"))) + slips
+                return f"overturns{inwards} about its foot{slips}"
             if opening.foot >= highest:
                 kind = next(hold.kind for hold in self.holds if hold.height == highest)
-                return " ".join(filter(None, (side, f"above the {kind}")))
+                return f"{inwards} above the {kind}".strip()
             feet = {storey.low for storey in self.storeys}
             place = "upper storey alone" if opening.foot in feet else "above a joint"
-            return " ".join(filter(None, (side, place)))
+            return f"{inwards} {place}".strip()
         if opening.hold is None:
-            return " ".join(filter(None, ("sways", side, "under the slab")))
+            return f"sways{inwards} under the slab"
         above = self._kind_at(opening.hold)
-        ends = f"two {below}s" if below == above else f"{below} and {above}"
-        moves = ("bulges" if opening.forwards else "kicks back", side, f"between {ends}")
-        words = " ".join(filter(None, moves))
+        ends = f"two {below}s" if below == above else Phrase("{below} and {above}", below=below, above=above)
+        moves = ("bulges" if opening.forwards else "kicks back") + inwards
+        words = Phrase("{moves} between {ends}", moves=moves, ends=ends)
         if opening.upright or opening.hold >= self.height * (1 - _SAME):
             return words
-        return words + (", the top turning back" if opening.forwards else ", the top falling")
+        turns = "the top turning back" if opening.forwards else "the top falling"
+        return Phrase("{does}, {turns}", does=words, turns=turns)
 
     def _kind_at(self, height: float) -> str:
         """The kind of what is at a height [m]."""

@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 import numpy as np
 
 from rocking.errors import DoesNotStandError, SizeError, StructureWarning
-from rocking.remarks import Remark
+from rocking.remarks import Phrase, Remark
 from rocking.structures.drawing import Mark, Path, plane, rectangle, span
 from rocking.structures.fields import Value, length
 from rocking.structures.kinds import StructureKind
@@ -248,9 +248,11 @@ class Leaved(Structure):
 
 def of_leaf(name: str, candidate: Candidate) -> Candidate:
     """Return a mechanism of a leaf as one of the wall, which names it."""
-    alone = f"{name} alone"
-    opens = "" if candidate.description == AS_DESCRIBED else f", {candidate.description}"
-    return replace(candidate, description=alone + opens, name=f"{alone} {candidate.name}", part=name)
+    alone = Phrase("{part} alone", part=name)
+    opens = Phrase("{alone}, {opens}", alone=alone, opens=candidate.description)
+    description = alone if candidate.description == AS_DESCRIBED else opens
+    does = Phrase("{alone} {does}", alone=alone, does=candidate.name)
+    return replace(candidate, description=description, name=does, part=name)
 
 
 def parts_of(structure: Structure) -> tuple[LeafAlone, ...]:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from rocking.errors import DoesNotStandError, SizeError, StructureError, StructureWarning
 from rocking.quantities import GRAVITY
-from rocking.remarks import Remark
+from rocking.remarks import Phrase, Remark
 from rocking.structures.crackable import CrackedAtHeight
 from rocking.structures.drawing import Bay, Mark, plane, rectangle
 from rocking.structures.fields import Value
@@ -465,7 +465,9 @@ class Tied(CrackedAtHeight, Leaved):
             sign = 1 if opening.outwards else -1
             name = wall.name(opening)
             is_named = opening.hinge is not None or opening.between or wall.slip(opening) != 0
-            words = f"{what} at {place:.4g} m" + (f" ({name})" if is_named else "")
+            words = Phrase(f"{what} at {{height:.4g}} m", height=float(place))
+            if is_named:
+                words = Phrase("{opens} ({does})", opens=words, does=name)
             family.append(Candidate(words, place, opened, name=name, limit=multiplier, sign=sign))
         return tuple(family)
 
@@ -630,8 +632,10 @@ class Tied(CrackedAtHeight, Leaved):
         way = self._way(sign < 0)
         if way is None:
             return self.crack_in_words
-        hinge = "" if way.hinge is None else f", hinge at {way.hinge:.4g} m"
-        return self.held_wall.name(way) + hinge
+        does = self.held_wall.name(way)
+        if way.hinge is None:
+            return does
+        return Phrase("{does}, {opens}", does=does, opens=Phrase("hinge at {height:.4g} m", height=way.hinge))
 
     def _way(self, mirrored: bool) -> Opening | None:
         """The way it opens to one side; None: about the crack as it is described."""

@@ -31,7 +31,7 @@ from rocking.products.checks.pages import Answer, Basis, SetFigure, Sheet, SignW
 from rocking.products.checks.rows import KINDS, code_check_rows
 from rocking.quantities import GRAVITY, percent
 from rocking.records.design_spectrum import DesignSpectrum, NtcSpectrum, PointSpectrum
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Kind, Phrase, Remark
 from rocking.reports.pages import Cell, Fact, Footer, PageSettings, Strip, Table
 from rocking.reports.printing import UNITS_IN_WORDS, displaying, stamp, strong, table, unit_of
 from rocking.reports.printing import words as or_a_dash
@@ -218,7 +218,7 @@ def _sheets(
                         ),
                     )
                     answer = Answer(
-                        way=opening_words(checked.governing, words),
+                        way=words.phrase(checked.governing.description),
                         bars=(bars,),
                         sure=_sure(page, checked.dynamic, words),
                         assumptions=tuple(_assumptions(page, checked.governing, words)),
@@ -360,7 +360,7 @@ def _were_it_unknown(checked: StructureCheck, words: Sentences) -> list[str]:
         return []
     other = checked.were_it_unknown.checks[-1]
     opens = next(
-        opening_words(mechanism, words)
+        words.phrase(mechanism.description)
         for mechanism in checked.were_it_unknown.mechanisms
         if mechanism.description == other.mechanism
     )
@@ -618,7 +618,7 @@ def _check_table(checked: StructureCheck, words: Sentences) -> Table:
             ratio_words(check, words),
             strong(words(check.outcome)),
             words(checked.part_of(check).in_words),
-            opening_words(governing[check.mechanism], words),
+            words.phrase(governing[check.mechanism].description),
         ]
         for check in checked.checks
     ]
@@ -657,12 +657,12 @@ def _mechanism_table(page: CheckedStructure, words: Sentences) -> Table:
 
 def _falls(candidate: Candidate, words: Sentences) -> str:
     """What falls, and where it opens."""
-    if words.language != "en":
-        return _opens(candidate, words)
-    alone = f"{candidate.part} alone" if candidate.part else ""
-    opens = candidate.description.removeprefix(alone).removeprefix(", ")
-    opens = opens.removesuffix(f" ({candidate.name.removeprefix(alone).strip()})")
-    return candidate.name if opens in ("", AS_DESCRIBED) else f"{candidate.name}: {opens}"
+    opens = candidate.description
+    while isinstance(opens, Phrase) and "opens" in opens.values:
+        opens = opens.values["opens"]  # type: ignore[assignment]
+    is_nowhere = opens == AS_DESCRIBED or (isinstance(opens, Phrase) and "part" in opens.values)
+    name = words.phrase(candidate.name)
+    return name if is_nowhere else f"{name}: {words.phrase(opens)}"
 
 
 def _holds(candidate: Candidate, largest_forces: Sequence[float], words: Sentences) -> str:
@@ -700,40 +700,6 @@ def _valued(check: Check, value: float, words: Sentences) -> str:
     return f"{letter} = {words.quantity(value, check.unit)}"
 
 
-def opening_words(mechanism: CodeCapacity, words: Sentences) -> str:
-    """Return what opens, and to which side it falls."""
-    if words.language == "en":
-        return mechanism.description
-    return _opens(mechanism.candidate, words)
-
-
-def _opens(candidate: Candidate, words: Sentences) -> str:
-    """What opens, and to which side it falls."""
-    body = candidate.structure
-    opening = body.opening if isinstance(body, Tied) else None
-    position = getattr(body, "crack_position", math.nan)
-    if opening is not None:
-        heights = {
-            name: words.number(value)
-            for name in ("foot", "hinge", "hold")
-            if (value := getattr(opening, name)) is not None
-        }
-        key = (
-            "opens at {foot} m, hinge at {hinge} m, held at {hold} m"
-            if "hold" in heights
-            else "opens at {foot} m, hinge at {hinge} m"
-            if "hinge" in heights
-            else "opens at {foot} m"
-        )
-        opens = words(key, **heights)
-    elif math.isfinite(position):
-        opens = words("opens at {height} m", height=words.number(position))
-    else:
-        opens = words("as described")
-    side = "" if body.symmetric else words(body.side_names[0 if candidate.sign >= 0 else 1])
-    return ", ".join(filter(None, (words(f"{candidate.part} alone") if candidate.part else "", opens, side)))
-
-
 def _sentences(page: CheckedStructure, checked: StructureCheck, words: Sentences) -> list[str]:
     """The basis of the checks, in sentences."""
     mechanism = checked.governing
@@ -742,7 +708,7 @@ def _sentences(page: CheckedStructure, checked: StructureCheck, words: Sentences
         words(
             "Mechanism that governs: {mechanism}; α₀ = {multiplier}, e* = {mass}, FC = {factor}, d₀ = "
             "{displacement}; it starts at a_g = {start} (SLD).",
-            mechanism=opening_words(mechanism, words),
+            mechanism=words.phrase(mechanism.description),
             multiplier=words.number(mechanism.onset_multiplier),
             mass=words.number(mechanism.participating_mass_ratio),
             factor=words.plain(mechanism.confidence_factor),
@@ -830,9 +796,9 @@ def _lowered(checked: StructureCheck, untied: StructureCheck | None, words: Sent
         "tie it is {other}, with {untied}: the part that moves is shorter, starts at a higher acceleration "
         "and overturns at a smaller displacement.",
         tied=ratio_words(checked.nonlinear, words),
-        mechanism=opening_words(checked.governing, words),
+        mechanism=words.phrase(checked.governing.description),
         untied=ratio_words(untied.nonlinear, words),
-        other=opening_words(untied.governing, words),
+        other=words.phrase(untied.governing.description),
     )
     return [said]
 

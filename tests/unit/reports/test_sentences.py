@@ -1,6 +1,9 @@
 """The catalogue of the pages to sign: whole in both languages, and an Italian page has no English sentence."""
 
+import ast
+import inspect
 import re
+from contextlib import suppress
 from dataclasses import fields, is_dataclass
 from string import Formatter
 from typing import get_args
@@ -8,18 +11,25 @@ from typing import get_args
 import numpy as np
 import pytest
 
-from rocking import Block, CapacityCurve, DesignSpectrum, Facade, check
+from rocking import Block, CapacityCurve, DesignSpectrum, Facade, LoadedWall, Wall, check
 from rocking.assessment.decide import Verdict
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.reserve import Reserve
 from rocking.codes.kinds import CheckKind
 from rocking.codes.selection import random_sets, search
 from rocking.errors import RockingError
+from rocking.floors.kinds import FloorKind
+from rocking.products.checks import figures, report
 from rocking.products.checks.report import CheckedStructure, structures_data
+from rocking.products.checks.work import mechanisms_of
 from rocking.remarks import Remark
+from rocking.reports import sentences
+from rocking.reports.kinds import ReportKind
 from rocking.reports.pages import Language, Picture
 from rocking.reports.printing import displaying
 from rocking.reports.sentences import Sentences, catalogue
+from rocking.structures.kinds import StructureKind
+from rocking.structures.structure_list import TYPES, structure_from_config
 from rocking.study.settings import Settings
 
 ITALIAN = Sentences("it")
@@ -125,6 +135,105 @@ def test_an_italian_page_has_no_english_sentence():
         drawn = [text for svg in drawings for text in re.findall(r"<text[^>]*>([^<]*)</text>", svg)]
         assert drawn and not [text for text in drawn if english.search(text)]
         assert not [text for text in drawn if re.search(r"\d\.\d", text) and not text.startswith("C8.")]
+
+
+TIES = {"tie_heights": (2.9,), "tie_stiffness": 1e6, "tie_strength": 20e3}
+FRONT = {"storey_heights": (3.0,), "thicknesses": (0.5,), "unit_weight": 20e3, "floor_loads": (5e3,)}
+TWO_STOREYS = {
+    "storey_heights": (3.5, 3.0), "thicknesses": (0.6, 0.5), "unit_weight": 20e3, "floor_loads": (5e3, 4e3),
+}  # fmt: skip
+LOADED = {"height": 6.0, "thickness": 0.35, "unit_weight": 18e3, "top_load": 40e3}
+HELD = (
+    Facade(**FRONT, **TIES),
+    Facade(**FRONT, tie_heights=(1.5, 2.9), tie_stiffness=1e6),
+    Facade(**FRONT, **TIES, tie_spacing=4.0, unit_length=0.3),
+    Facade(**FRONT, **TIES, tie_spacing=4.0, unit_length=0.3, behind="cross_walls", restitution=0.5),
+    Facade(**TWO_STOREYS, tie_heights=(3.4, 6.3), tie_stiffness=1e6, tie_strength=20e3),
+    Facade(**TWO_STOREYS, tie_heights=(3.4,), tie_stiffness=1e6, behind="floors", restitution=0.5),
+    Facade(**TWO_STOREYS, loads_held=True),
+    Facade(**FRONT, leaves=(0.2, 0.3), restitution=0.6),
+    Facade(**{**FRONT, "thicknesses": (0.6,)}, leaves=(0.2, 0.2, 0.2), bonders=(1.0, 2.0)),
+    LoadedWall.of_size(**LOADED, top_slab="flat", restitution=0.5),
+    LoadedWall.of_size(**LOADED, **TIES, tie_spacing=4.0, unit_length=0.3),
+    LoadedWall.of_size(**LOADED, top_friction=0.05),
+    Wall.of_size(3.2, 0.25, 1.6, crack="known"),
+)
+"""Walls with every kind of hold and of opening."""
+
+
+def every_structure():
+    """A structure of each form with the keys that it must have, of its example, and with each word that a key takes."""
+    entries = []
+    words = set()
+    for kind, forms in TYPES.items():
+        for form in forms:
+            least = {"type": kind, **{key.key: key.value.example for key in form.fields if key.required}}
+            entries += [least, {"type": kind, **form.example}]
+            for key in form.fields:
+                entries += [{**least, key.key: word} for word in key.options if (key.name, word) not in words]
+                words |= {(key.name, word) for word in key.options}
+    for entry in entries:
+        with suppress(RockingError):  # what another key goes with, or a file holds
+            yield structure_from_config(entry)
+    yield from HELD
+
+
+def printed(structure, words):
+    """The texts of the page of a structure on which everything is said that there may be to say."""
+    try:
+        checked, refusal = check(structure, SPECTRUM), ""
+    except RockingError as error:
+        checked, refusal = None, error.remark or str(error)
+    has_ties = bool(getattr(structure, "tie_heights", ()))
+    page = CheckedStructure(
+        name="A",
+        structure=structure,
+        checked=checked,
+        refusal=refusal,
+        untied=checked if has_ties else None,
+        overturning_share=0.25,
+        records=4,
+        stations=3,
+        verdicts=dict.fromkeys(Verdict, 1),
+        mechanisms=mechanisms_of(structure),
+        remarks=(*structure.described.remarks, *structure.cautions),
+    )
+    return texts_of(structures_data([page], SPECTRUM, Settings(language=words).for_pages))
+
+
+@pytest.mark.process
+@pytest.mark.filterwarnings("ignore::rocking.errors.StructureWarning")
+@pytest.mark.usefixtures("undrawn")
+def test_the_catalogue_holds_what_every_page_prints(monkeypatch):
+    asked = set()
+
+    class Asked(dict):
+        def get(self, key, default=None):
+            asked.add(key)
+            return super().get(key, default)
+
+    texts = Asked(ITALIAN_TEXTS)
+    monkeypatch.setattr(sentences, "catalogue", lambda language: texts if language == "it" else {})
+    for structure in every_structure():
+        italian = printed(structure, "it")
+        assert len(italian) == len(printed(structure, "en")), "a page says the same in both languages"
+        assert not any("Error" in text for text in italian)
+    for kind in (*StructureKind, *CheckKind, *ReportKind, FloorKind.HEAVY_ON_SUPPORT, *AssessmentKind):
+        ITALIAN.of(Remark.of(kind, "A", **dict.fromkeys(kind.value_names, 1.5)))
+    for verdict in Verdict:
+        ITALIAN.verdict(verdict)
+    for key in (key for forms in TYPES.values() for form in forms for key in form.fields):
+        ITALIAN(key.phrase, value="1")
+    for module in (report, figures):
+        calls = (
+            node for node in ast.walk(ast.parse(inspect.getsource(module))) if isinstance(node, ast.Call)
+        )
+        for call in (call for call in calls if ast.unparse(call.func) == "words" and call.args):
+            said = call.args[0]
+            either = (said.body, said.orelse) if isinstance(said, ast.IfExp) else (said,)
+            asked |= {("", text.value) for text in either if isinstance(text, ast.Constant)}
+    lacking = {english for context, english in asked - set(ITALIAN_TEXTS) if english.strip()}
+    assert lacking == set()
 
 
 def test_the_languages_are_those_of_the_setting():
