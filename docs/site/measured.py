@@ -116,10 +116,8 @@ def records_sha256(lists: str) -> str:
 def code_sha256(files: Iterable[str]) -> str:
     """Return one hash of what the statements of some files of the repository mean.
 
-    Docstrings, comments, layout, types, what an error says and the names that a file gives to its own variables and
-    functions mean nothing;
-    names of attributes, of what is imported, and of what Python has do. A file that is not Python counts as it is, one
-    that is missing as nothing.
+    Docstrings, comments, layout, types and what an error says mean nothing; names do. A file that is not Python counts
+    as it is, one that is missing as nothing.
     """
     parts = []
     for name in files:
@@ -131,9 +129,7 @@ def code_sha256(files: Iterable[str]) -> str:
 
 def meaning(source: str) -> str:
     """Return the statements of a Python source without what changes none of its results."""
-    tree = _Plain().visit(ast.parse(source))
-    tree = _Apart(tree).visit(tree)
-    return ast.dump(_Renamed(tree).visit(tree))
+    return ast.dump(_Plain().visit(ast.parse(source)))
 
 
 class _Plain(ast.NodeTransformer):
@@ -160,160 +156,6 @@ def _says_nothing(statement: ast.stmt) -> bool:
     """Whether it is a text by itself, as a docstring is."""
     is_text = isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
     return is_text and isinstance(statement.value.value, str)  # type: ignore[attr-defined]
-
-
-class _Apart(ast.NodeTransformer):
-    """Gives the variables of each function, lambda, comprehension and loop names of their own.
-
-    Two that bear one name are thus two, as they are where they bear two. Arguments by which something is called with
-    their name keep it.
-    """
-
-    def __init__(self, tree: ast.AST) -> None:
-        self._kept = {node.arg for node in ast.walk(tree) if isinstance(node, ast.keyword)}
-        self._count = 0
-
-    def _rename(self, names: Iterable[str], *within: ast.AST) -> None:
-        """Give new names to variables within some nodes."""
-        new = {}
-        for name in dict.fromkeys(names):
-            new[name] = f"#{self._count}"
-            self._count += 1
-        for node in (node for part in within for node in ast.walk(part)):
-            if isinstance(node, ast.Name):
-                node.id = new.get(node.id, node.id)
-            elif isinstance(node, ast.arg):
-                node.arg = new.get(node.arg, node.arg)
-
-    def _visit_comprehension(self, node: ast.AST) -> ast.AST:
-        self.generic_visit(node)
-        assert isinstance(node, ast.ListComp | ast.SetComp | ast.DictComp | ast.GeneratorExp)
-        first = node.generators[0]
-        names = [name for generator in node.generators for name in _stored(generator.target)]
-        outside, first.iter = first.iter, ast.Constant(None)  # which is evaluated outside of it
-        self._rename(names, node)
-        first.iter = outside
-        return node
-
-    visit_ListComp = visit_SetComp = visit_DictComp = visit_GeneratorExp = _visit_comprehension
-
-    def visit_Lambda(self, node: ast.Lambda) -> ast.AST:
-        self.generic_visit(node)
-        arguments = self._arguments(node.args)
-        self._rename((argument.arg for argument in arguments), *arguments, node.body)
-        return node
-
-    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
-        self.generic_visit(node)
-        shared = _not_its_own(node)
-        self._part_loops(node, shared)
-        arguments = self._arguments(node.args)
-        own = [argument.arg for argument in arguments]
-        own += [name for part in node.body for name in _stored(part)]
-        self._rename((name for name in own if name not in shared), *arguments, *node.body)
-        return node
-
-    def _arguments(self, arguments: ast.arguments) -> list[ast.arg]:
-        """Those that keep no name, without their defaults, which are evaluated outside."""
-        nodes = (node for node in ast.walk(arguments) if isinstance(node, ast.arg))
-        return [node for node in nodes if node.arg not in self._kept]
-
-    def _part_loops(self, function: ast.FunctionDef, shared: set[str]) -> None:
-        """Part the loops over one name, where it is used in these alone, so that no value passes from one on."""
-        loops: dict[str, list[ast.For]] = {}
-        for node in ast.walk(function):
-            if isinstance(node, ast.For):
-                for name in _stored(node.target):
-                    loops.setdefault(name, []).append(node)
-        for name, those in loops.items():
-            inside = [node for loop in those for part in _inside(loop) for node in _named(part, name)]
-            is_alone = len(inside) == len(_named(function, name)) and name not in shared
-            if is_alone and len(set(map(id, inside))) == len(inside):  # none stands within another one
-                for loop in those:
-                    self._rename([name], *_inside(loop))
-
-
-def _inside(loop: ast.For) -> list[ast.AST]:
-    return [loop.target, *loop.body, *loop.orelse]
-
-
-def _named(tree: ast.AST, name: str) -> list[ast.AST]:
-    """The places at which a name stands."""
-    return [
-        node
-        for node in ast.walk(tree)
-        if (isinstance(node, ast.Name) and node.id == name)
-        or (isinstance(node, ast.arg) and node.arg == name)
-    ]
-
-
-def _stored(tree: ast.AST) -> list[str]:
-    """The names to which something is assigned, but for those of the functions within."""
-    if isinstance(tree, ast.FunctionDef | ast.ClassDef | ast.Lambda):
-        return []
-    own = [tree.id] if isinstance(tree, ast.Name) and isinstance(tree.ctx, ast.Store) else []
-    return own + [name for child in ast.iter_child_nodes(tree) for name in _stored(child)]
-
-
-def _not_its_own(function: ast.FunctionDef) -> set[str]:
-    """The names in a function that mean something outside of it, or in another one within, or are no variables."""
-    names: set[str] = set()
-    for node in ast.walk(function):
-        if isinstance(node, ast.Global | ast.Nonlocal):
-            names.update(node.names)
-        elif isinstance(node, ast.ExceptHandler | ast.MatchAs | ast.MatchStar):
-            names.add(node.name or "")
-        elif isinstance(node, ast.alias):
-            names.add((node.asname or node.name).partition(".")[0])
-        elif isinstance(node, ast.ClassDef):
-            names.update(name for part in node.body for name in _stored(part))
-        elif isinstance(node, ast.FunctionDef) and node is not function:
-            names.update(argument.arg for argument in ast.walk(node.args) if isinstance(argument, ast.arg))
-            names.add(node.name)
-    return names
-
-
-class _Renamed(ast.NodeTransformer):
-    """Gives the names that a file gives itself the number of their first place instead.
-
-    Fields of a class, and arguments by which a function is called with their name, keep it.
-    """
-
-    def __init__(self, tree: ast.AST) -> None:
-        own: list[str] = []
-        kept: set[str] = set()
-        for node in ast.walk(tree):
-            if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
-                own.append(node.id)
-            elif isinstance(node, ast.arg):
-                own.append(node.arg)
-            elif isinstance(node, ast.FunctionDef | ast.ClassDef):
-                own.append(node.name)
-            elif isinstance(node, ast.keyword) and node.arg:
-                kept.add(node.arg)
-            elif isinstance(node, ast.Attribute):
-                kept.add(node.attr)
-        names = (name for name in dict.fromkeys(own) if name not in kept)
-        self._numbers = {name: f"_{place}" for place, name in enumerate(names)}
-
-    def _of(self, name: str) -> str:
-        return self._numbers.get(name, name)
-
-    def visit_Name(self, node: ast.Name) -> ast.AST:
-        node.id = self._of(node.id)
-        return node
-
-    def visit_arg(self, node: ast.arg) -> ast.AST:
-        node.arg = self._of(node.arg)
-        return node
-
-    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
-        node.name = self._of(node.name)
-        return self.generic_visit(node)
-
-    def visit_ClassDef(self, node: ast.ClassDef) -> ast.AST:
-        node.name = self._of(node.name)
-        return self.generic_visit(node)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

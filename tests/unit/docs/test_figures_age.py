@@ -32,47 +32,11 @@ def area(radius: float) -> float:
         SOURCE.replace("Of a circle", "What it covers"),
         SOURCE.replace("  # m²", ""),
         SOURCE.replace(": float", "").replace(" -> float", ""),
-        SOURCE.replace("squared", "square").replace("radius", "r").replace("area", "disc"),
     ],
 )
-def test_docstrings_comments_types_and_names_of_its_own_mean_nothing(changed):
+def test_docstrings_comments_and_types_mean_nothing(changed):
     assert changed != SOURCE
     assert meaning(changed) == meaning(SOURCE)
-
-
-LOOPS = """
-def worst(cracks, stacks, share):
-    for each in cracks:
-        share = max(share, each.share)
-    for each in stacks:
-        share = max(share, each.part)
-    return max((each.share for each in cracks), key=lambda each: each + share)
-"""
-APART = """
-def worst(cracks, stacks, part):
-    for crack in cracks:
-        part = max(part, crack.share)
-    for stack in stacks:
-        part = max(part, stack.part)
-    return max((fallen.share for fallen in cracks), key=lambda share: share + part)
-"""
-
-
-def test_one_name_of_two_variables_may_become_two_and_two_variables_never_one():
-    assert meaning(APART) == meaning(LOOPS)
-    assert meaning(APART.replace("stack.part", "crack.part")) != meaning(LOOPS), "the last of the cracks"
-    assert meaning(APART.replace("share + part", "part + part")) != meaning(LOOPS)
-    assert meaning(APART.replace("in stacks", "in cracks")) != meaning(LOOPS)
-    used_after = LOOPS.replace("return max(", "return each.share + max(")
-    assert meaning(used_after.replace("each", "crack", 2)) != meaning(used_after), (
-        "of none it is the last crack"
-    )
-
-
-def test_the_default_of_an_argument_is_a_variable_of_outside():
-    source = "def of(x, y):\n    return (lambda x=x: x), (lambda y=y: y), x, y"
-    assert meaning(source) != meaning(source.replace("y=y: y", "x=x: x"))
-    assert meaning(source) == meaning(source.replace("x=x: x", "z=x: z").replace("y=y: y", "z=y: z"))
 
 
 def test_what_an_error_says_means_nothing_and_where_it_is_raised_does():
