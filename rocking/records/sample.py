@@ -1,6 +1,6 @@
 """The sample behind a figure: stations within earthquakes, and the intervals that follow from how they scatter.
 
-The stations of one earthquake have its source in common, so that many of them tell less of another earthquake than as
+The stations of one earthquake have its source in common, so that many of them say less about another earthquake than as
 many scattered ones. Every interval over records is therefore one over earthquakes, and is made here: `Sample.interval`
 of any statistic (in two stages: earthquakes are drawn, and stations within each), `Sample.share_bounds` of a share, and
 `Sample.spread` for the laws of a mean. Components, directions and processings of a station are one station.

@@ -100,9 +100,7 @@ _FALLEN = 41.5
 """Where on the scale stands what falls, mm: in the middle of its grey zone, one fall no farther than another."""
 _DRAWN = 0.8
 """Rotation ratio at which a structure is drawn."""
-_NO_DEMAND = (
-    "One record is no demand of a code; what is checked and signed at the design level: structures.pdf."
-)
+_NO_DEMAND = "A single record is not the code's demand; see structures.pdf for the check at the design level."
 _ROOM = 12.0, 14.0
 """Width and height of a drawing, mm."""
 _STRIP = 118.0, 20.0
@@ -501,10 +499,8 @@ def _uncertain(report: RecordReport) -> list[str]:
             uncertain.append(f"{conclusion.verdict.structure} ({'; '.join(reasons)})")
     if not uncertain:
         return []
-    verb = "is" if len(uncertain) == 1 else "are"
-    return [
-        f"{listed(uncertain, _MOST_UNCERTAIN)} {verb} uncertain: take as may overturn until more is known."
-    ]
+    verb, subject = ("is", "it") if len(uncertain) == 1 else ("are", "they")
+    return [f"{listed(uncertain, _MOST_UNCERTAIN)} {verb} uncertain: assume that {subject} may overturn."]
 
 
 def _reserve_in_words(drawn: Sequence[Conclusion]) -> str:

@@ -101,7 +101,7 @@ def checks_panel(concluded: Sequence[CodeConclusion]) -> Panel:
         "page of each to sign."
     )
     part = Part(table=table, caption=caption)
-    return Panel("Checks at the design level", (part,), "These records are no demand of a code.")
+    return Panel("Checks at the design level", (part,), "These records are not the demand of the code.")
 
 
 def write_checks(

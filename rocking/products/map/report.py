@@ -49,9 +49,9 @@ def map_panel(stations: Sequence[StationRow], verdicts: Sequence[VerdictRow]) ->
     epicentre = "; the star is the epicentre" if epicentres(stations) else ""
     event = f" of {stations[0].event}" if stations[0].event else ""
     caption = (
-        f"The stations{event}, each in the colour of the word of a structure under its record, with its sign and the "
-        f"share that overturns where there is room{epicentre}. stations.geojson holds every structure and station, for "
-        "a program of geography; study.html has a map of each structure."
+        f"The stations{event}, each in the colour of the verdict on a structure under its record, with its sign and "
+        f"the share that overturns where there is room{epicentre}. stations.geojson holds every structure and station, "
+        "for a GIS; study.html has a map of each structure."
     )
     drawn = picture(figure, "The stations on a map, by what becomes of a structure.")
     return Panel("Where it happened", (Part(pictures=(drawn,), caption=caption),))

@@ -52,7 +52,7 @@ def write_trade_report(
         "Cases: those in which the method or the reference, the mechanism at a tolerance of 1e-12, does not rest. "
         "Errors: of the largest rotation where both rock. Unsafe: verdicts that say less than the reference. Falls: "
         "of the reference, those of them that the method finds, and those that it alone says. A record: "
-        "the search for its sines. The ensemble answers for all alike cases; its error is that of its median."
+        "the search for its sines. One ensemble serves all cases of a structure; its error is that of its median."
     )
     machine = rows[0].machine if rows else "no machine"
     of_figure = (

@@ -14,9 +14,9 @@ def test_the_readme_prints_the_trade_that_was_measured():
     rows = {row.method: row for row in measured_trade()}
     sine, mechanism = rows[TradeMethod.ONE_SINE], rows[TradeMethod.MECHANISM]
     told = (
-        f"{1e3 * sine.preparation_record_s:.2g} ms a record and {1e3 * sine.cpu_s:.2g} ms a structure",
-        f"the integration {1e3 * mechanism.cpu_s:.2g} ms a structure",
-        f"below {break_even(sine, mechanism):.0f} structures a record",
+        f"{1e3 * sine.preparation_record_s:.2g} ms per record and {1e3 * sine.cpu_s:.2g} ms per structure",
+        f"the integration {1e3 * mechanism.cpu_s:.2g} ms per structure",
+        f"below {break_even(sine, mechanism):.0f} structures per record",
         f"{sine.wrong_verdicts} of {sine.cases} verdicts wrong against {mechanism.wrong_verdicts}",
         sine.machine.partition(",")[0],
     )
