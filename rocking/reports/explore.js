@@ -108,10 +108,11 @@
       if (!turned) [each.pga, each.pgv].forEach((peak) => add(row, "td", { class: "peak" }, rounded(peak)));
       columnOrder.forEach((c) => {
         const [record, structure] = placesOf(r, c);
-        const { verdict, cell, text } = caseAt(r, c);
-        const title = `${structures[structure].name} under ${records[record].id}: ${text}`;
-        const names = { title, "aria-label": title, "data-record": record, "data-structure": structure, "data-verdict": verdict };
+        const { verdict, cell } = caseAt(r, c);
         const [sign, ...share] = cell.replace("\u00a0%", "").split(" ");
+        const told = [verdict, ...(share.length ? [`${share.join(" ")} %`] : [])].join(", ");
+        const title = `${structures[structure].name} under ${records[record].id}: ${told}`;
+        const names = { title, "aria-label": title, "data-record": record, "data-structure": structure, "data-verdict": verdict };
         const button = add(add(row, "td"), "button", { type: "button", class: `cell ${verdict.replaceAll(" ", "-")}`, tabindex: -1, "aria-pressed": false, ...names }, sign);
         if (share.length) add(button, "span", { class: "share" }, ` ${share.join(" ")}`);
       });
@@ -473,9 +474,28 @@
   let playing = 0;
   let shown = null;
 
+  // What the file of a record says of it beyond its cells; nothing where it is not there, as in a copy of the page alone
+  let wanted = null;
+  window.rockingRecord = (whole) => Object.assign(records.find(({ id }) => id === whole.id), whole);
+  function load(record) {
+    return new Promise((done) => {
+      const script = add(document.head, "script", { src: `../${encodeURIComponent(record.id)}/RECORD_SCRIPT` });
+      script.onload = done;
+      script.onerror = () => {
+        Object.assign(record, { motions: {}, span: [], at_rest: "", warnings: [`Its file ${record.id}/RECORD_SCRIPT is not beside this page.`] });
+        done();
+      };
+    });
+  }
+
   function choose(r, s) {
     stop();
     const [record, structure] = [records[r], structures[s]];
+    wanted = record;
+    if (!record.motions) {
+      load(record).then(() => { if (wanted === record) choose(r, s); });
+      return;
+    }
     matrix.querySelectorAll("[aria-pressed='true']").forEach((each) => each.setAttribute("aria-pressed", "false"));
     const button = matrix.querySelector(`button[data-record="${r}"][data-structure="${s}"]`);
     button.setAttribute("aria-pressed", "true");
@@ -492,7 +512,7 @@
     at("moves").hidden = failed;
     const still = !failed && !each.history ? "It does not lift enough to be drawn, or its motion was not kept." : "";
     // A number keeps its unit on its line
-    const facts = [each.text, ...structure.remarks, still, ...record.warnings, ""].join(" ");
+    const facts = [each.text || each.verdict + ".", ...structure.remarks, still, ...record.warnings, ""].join(" ");
     at("facts").textContent = facts.replace(/(\d) (?=[%×]|m\/s|[gms]\b)/g, "$1\u00a0");
     add(at("facts"), "a", { href: `../${encodeURIComponent(record.id)}/report.pdf` }, "report.pdf");
     if (failed) return;
@@ -578,7 +598,7 @@
   });
   if (!follow()) {
     const cells = [...matrix.querySelectorAll("tbody button")];
-    const first = cells.find(({ dataset }) => caseOf(records[dataset.record], structures[dataset.structure]).history) || cells[0];
+    const first = cells.find(({ dataset }) => caseOf(records[dataset.record], structures[dataset.structure]).moves) || cells[0];
     if (first) choose(first.dataset.record, first.dataset.structure);
   }
 })();

@@ -1,4 +1,7 @@
-"""The page to explore a study: one HTML file that loads nothing. A record's content is made once and may be kept."""
+"""The page to explore a study: one HTML file with a cell per case, and beside it a file per record with the rest.
+
+A page that is opened from disk may not fetch: it loads the file of a record by a script element, once it is asked for.
+"""
 
 import base64
 import json
@@ -46,6 +49,8 @@ from rocking.structures import Structure
 Content = dict[str, Any]
 """The content that JSON can hold."""
 
+RECORD_SCRIPT = "explore.js"
+"""In the folder of a record: what the page says of it beyond its cells."""
 BINS = 600
 """Points on the page of a trace."""
 GROUND_BINS = 2400
@@ -116,6 +121,29 @@ def record_content(result: RecordResult, rows: RecordRows, structures: Mapping[s
     }
 
 
+def cells_of(content: Content) -> Content:
+    """Return what a study's page holds of a `record_content`: what its cells show, and where its station is."""
+    cells = {
+        name: {
+            "verdict": case["verdict"],
+            "cell": case["cell"],
+            "severity": case["severity"],
+            "moves": "history" in case,
+        }
+        for name, case in content["cases"].items()
+    }
+    return {key: part for key, part in content.items() if key not in _OF_CASES} | {"cases": cells}
+
+
+_OF_CASES = ("warnings", "motions", "span", "at_rest")
+"""What a page needs of a record only for the case that is looked at."""
+
+
+def record_script(content: Content) -> bytes:
+    """Return the file of a record that gives its `record_content` to the page of the study."""
+    return f"rockingRecord({json.dumps(content, allow_nan=False, separators=(',', ':'))});\n".encode()
+
+
 def _where(components: Sequence[RecordRow]) -> Content:
     """The earthquake and the station of a record, and where both are, longitude and latitude in degrees."""
     if not components:
@@ -150,11 +178,11 @@ def explore_page(
     strips: Sequence[Strip] = (),
     remarks: Sequence[RemarkRow] = (),
 ) -> bytes:
-    """Return the page as UTF-8 HTML that loads nothing; it stands in the folder that holds those of the records.
+    """Return the page as UTF-8 HTML; it stands in a folder beside those of the records, and loads their RECORD_SCRIPT.
 
-    records: their `record_content`, in the order of the catalogue. title: of the study. conclusions,
-    notes: of the products over all records, and on each structure by its name. strips: of the variants of structures.
-    remarks: on the study itself.
+    records: their `cells_of`, or their whole `record_content`, in the order of the catalogue. title: of the study.
+    conclusions, notes: of the products over all records, and on each structure by its name. strips: of the variants of
+    structures. remarks: on the study itself.
     """
     of_records = list(records)
     of_structures = [
@@ -203,7 +231,7 @@ def explore_page(
         "drawing": escape(_OF_DRAWING),
         "variants": strips_in_html(strips) if strips else "",
         "style": (_HERE / "explore.css").read_text(encoding="utf-8") + colours,
-        "script": (_HERE / "explore.js").read_text(encoding="utf-8"),
+        "script": (_HERE / "explore.js").read_text(encoding="utf-8").replace("RECORD_SCRIPT", RECORD_SCRIPT),
         # no text of a user can end the element that holds it
         "content": content.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029"),
     }

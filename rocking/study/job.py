@@ -54,7 +54,7 @@ from rocking.study.progress import line_writer, log_error, send_compilation, sen
 from rocking.study.settings import Settings, settings_sha256
 from rocking.study.task import Task
 from rocking.study.terminal import record_line
-from rocking.tables import Row, write_rows, write_tables, written_together
+from rocking.tables import Row, write_rows, write_tables, write_whole, written_together
 
 WORTH_A_LINE = 5.0
 """Processor time of contact dynamics of a record, s, from which on it is announced."""
@@ -355,7 +355,7 @@ def _write(result: RecordResult, record: CatalogueRecord, job: Job) -> None:
     with written_together():
         if study.settings.reports:
             from rocking.reports.design_figure import component_spectra  # matplotlib takes a second to import
-            from rocking.reports.explore import record_content
+            from rocking.reports.explore import RECORD_SCRIPT, cells_of, record_content, record_script
             from rocking.study.documents import made_or_failed
 
             result = with_histories(result, study.settings.tolerance, _drawn(result, rows))
@@ -363,7 +363,9 @@ def _write(result: RecordResult, record: CatalogueRecord, job: Job) -> None:
             pdf = folder / "report.pdf"
             faults = made_or_failed(pdf, make, job.log, study.settings.figures, record.id)
             rows = replace(rows, failures=[*rows.failures, *faults])
-            page = record_content(result, rows, study.structures)
+            content = record_content(result, rows, study.structures)
+            write_whole(folder / RECORD_SCRIPT, record_script(content))
+            page = cells_of(content)
             level = study.settings.design_spectrum.spectrum()
             if level is not None:
                 spectra = component_spectra(result.accelerograms, level)

@@ -44,6 +44,7 @@ OUTPUTS: Mapping[str, tuple[Output, ...]] = {
         ),
         Output("{name}/histories.csv", _histories),
         Output("{name}/report.pdf", _reports, label="report", caption="record", category="Records"),
+        Output("{name}/explore.js", _reports),
         Output("{name}/report_figures.zip", _draws_reports),
         Output(f"{KEPT}/outcomes/{{name}}.json"),
         Output(f"{CASES}/{{name}}.json", is_store=True),

@@ -22,7 +22,7 @@ from rocking.pulses import extract_pulses
 from rocking.records.processing import displacement
 from rocking.remarks import Remark
 from rocking.reports.against import in_words
-from rocking.reports.explore import BINS, drawings, explore_page, extremes
+from rocking.reports.explore import BINS, RECORD_SCRIPT, drawings, explore_page, extremes
 from rocking.reports.printing import number
 from rocking.sine_pulse import predict_maximum
 from rocking.study.job import Study
@@ -75,14 +75,19 @@ def _explored(folder: Path, structures: str) -> tuple[Path, Study, list]:
 
 @pytest.fixture(scope="module")
 def content(study) -> dict:
-    """What the page carries."""
+    """What the page and the files of its records carry."""
     return _content(study[0])
 
 
 def _content(page: Path) -> dict:
     pattern = r'<script type="application/json" id="content">(.*?)</script>'
     (text,) = re.findall(pattern, page.read_text(encoding="utf-8"))
-    return json.loads(text)
+    content = json.loads(text)
+    assert not any("motions" in record for record in content["records"]), "which the cells do not show"
+    for record in content["records"]:
+        own = (page.parents[1] / record["id"] / RECORD_SCRIPT).read_text(encoding="utf-8")
+        record |= json.loads(own.removeprefix("rockingRecord(").removesuffix(");\n"))
+    return content
 
 
 def unpacked(packed: dict) -> np.ndarray:
@@ -210,7 +215,11 @@ def test_the_page_loads_nothing(study):
 @pytest.fixture
 def page(study, browser) -> Callable:
     """The page, freshly opened; call it with a selector to get what stands there. It complains of nothing."""
+    from selenium.webdriver.support.ui import WebDriverWait
+
     browser.get(study[0].as_uri())
+    chosen = lambda at: at.find_elements("css selector", "button[aria-pressed='true']")  # noqa: E731
+    WebDriverWait(browser, PATIENCE).until(chosen)
     yield lambda selector: browser.find_elements("css selector", selector)
     assert [entry for entry in browser.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")] == []
 
@@ -284,6 +293,8 @@ def test_page_two_of_a_record_opens_by_its_address(page, browser, study, content
 
 def test_the_map_has_the_stations_of_the_earthquake_in_the_colour_of_the_chosen_structure(page, browser):
     """The record that could not be read has no place; a click on a station chooses it."""
+    from selenium.webdriver.support.ui import WebDriverWait
+
     cell = moving(page)
     assert page("#map")[0].is_displayed() and not page("#map circle"), "it is drawn when it is opened"
     page("#map summary")[0].click()
@@ -295,7 +306,7 @@ def test_the_map_has_the_stations_of_the_earthquake_in_the_colour_of_the_chosen_
     )
     assert page("#map summary")[0].text.startswith("Map: wall at 1 station")
     page("button[data-record='1'][data-structure='3']")[0].click()
-    assert not page("#map")[0].is_displayed()
+    WebDriverWait(browser, PATIENCE).until(lambda at: not page("#map")[0].is_displayed())
     page("button[data-record='0'][data-structure='0']")[0].click()
     (circle,) = page("#map circle")
     circle.click()

@@ -1,6 +1,7 @@
 """A study of records: what fails becomes a row, and costs neither its record nor the others."""
 
 import hashlib
+import json
 import os
 import re
 from dataclasses import replace
@@ -27,6 +28,7 @@ from rocking.motion import integrate
 from rocking.products.trade.rows import TradeMethod, TradeRow
 from rocking.records import Accelerogram
 from rocking.records.synthetic import SHIPPED, SyntheticRecord, at2_text
+from rocking.reports.explore import RECORD_SCRIPT
 from rocking.structures import Block
 from rocking.study.job import Study, assess_catalogued, rows_of
 from rocking.study.kept import keep_rows
@@ -275,8 +277,9 @@ def test_a_job_reads_each_file_once_and_writes_all_from_what_it_has(tmp_path: Pa
     assert (folder / "report.pdf").read_bytes().startswith(b"%PDF")
     assert {each.table.file_name for each in RECORD_TABLES} <= {path.name for path in folder.iterdir()}
     (outcome,) = outcomes_in(tmp_path / "results", [record])
-    page = outcome.page
-    assert page["cases"]["block"]["history"] and page["motions"]
+    assert outcome.page["cases"]["block"]["moves"]
+    own = json.loads((folder / RECORD_SCRIPT).read_text().removeprefix("rockingRecord(").removesuffix(");\n"))
+    assert own["cases"]["block"]["history"] and own["motions"]
 
 
 def test_a_history_is_that_of_the_response(tmp_path: Path) -> None:
