@@ -36,8 +36,14 @@ from rocking.study.plan import JOBS, Plan, check_config_file, config_file, make_
 from rocking.study.product import Product
 from rocking.study.products import BY_NAME, PRODUCTS
 from rocking.study.progress import Progress, fitting
-from rocking.study.terminal import check_any_read, closing_lines, conclusion_lines, paths_to_read
-from rocking.tables import read_rows, read_table
+from rocking.study.terminal import (
+    check_any_read,
+    closing_lines,
+    conclusion_lines,
+    failing_lines,
+    paths_to_read,
+)
+from rocking.tables import read_rows, read_table, rows_of
 
 _LOCK = REMEMBERED / "rocking_run.lock"
 """Locked by the process that schedules the jobs of a study, in the folder of the study."""
@@ -135,9 +141,11 @@ def run_product(folder: Path, product: Product) -> int:
         kept = kept_of(results, product.name)
         rows = kept_rows(kept, (*work.shown, FailureRow))
         documents = [results / product.folder / name for name in product.files if name.endswith(".pdf")]
-        lines = [*work.lines(rows), *conclusion_lines(kept_conclusion(kept))]
+        failures = rows_of(FailureRow, rows)
+        lines = [*work.lines(rows), *failing_lines(failures), *conclusion_lines(kept_conclusion(kept))]
         for line in (*lines, *(f"{'Open':<8}{path}" for path in documents)):
             print(fitting(line, sys.stdout))
+        status = int(bool(failures))
     return status
 
 

@@ -134,7 +134,7 @@ def closing_lines(
     yield from _closed_form_lines(
         of_recorded or of_made, of_made if of_recorded else Counter(), records > 1, of_what
     )
-    yield from _failing_lines(failures)
+    yield from failing_lines(failures)
     for sentence in to_check(remarks):
         yield from wrap(sentence, WIDTH, subsequent_indent=" " * 8)
 
@@ -175,7 +175,7 @@ def _closed_form_lines(
     yield from (line.replace(NO_BREAK, " ") for line in wrap(text, WIDTH, subsequent_indent=" " * 8))
 
 
-def _failing_lines(failures: Sequence[FailureRow]) -> Iterator[str]:
+def failing_lines(failures: Sequence[FailureRow]) -> Iterator[str]:
     """The records that failed, and the sentences on structures that did over all records."""
     sentences = dict.fromkeys(
         f"{failure.structure}: {failure.message}" for failure in failures if not failure.record

@@ -22,7 +22,7 @@ from rocking.codes.check import (
 from rocking.codes.code_capacity import LIMIT_STATES, CodeCapacity
 from rocking.codes.kinds import CheckKind
 from rocking.codes.selection import SETS, Selection
-from rocking.errors import RockingError, one_structure
+from rocking.errors import ErrorKind, RockingError, one_structure
 from rocking.floors.place import GROUND, Place
 from rocking.floors.support import Support
 from rocking.products.checks.conclusion import CodeConclusion, code_conclusions
@@ -112,12 +112,14 @@ def structures_data(
     selection: Selection | None = None,
     without_sets: str | Remark = "",
     unread: Sequence[str] = (),
+    faults: list[Remark] | None = None,
 ) -> StructuresPage:
     """Return the pages.
 
     structures: those of one name, at the periods of its support, make one page. terms: what a structure that could not
     be checked would have been checked on. selection: the sets of the dynamic check, None without; without_sets: why
-    there are none. unread: the records of the pool that could not be read, each with its reason.
+    there are none. unread: the records of the pool that could not be read, each with its reason. faults: takes a
+    remark on each structure whose page could not be made for a fault of this package.
     """
     words = Sentences(settings.language)
     with displaying(settings):
@@ -152,7 +154,9 @@ def structures_data(
             else "",
             spectra=spectra,
             motions=motions,
-            sheets=_sheets(structures, spectrum, terms or CodeTerms(), words),
+            sheets=_sheets(
+                structures, spectrum, terms or CodeTerms(), words, [] if faults is None else faults
+            ),
         )
 
 
@@ -161,6 +165,7 @@ def _sheets(
     spectrum: DesignSpectrum,
     terms: CodeTerms,
     words: Sentences,
+    faults: list[Remark],
 ) -> tuple[Sheet, ...]:
     """The page of each structure: at the worst period of its support, with the others as lines."""
     by_name: dict[str, list[CheckedStructure]] = {}
@@ -238,6 +243,8 @@ def _sheets(
                     continue
             except RockingError as error:
                 why = error.remark or str(error)
+        if isinstance(why, Remark) and why.kind is ErrorKind.FAULT:
+            faults.append(why)
         pages.append(
             Sheet(
                 name=name,

@@ -10,10 +10,11 @@ from pathlib import Path
 
 import numpy as np
 
+from rocking.assessment.case import Failure
 from rocking.assessment.conclusion import conclusions, worst_of_each
 from rocking.assessment.cracks import mechanisms_of
 from rocking.assessment.decide import Verdict, worse
-from rocking.assessment.rows import MechanismRow, RecordRow, VerdictRow, named_records
+from rocking.assessment.rows import FailedCase, FailureRow, MechanismRow, RecordRow, VerdictRow, named_records
 from rocking.assessment.scene import Scene, placed
 from rocking.catalogue import load_catalogue
 from rocking.codes.check import CodeTerms, StructureCheck
@@ -48,7 +49,7 @@ class Checks(Work):
     def make(self, job: Job) -> Made:
         """Check every structure, and set against it what became of it under the records of the study."""
         rows = [outcome.rows for outcome in read_outcomes(job.plan.outcomes())]
-        checked = write_checks(
+        checked, faults = write_checks(
             job.study,
             job.folder,
             [row for table_rows in rows for row in rows_of(VerdictRow, table_rows)],
@@ -56,7 +57,9 @@ class Checks(Work):
             job.show_line,
             [row for table_rows in rows for row in rows_of(MechanismRow, table_rows)],
         )
-        return Made({CodeCheckRow: checked}, code_conclusion_in_words(code_conclusions(checked)))
+        return Made(
+            {CodeCheckRow: checked, FailureRow: faults}, code_conclusion_in_words(code_conclusions(checked))
+        )
 
     def panel(self, rows: Rows) -> Panel | None:
         """Return the ratios of the checks, and what follows from them."""
@@ -111,8 +114,8 @@ def write_checks(
     records: Iterable[RecordRow],
     tell: Callable[[str], None] = lambda _: None,
     mechanisms: Sequence[MechanismRow] = (),
-) -> list[CodeCheckRow]:
-    """Write code_checks.csv and structures.pdf of `study` into `folder`, and return the rows of the first.
+) -> tuple[list[CodeCheckRow], list[FailureRow]]:
+    """Write code_checks.csv and structures.pdf of `study` into `folder`; return the rows of the first, and of faults.
 
     verdicts, records, mechanisms: the rows of all records of the study. tell: takes a line for each structure. A
     structure that cannot be checked costs no other, and without sets of records the dynamic check alone is left out;
@@ -183,16 +186,22 @@ def write_checks(
     write_tables({CodeCheckRow: rows}, folder, "rocking-code-checks", "code_checks.json")
     pdf = folder / "structures.pdf"
     figures = study.settings.figures
+    of_pages: list[Remark] = []
 
     def write() -> None:
         terms = CodeTerms(limit_state=asked.limit_state, confidence_factor=asked.confidence_factor)
         settings = study.settings.for_pages
-        page = structures_data(pages, spectrum, settings, terms, selection, without_sets, unread)
+        page = structures_data(pages, spectrum, settings, terms, selection, without_sets, unread, of_pages)
         write_document(pdf, page, figures)
 
-    for fault in made_or_failed(pdf, write, "the log", figures):
+    faults = made_or_failed(pdf, write, "the log", figures)
+    faults += [
+        FailureRow.of(FailedCase("", "", remark.about, Failure("document", str(remark))))
+        for remark in of_pages
+    ]
+    for fault in faults:
         tell(fault.message)
-    return rows
+    return rows, faults
 
 
 def _checked(

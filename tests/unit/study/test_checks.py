@@ -169,7 +169,8 @@ def test_a_fault_in_the_checks_of_a_structure_costs_no_other(study, monkeypatch)
     told = []
     structures = STRUCTURES | {"pier": Block.of_size(0.6, 2.0)}
     changed = read_settings(settings | DESIGN | {"checks": SETS | {"stations": 40}})
-    rows = write_checks(Study(on_the_ground(structures), changed), folder, [], [], told.append)
+    rows, faults = write_checks(Study(on_the_ground(structures), changed), folder, [], [], told.append)
+    assert [(fault.structure, fault.stage) for fault in faults] == [("parapet", "document")]
     assert {row.structure for row in rows} == {*structures} - {"parapet"} != set()
     assert any(line.startswith("parapet: ") and "parapet (ZeroDivisionError" in line for line in told)
     assert (folder / "structures.pdf").read_bytes().startswith(b"%PDF")
