@@ -1,7 +1,7 @@
 """Print the test files that import what has changed since a commit: `python -m tests.near [COMMIT]` (default: HEAD).
 
-Where no test imports a changed module, those are printed that import what imports it, and so on. A file of another
-kind, such as a template, counts as the modules of its folder and below that name it, or as all of them.
+Where few files of tests import a changed module, those that import what imports it are printed too, and so on. A file
+of another kind, such as a template, counts as the modules of its folder and below that name it, or as all of them.
 """
 
 import subprocess
@@ -13,6 +13,8 @@ from pathlib import Path
 from tests.contracts.test_imports import HOMES, MODULES, PACKAGE, imported, names_in, owner
 
 ROOT = PACKAGE.parent
+FEW = 4
+"""Files of tests below which those of what imports a module count as well."""
 NAMES = {path: module for module, path in MODULES.items()}
 
 
@@ -48,11 +50,14 @@ def near(changed: Iterable[Path]) -> set[Path]:
     found = {path for path in changed if path in tests}
     for path in changed:
         wanted = modules_of(path)
-        seen: set[str] = set()
-        while wanted - seen and not (nearest := {test for test, names in tests.items() if names & wanted}):
-            seen |= wanted
-            wanted = wanted | {module for module in MODULES if imported(module) & wanted}
-        found |= nearest if wanted - seen else set()
+        nearest: set[Path] = set()
+        while len(nearest) < FEW:
+            nearest = {test for test, names in tests.items() if names & wanted}
+            more = wanted | {module for module in MODULES if imported(module) & wanted}
+            if more == wanted:
+                break
+            wanted = more
+        found |= nearest
     return found
 
 
