@@ -15,8 +15,17 @@ GRAVITY = 9.80665
 UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
 """Control characters, marks that turn the direction of writing, halves of characters."""
 
+NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+"""A plain finite decimal number, in heads, in rows and in settings alike."""
+_NUMBER = re.compile(NUMBER)
+
 _LONGEST_VALUE = 100
 """Characters of a value that a sentence repeats."""
+
+
+def is_number(token: str) -> bool:
+    """Whether `token` is a plain finite decimal number; "1_0", "nan" and "inf" are not."""
+    return bool(_NUMBER.fullmatch(token))
 
 
 def shown(value: object) -> str:

@@ -25,14 +25,14 @@ from rocking.assessment.motions import Component, HorizontalMotion, Motion
 from rocking.assessment.scene import Scene
 from rocking.assessment.settings import AssessmentSettings
 from rocking.codes.check import CodeTerms
+from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.static_check import kinematic_check
 from rocking.drawn import Drawn
+from rocking.earthquakes.sample import Sample
 from rocking.errors import ConfigurationError, DoesNotStandError, RockingError, StructureError
 from rocking.hashes import sha256_of_content
 from rocking.quantities import GRAVITY, counted, finite, kind_of, percents, shown
 from rocking.records import Accelerogram
-from rocking.records.design_spectrum import DesignSpectrum
-from rocking.records.sample import Sample
 from rocking.structures import Structure, structure_from_config
 from rocking.structures.description import article, nearest
 from rocking.structures.fields import Field

@@ -12,11 +12,11 @@ from docs.paper import curves
 from docs.paper.equations import EquationRow, equation_rows
 from docs.paper.figures import arch_response, panels, pulse_map
 from docs.paper.response import example_arch, response_curves
-from rocking.records.accelerogram import Accelerogram
 from rocking.reports import printing
 from rocking.reports.pages import Page, Picture, Table
 from rocking.reports.printing import compile_document
 from rocking.reports.style import picture, plain_logarithmic
+from rocking.signal.accelerogram import Accelerogram
 from rocking.sine_pulse import pulse_spectrum
 from rocking.structures.mechanism import Scale, Side
 from rocking.tables import Row, column, row

@@ -7,8 +7,8 @@ import numpy as np
 from docs.paper.curves import ROTATION, Curve
 from rocking.motion.integration import integrate
 from rocking.pulses import Pulse, extract_pulses
-from rocking.records.accelerogram import Accelerogram
 from rocking.reports.drawings import thinned
+from rocking.signal.accelerogram import Accelerogram
 from rocking.sine_pulse import predict_maximum, printed_maximum
 from rocking.structures.arch import Arch
 from rocking.structures.mechanism import Mechanism

@@ -24,9 +24,9 @@ from rocking import (
 from rocking.codes.check import LEAST_OTHERS, LEAST_SHARE, CodeTerms
 from rocking.codes.selection import SETS, Selection
 from rocking.codes.static_check import kinematic_check
+from rocking.earthquakes.sample import Sample
 from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import GRAVITY
-from rocking.records.sample import Sample
 from rocking.structures import Structure
 from rocking.tables import Row, column, row
 

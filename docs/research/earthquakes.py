@@ -18,9 +18,9 @@ from docs.research.fragilities import RealSites, median_of, real_sites
 from docs.research.rates import hazard_of, rate_within, rates_of_sites
 from docs.research.report import Target
 from rocking.assessment.rows import interval_of_mean
+from rocking.earthquakes.sample import Sample
 from rocking.fragility.curves import crossing
 from rocking.fragility.hazard import rate_interval
-from rocking.records.sample import Sample
 
 EARTHQUAKES = (2, 4, 8, 16)
 STATIONS = (1, 3, 5)

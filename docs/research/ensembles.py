@@ -30,7 +30,7 @@ from rocking.assessment.methods import NEGLIGIBLE
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.records import Accelerogram
-from rocking.records.direction import rotate
+from rocking.signal.rotation import rotate
 from rocking.structures import Structure
 from rocking.tables import column, row
 

@@ -11,11 +11,11 @@ import numpy as np
 
 from docs.research import scores, sites
 from docs.research.report import Target
+from rocking.earthquakes.sample import Sample
 from rocking.floors.support import Mode, Support
 from rocking.motion.integration import integrate
 from rocking.pulses import extract_pulses
 from rocking.quantities import GRAVITY
-from rocking.records.sample import Sample
 from rocking.sine_pulse import predict_maximum
 from rocking.structures import Block, Structure
 from rocking.tables import Row, column, row

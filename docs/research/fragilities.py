@@ -16,6 +16,7 @@ from docs.research import scores, sites
 from docs.research.report import Target
 from rocking import Accelerogram, Block, EquivalentBlock, Pulse, integrate_batch, predict_maxima
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
+from rocking.earthquakes.sample import Sample
 from rocking.fragility.curves import (
     LARGEST_FACTOR,
     Fragility,
@@ -26,7 +27,6 @@ from rocking.fragility.curves import (
 )
 from rocking.products.trade.measure import best_sines
 from rocking.products.trade.rows import TradeMethod
-from rocking.records.sample import Sample
 from rocking.structures import Structure
 
 ALL_LEVELS: dict[str, Any] = {"over_cracks": False, "largest_factor": np.inf}

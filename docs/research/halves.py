@@ -13,11 +13,11 @@ import numpy as np
 from docs.research.report import Target
 from docs.research.scores import Score, scored
 from docs.research.sites import independent
+from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.selection import scaled_pool
+from rocking.earthquakes.sample import Sample
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
-from rocking.records.design_spectrum import DesignSpectrum
-from rocking.records.sample import Sample
 from rocking.strengthening import Strengthening, Tried, strengthen
 from rocking.structures import Block, Facade, Structure, Wall
 

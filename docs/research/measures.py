@@ -14,10 +14,10 @@ from docs.research import scores, sites
 from docs.research.fragilities import ALL_LEVELS, responses_behind
 from docs.research.report import Target
 from rocking import Accelerogram
+from rocking.earthquakes.sample import Sample
 from rocking.errors import RecordError
 from rocking.fragility.curves import explanation, fragility
 from rocking.fragility.measures import IntensityMeasure, compared, intensity_measure
-from rocking.records.sample import Sample
 from rocking.structures import Arch, Block, Spire, Structure, Wall
 
 REPLICATES = 100

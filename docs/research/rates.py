@@ -18,8 +18,8 @@ from scipy.special import ndtri
 from docs.research import scores
 from docs.research.fragilities import RealSites, real_sites
 from docs.research.report import Target
+from rocking.earthquakes.sample import Sample
 from rocking.fragility.hazard import AnnualRate, Hazard, annual_rate, rate_interval
-from rocking.records.sample import Sample
 
 SLOPES = (1.5, 2.5, 3.5)
 """Of the logarithm of the hazard over that of the level, downwards."""

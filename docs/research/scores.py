@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from rocking.records.sample import REPLICATES, Sample
+from rocking.earthquakes.sample import REPLICATES, Sample
 from rocking.tables import Row, column, row
 
 STATED, HAPPENED = "stated", "happened"

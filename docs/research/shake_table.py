@@ -17,7 +17,7 @@ from rocking.catalogue.files import download
 from rocking.errors import RecordError
 from rocking.hashes import sha256_of_bytes
 from rocking.quantities import GRAVITY
-from rocking.records.accelerogram import Accelerogram, Source
+from rocking.signal.accelerogram import Accelerogram, Source
 from rocking.tables import Row, column, read_rows, row
 
 REPOSITORY = "ZhiangChen/virtual_shake_robot_pybullet"

@@ -11,9 +11,9 @@ from typing import TypeVar
 
 import numpy as np
 
+from rocking.earthquakes.sample import UNNAMED, Sample, earthquakes_of
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
-from rocking.records.sample import UNNAMED, Sample, earthquakes_of
 from rocking.structures import Arch, Block, Structure, Wall
 from rocking.tables import Row, column, row
 

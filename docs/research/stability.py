@@ -34,7 +34,8 @@ from rocking.assessment.motions import GroundMotions, Motion, ground_motions
 from rocking.assessment.scene import Scene
 from rocking.assessment.settings import AssessmentSettings
 from rocking.floors.place import GROUND, place_from_config
-from rocking.records import Accelerogram, aligned
+from rocking.records import Accelerogram
+from rocking.signal import aligned
 from rocking.structures import Facade, LoadedWall, Spire, Structure
 from rocking.tables import column, row
 

@@ -36,7 +36,7 @@ from rocking.assessment.settings import AssessmentSettings
 from rocking.contacts.dynamics import follow_stack
 from rocking.errors import StructureWarning
 from rocking.quantities import GRAVITY
-from rocking.records.measures import peak_velocity
+from rocking.signal.measures import peak_velocity
 from rocking.structures import Structure
 from rocking.structures.building_parts import building_part
 from rocking.structures.crackable import Crackable

@@ -23,7 +23,7 @@ from docs.research.identification import BlockPrior, fit_mixture, two_sided_bloc
 from docs.research.report import Tables, Target
 from docs.research.shake_table import SPECIMENS, Campaign
 from rocking import Pulse, PulseError, extract_pulses, integrate_batch, predict_maxima
-from rocking.records.processing import Processing, process, velocity
+from rocking.signal.processing import Processing, process, velocity
 from rocking.tables import Row, column, row
 
 TABLE_PROCESSING = Processing(baseline="linear", low_pass=30.0, time_step=0.01)

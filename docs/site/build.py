@@ -17,7 +17,7 @@ CONFIGURATION = FOLDER.parent / "mkdocs.yml"
 BESIDE = {"CONTRIBUTING.md": "contributing.md", "CHANGELOG.md": "changelog.md"}
 """Files of the repository that are pages of the site as well."""
 TOPICS = {
-    "records": ("records", "catalogue"),
+    "records": ("records", "catalogue", "signal"),
     "structures": ("structures", "floors"),
     "pulses": ("pulses", "sine_pulse"),
     "motion": ("motion", "contacts"),

@@ -41,7 +41,8 @@ from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import FaultError, RockingError, one_structure
 from rocking.hashes import sha256_of
 from rocking.motion.integration import integrate
-from rocking.records import Accelerogram, aligned
+from rocking.records import Accelerogram
+from rocking.signal import aligned
 from rocking.structures import Structure
 from rocking.structures.structure import CRACKS
 

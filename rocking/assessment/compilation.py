@@ -19,8 +19,8 @@ from rocking.motion import Members, integrate, integrate_batch, integrate_member
 from rocking.motion.batch import rocking_spectrum
 from rocking.motion.nonlinear_kernel import rock
 from rocking.pulses import Pulse, extract_pulses
-from rocking.records.accelerogram import Accelerogram
-from rocking.records.processing import Processing, process
+from rocking.signal.accelerogram import Accelerogram
+from rocking.signal.processing import Processing, process
 from rocking.sine_pulse import overturning_amplitudes, predict_maxima, predict_maximum
 from rocking.structures import Block, Spire
 

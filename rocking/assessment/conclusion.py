@@ -16,8 +16,8 @@ from rocking.assessment.rows import (
     hardly_spread,
     worst_period_each,
 )
+from rocking.earthquakes.sample import interval_words
 from rocking.quantities import counted, listed, percents
-from rocking.records.sample import interval_words
 from rocking.remarks import Remark
 from rocking.structures.kinds import StructureKind
 

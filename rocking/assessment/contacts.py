@@ -30,8 +30,8 @@ from rocking.floors.place import swinging
 from rocking.motion.integration import Members, integrate, integrate_members, strict
 from rocking.motion.response import check_model
 from rocking.records import Accelerogram
-from rocking.records.measures import peak_velocity
 from rocking.remarks import Remark
+from rocking.signal.measures import peak_velocity
 from rocking.structures import Structure
 from rocking.structures.joints import Joints
 from rocking.structures.linkage import Turning

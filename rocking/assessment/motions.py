@@ -24,10 +24,11 @@ from rocking.pulses import (
     extract_pulses,
     velocity_pulse,
 )
-from rocking.records import Accelerogram, RotD, rotd
-from rocking.records.direction import aligned, azimuth_of_axis, rotate
-from rocking.records.processing import process, variants
+from rocking.records import Accelerogram
 from rocking.remarks import Remark
+from rocking.signal import RotD, rotd
+from rocking.signal.processing import process, variants
+from rocking.signal.rotation import aligned, azimuth_of_axis, rotate
 
 AS_IT_IS = "unchanged"
 """Name of the processing that leaves a record as it is."""

@@ -28,14 +28,7 @@ T = TypeVar("T")
 LARGEST = 200_000_000
 """Bytes of the largest file that is read."""
 _WINGS = (
-    "records",
-    "catalogue",
-    "floors",
-    "structures",
-    "pulses",
-    "sine_pulse",
-    "motion",
-    "contacts",
+    *("signal", "records", "catalogue", "floors", "structures", "pulses", "sine_pulse", "motion", "contacts"),
     "assessment",
 )
 """The parts of the package on which a result depends."""

@@ -9,14 +9,13 @@ from typing import Any
 
 from rocking.catalogue.place import Place, place_of
 from rocking.described import described, described_values, number_hint
+from rocking.earthquakes.sample import MADE
 from rocking.errors import CatalogueError, RockingError
-from rocking.quantities import acceleration_factor, shown
+from rocking.quantities import acceleration_factor, is_number, shown
 from rocking.records.formats.format import plain
-from rocking.records.formats.text import is_number
 from rocking.records.kinds import RecordKind
-from rocking.records.sample import MADE
-from rocking.records.scaling import ScalingTarget
 from rocking.remarks import Remark
+from rocking.signal.scaling import ScalingTarget
 from rocking.tables import edited_text, read_edited
 
 _OBSPY = "obspy:"

@@ -16,13 +16,13 @@ from rocking.catalogue.joining import SQUARE
 from rocking.catalogue.listing import CELLS, ListedChannel, ListedFile, doubts_of, listed_file, unlike_motions
 from rocking.catalogue.readings import Readings
 from rocking.errors import CatalogueError, RecordError
-from rocking.quantities import acceleration_factor
+from rocking.quantities import acceleration_factor, is_number
 from rocking.records.archive import is_archive, members
 from rocking.records.claims import without_ending
 from rocking.records.direction import angle_between, names_no_direction, pair_doubt
 from rocking.records.formats.format import plain
 from rocking.records.formats.layouts import NAME, Layouts
-from rocking.records.formats.text import day_of, is_number
+from rocking.records.formats.text import day_of
 from rocking.records.kinds import RecordKind
 from rocking.records.read import bare_text, bytes_of, printable, recognise, unpack
 from rocking.remarks import Remark

@@ -8,10 +8,10 @@ from typing import Protocol
 import numpy as np
 
 from rocking.errors import RecordError
-from rocking.records.accelerogram import SAME_STEP, Accelerogram
 from rocking.records.direction import Channel
 from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
+from rocking.signal.accelerogram import SAME_STEP, Accelerogram
 
 LONGEST_TAIL = 0.02
 """Share of the longest file that it may last beyond the shortest one where no file says when it begins.

@@ -11,15 +11,16 @@ from typing import Any
 from rocking.catalogue.catalogue import few, stays_inside
 from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import GRAVITY
-from rocking.records.accelerogram import Accelerogram
 from rocking.records.doors import through
 from rocking.records.formats import Options
 from rocking.records.formats.layouts import NAME, AskedError, Layouts, Question, Signature, families
 from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import OF_COUNTS
-from rocking.records.processing import process, velocity
 from rocking.records.read import printable, read_raw
 from rocking.remarks import Kind, Remark
+from rocking.signal.accelerogram import Accelerogram
+from rocking.signal.kinds import SignalKind
+from rocking.signal.processing import process, velocity
 
 CELLS = {"unit": "unit", "time_step": "time_step_s"}
 """The column of a catalogue that declares what a file leaves out."""
@@ -28,7 +29,7 @@ _STAND_INS: dict[str, Any] = {"unit": "nm/s2", "time_step": 0.01}
 _BAD_NAME = "its name holds a character that a catalogue does not allow, or a blank at its end; rename it."
 _LEADS_OUT = "it is a link that leads out of the folder; copy the file instead."
 _OF_UNIT = (
-    RecordKind.PEAK_IMPOSSIBLE,
+    SignalKind.PEAK_IMPOSSIBLE,
     RecordKind.PEAK_RARE,
     RecordKind.PEAK_TINY,
     RecordKind.PEAK_TINY_BY_UNIT,

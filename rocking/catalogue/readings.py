@@ -161,6 +161,6 @@ def _version() -> str:
         package / "tables" / "files.py",
         package / "tables" / "edited.py",
     ]
-    for part in ("records", "catalogue"):
+    for part in ("signal", "records", "catalogue"):
         sources += sorted(path for path in (package / part).rglob("*") if path.suffix in (".py", ".csv"))
     return sha256_of_sources(package, sources)

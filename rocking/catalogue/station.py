@@ -13,7 +13,6 @@ from rocking.catalogue.joining import joined
 from rocking.catalogue.place import Place, place_of
 from rocking.errors import RecordError, about
 from rocking.hashes import sha256_of_bytes
-from rocking.records.accelerogram import Accelerogram
 from rocking.records.direction import (
     directed,
     doubts_of_channel,
@@ -26,10 +25,11 @@ from rocking.records.formats import Options
 from rocking.records.formats.layouts import Layouts
 from rocking.records.formats.text import day_of, iso_date
 from rocking.records.kinds import RecordKind
-from rocking.records.plausibility import same_motion, scaled
+from rocking.records.plausibility import same_motion
 from rocking.records.read import bytes_of, read_raw
-from rocking.records.scaling import ScalingTarget, scaled_to
 from rocking.remarks import Remark
+from rocking.signal.accelerogram import Accelerogram
+from rocking.signal.scaling import ScalingTarget, scaled, scaled_to
 
 
 @dataclass(frozen=True)

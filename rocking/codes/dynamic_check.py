@@ -23,15 +23,15 @@ from rocking.codes.check import (
     StructureCheck,
 )
 from rocking.codes.code_capacity import LIMIT_STATES, CodeCapacity, LimitState
+from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.kinds import CheckKind
 from rocking.codes.selection import SETS, Selection
 from rocking.codes.static_check import kinematic_check
 from rocking.errors import ConfigurationError
 from rocking.floors.support import Support
 from rocking.quantities import kind_of
-from rocking.records.accelerogram import Accelerogram
-from rocking.records.design_spectrum import DesignSpectrum
 from rocking.remarks import Remark
+from rocking.signal.accelerogram import Accelerogram
 from rocking.structures import Mechanism, Side, Structure
 from rocking.structures.mechanism import SideTie
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.floors.spectrum import UPPER_PERIOD, amplification, mode_factor
 from rocking.floors.support import Support
-from rocking.records.design_spectrum import DesignSpectrum
 
 
 @dataclass(frozen=True, eq=False)

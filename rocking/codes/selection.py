@@ -13,15 +13,15 @@ from functools import cached_property
 
 import numpy as np
 
+from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.kinds import CheckKind
 from rocking.drawn import Drawn
+from rocking.earthquakes.sample import Sample, earthquakes_of, stations_of
 from rocking.errors import ConfigurationError
 from rocking.quantities import positive
-from rocking.records.accelerogram import Accelerogram
-from rocking.records.design_spectrum import DesignSpectrum
-from rocking.records.measures import response_spectrum
-from rocking.records.sample import Sample, earthquakes_of, stations_of
 from rocking.remarks import Remark
+from rocking.signal.accelerogram import Accelerogram
+from rocking.signal.measures import response_spectrum
 
 STATIONS = 20
 """The stations of a set: with 7 the verdict hangs on the choice for one wall in nine, with 20 for one in thirty-six."""

@@ -15,11 +15,11 @@ import numpy as np
 from rocking.codes.check import Check, CodeTerms, StructureCheck
 from rocking.codes.code_capacity import LIMIT_STATES, CodeCapacity, LimitState
 from rocking.codes.crossings import Crossings
+from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.floor_demand import FloorDemand
 from rocking.codes.kinds import CheckKind
 from rocking.errors import ConfigurationError, DoesNotStandError, StructureError
 from rocking.quantities import GRAVITY, kind_of, positive
-from rocking.records.design_spectrum import DesignSpectrum
 from rocking.remarks import Phrase, Remark
 from rocking.structures import Structure
 from rocking.structures.crackable import Crackable

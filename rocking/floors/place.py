@@ -17,8 +17,8 @@ from rocking.floors.kinds import FloorKind
 from rocking.floors.spectrum import FLOOR_DAMPING, floor_spectrum, has_code_spectrum, spectrum_of
 from rocking.floors.support import Mode, Support
 from rocking.quantities import finite
-from rocking.records.accelerogram import Accelerogram
 from rocking.remarks import Remark
+from rocking.signal.accelerogram import Accelerogram
 
 TYPE_NAME = "support"
 """The `type` of an entry of a structure list that is a support."""

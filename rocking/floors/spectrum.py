@@ -11,9 +11,8 @@ import numpy as np
 from rocking.errors import RecordError
 from rocking.floors.support import Mode, Support
 from rocking.quantities import finite, within
-from rocking.records.accelerogram import Accelerogram
-from rocking.records.design_spectrum import damping_factor
-from rocking.records.measures import response_spectrum
+from rocking.signal.accelerogram import Accelerogram
+from rocking.signal.measures import damping_factor, response_spectrum
 
 GroundSpectrum = Callable[[float, float], float]
 """Elastic spectrum of the ground: acceleration [m/s²] of an undamped period [s] and a damping ratio."""

@@ -15,8 +15,8 @@ import numpy as np
 from rocking.errors import RecordError
 from rocking.floors.kinds import FloorKind
 from rocking.quantities import finite
-from rocking.records.accelerogram import SHORTEST_STEP, Accelerogram
 from rocking.remarks import Remark
+from rocking.signal.accelerogram import SHORTEST_STEP, Accelerogram
 
 INTERPOLATION_ERROR = 1e-4
 """Largest error of straight lines between the samples of a floor's motion, over its peak. A rotation is up to ten times

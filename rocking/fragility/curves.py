@@ -22,6 +22,7 @@ from rocking.assessment.ensemble import drawn, lattice
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import EnsembleSettings
 from rocking.drawn import Drawn
+from rocking.earthquakes.sample import Sample
 from rocking.errors import ConfigurationError, StructureError
 from rocking.floors.support import Support
 from rocking.fragility.exchange import CURVE, NRML, curve_frame, nrml
@@ -32,8 +33,7 @@ from rocking.motion.batch import integrate_batch
 from rocking.motion.integration import Rocking, reduce
 from rocking.quantities import GRAVITY, counted, listed
 from rocking.records import Accelerogram
-from rocking.records.measures import peak_velocity
-from rocking.records.sample import Sample
+from rocking.signal.measures import peak_velocity
 from rocking.structures import EquivalentBlock, Mechanism, Structure
 from rocking.structures.unknown_geometry import as_structure
 from rocking.tables import check_target, write_whole

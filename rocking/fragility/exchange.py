@@ -7,10 +7,10 @@ from xml.etree import ElementTree
 
 import numpy as np
 
+from rocking.earthquakes.sample import Sample
 from rocking.errors import ConfigurationError
 from rocking.fragility.measures import of_openquake
 from rocking.quantities import UNPRINTABLE
-from rocking.records.sample import Sample
 from rocking.tables import Document
 
 if TYPE_CHECKING:

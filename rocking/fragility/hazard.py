@@ -9,10 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
+from rocking.earthquakes.sample import Sample, students
 from rocking.errors import ConfigurationError
 from rocking.fragility.measures import intensity_measure, of_openquake
 from rocking.quantities import ACCELERATION_UNITS, GRAVITY, VELOCITY_UNITS, acceleration_unit, velocity_unit
-from rocking.records.sample import Sample, students
 from rocking.tables import read_whole
 
 _STEPS = 400

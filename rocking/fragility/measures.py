@@ -15,8 +15,8 @@ import numpy as np
 from rocking.errors import ConfigurationError, RecordError, RockingError
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
-from rocking.records.measures import peak_velocity, record_measures, response_spectrum
-from rocking.records.processing import integral
+from rocking.signal.measures import peak_velocity, record_measures, response_spectrum
+from rocking.signal.processing import integral
 from rocking.structures import EquivalentBlock, Mechanism, Structure
 
 LONGEST_PERIOD = 20.0

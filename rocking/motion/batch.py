@@ -27,7 +27,7 @@ from rocking.motion.integration import (
 )
 from rocking.motion.table import Forcing, GroundMotion, forcing_of
 from rocking.quantities import kind_of, within
-from rocking.records.accelerogram import Accelerogram
+from rocking.signal.accelerogram import Accelerogram
 from rocking.structures import EquivalentBlock
 
 if TYPE_CHECKING:

@@ -25,8 +25,8 @@ from rocking.motion.table import (
     table_of,
 )
 from rocking.quantities import GRAVITY, finite, kind_of, within
-from rocking.records.accelerogram import Accelerogram
 from rocking.remarks import Remark
+from rocking.signal.accelerogram import Accelerogram
 from rocking.structures import Outcome
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
 

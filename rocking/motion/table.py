@@ -23,7 +23,7 @@ from rocking.motion import runs
 from rocking.motion.nonlinear_kernel import CURVE, GroundSamples, Sides, Ties
 from rocking.pulses.pulse import Pulse
 from rocking.quantities import GRAVITY, kind_of
-from rocking.records.accelerogram import Accelerogram
+from rocking.signal.accelerogram import Accelerogram
 from rocking.structures.equivalent_block import Arc, Function, RotationMap
 from rocking.structures.mechanism import CUTS, EquivalentBlock, Mechanism, Side, SideTie
 

@@ -13,8 +13,8 @@ from rocking.errors import PulseError
 from rocking.pulses.kinds import PulseKind
 from rocking.pulses.pulse import Pulse, PulseAnalysis, PulseEvidence, PulseSettings
 from rocking.quantities import instance
-from rocking.records.accelerogram import Accelerogram
 from rocking.remarks import Remark
+from rocking.signal.accelerogram import Accelerogram
 
 NOTHING_LEFT = 1e-20
 """Share of the record's energy below which what the pursuit leaves, or what a cycle gains, is rounding."""

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from rocking.pulses.extraction import PulseSearch
 from rocking.pulses.pulse import Pulse, PulseEvidence, PulseMethod, PulseSettings
 from rocking.pulses.velocity_pulse import LONGEST_PERIOD, SHORTEST_PERIOD, largest_velocity_pulse
-from rocking.records.accelerogram import Accelerogram
+from rocking.signal.accelerogram import Accelerogram
 
 DEMAND_CANDIDATES = 5
 """Best-ranked sines among which that of largest demand is chosen."""

@@ -11,8 +11,8 @@ from rocking.described import check_described, described
 from rocking.drawn import Drawn, in_a_notebook
 from rocking.errors import PulseError
 from rocking.quantities import GRAVITY, counted, finite, four_digits, positive, within
-from rocking.records.accelerogram import Accelerogram
 from rocking.remarks import Remark
+from rocking.signal.accelerogram import Accelerogram
 
 if TYPE_CHECKING:
     from pandas import DataFrame

@@ -14,9 +14,9 @@ import numpy as np
 
 from rocking.errors import PulseError
 from rocking.pulses.pulse import Pulse
-from rocking.records.accelerogram import Accelerogram
-from rocking.records.direction import paired
-from rocking.records.processing import integral
+from rocking.signal.accelerogram import Accelerogram
+from rocking.signal.processing import integral
+from rocking.signal.rotation import paired
 
 SUPPORT = 7.0
 """Length of db4 in its own time; its centre frequency is 5 cycles over it."""

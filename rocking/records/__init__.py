@@ -1,9 +1,5 @@
-"""Records: accelerograms, the files that they are read from, and their processing."""
+"""Records: the files that accelerograms are read from."""
 
-from rocking.records.accelerogram import Accelerogram as Accelerogram
-from rocking.records.accelerogram import Source as Source
-from rocking.records.direction import RotD as RotD
-from rocking.records.direction import aligned as aligned
-from rocking.records.direction import rotd as rotd
-from rocking.records.processing import displacement as displacement
 from rocking.records.read import read as read
+from rocking.signal.accelerogram import Accelerogram as Accelerogram
+from rocking.signal.accelerogram import Source as Source

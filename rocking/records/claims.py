@@ -12,12 +12,12 @@ from functools import lru_cache
 from typing import Any, Literal, TypeVar
 
 from rocking.errors import RecordError, UndeclaredError
-from rocking.quantities import acceleration_factor, acceleration_unit
-from rocking.records.accelerogram import Accelerogram
+from rocking.quantities import NUMBER, acceleration_factor, acceleration_unit
 from rocking.records.direction import Direction
 from rocking.records.doors import advice
 from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
+from rocking.signal.accelerogram import Accelerogram
 
 What = Literal["unit", "time_step", "rate", "samples", "peak", "direction"]
 """What a claim is about; rate: a step that is spoken of, which may be that of the recorder."""
@@ -310,7 +310,6 @@ def claims_of_name(file: str) -> tuple[Claim, ...]:
 
 # Sentences.
 
-NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _TIMES = re.compile(
     r"(?i)(?:(?<!\*)[x×*]|\btimes|\b(?:multiplied|divided) by)\s*\d|\d\s*[x×*]\s*(?:acc|g\b)|[(\[]\s*%\s*[)\]]"
 )

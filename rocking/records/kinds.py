@@ -10,21 +10,13 @@ class RecordKind(Kind):
 
     # fmt: off
     # The samples of a record.
-    STEP_UNUSUAL = auto(), """The time step is {time_step_s:g} s: accelerographs sample strong motion at steps
-        from {shortest_s:g} to {longest_s:g} s."""
-    PEAK_IMPOSSIBLE = auto(), """The peak acceleration is above 5 g, which no recorded ground motion has
-        reached; check the unit and the factor."""
     PEAK_RARE = auto(), """The peak acceleration is {peak_g:.3g} g, above 3 g: hardly any recorded ground
         motion is so strong; check unit and file."""
     VELOCITY_RARE = auto(), """The peak velocity is {velocity_m_s:.3g} m/s, above {rare_m_s:g} m/s: hardly any
         recorded ground motion is so fast; check unit and file."""
-    PEAK_RARE_BY_FACTOR = auto(), """Multiplied by {factor:g} the peak acceleration is {peak_g:.3g} g, above 3
-        g: hardly any recorded ground motion is so strong; check the factor."""
     PEAK_TINY = auto(), "The peak acceleration is {peak_g:.3g} g, below 1e-5 g: noise, or a wrong unit."
     PEAK_TINY_BY_UNIT = auto(), """The peak acceleration is {peak_g:.3g} g, below 1e-5 g: noise, or a wrong
         unit; multiplied {factors} it would be plausible."""
-    SCALED_FAR = auto(), """Scaled by {factor:.3g}, beyond a factor of {largest:g}: a record that is really so
-        strong or weak has another duration and other periods; choose another record."""
     SAMPLE_ALONE = auto(), """The sample at {time_s:g} s is {peak_g:.3g} g and stands alone; without it the
         peak acceleration is {others_g:.3g} g: a number is damaged, or the instrument was struck."""
     ZEROS_IN_SHAKING = auto(), "Within the strong shaking {samples} samples in a row are zero: a filled gap?"
@@ -42,8 +34,6 @@ class RecordKind(Kind):
         median step, {time_step_s:g} s."""
     UNEVEN_FILM = auto(), """The {samples} samples are unevenly spaced; interpolated linearly to {number},
         {time_step_s:g} s apart."""
-    CUT_TO_THE_SHORTER = auto(), """The components hold {short} and {long} samples; the longer was cut to the
-        shorter."""
 
     # The header of a record against its samples.
     PEAK_UNLIKE_HEADER = auto(), """The peak is {peak_m_s2:.6g} m/s², but the header states {stated_m_s2:.6g}
@@ -156,18 +146,6 @@ class RecordKind(Kind):
     DECLARED_BY_SOME = auto(), "not all of them declare unit and time step"
 
     # Which earthquakes the records of a figure are of.
-    EARTHQUAKES_UNNAMED = auto(), """{records} of {all} records name no earthquake, and count as of one: name
-        it in the column event of the catalogue, or declare each of them an earthquake of its own
-        (unnamed_events: each)."""
-    EARTHQUAKE_ONE = auto(), """All {stations} stations are of one earthquake, which tells nothing of another:
-        there is no interval."""
-    EARTHQUAKES_FEW = auto(), """With {earthquakes} earthquakes, fewer than {fewest}, nothing is resampled:
-        intervals are those of Student, or of Clopper and Pearson, on the earthquakes, and those of a median
-        and of a rate hold less often than nine times in ten."""
-    EARTHQUAKE_NAMED_TWICE = auto(), """One motion is listed under two earthquakes, {first} and {second}: name
-        it once, or leave one record out."""
-    STATION_OF_TWO_EARTHQUAKES = auto(), """Station {about} is given for two earthquakes, {first} and
-        {second}, and counts for the first: give each its own name in each earthquake."""
 
     # A catalogue and its folder, and a study before its run.
     FILE_RENAMED = auto(), "{about}: the file {before} is now {now}, by its content; the row names it."

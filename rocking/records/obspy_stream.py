@@ -3,10 +3,10 @@
 from typing import Any
 
 from rocking.errors import RecordError
-from rocking.records.accelerogram import Accelerogram, Calibration
 from rocking.records.one_trace import from_traces
 from rocking.records.read import checked_channels
 from rocking.records.traces import joined
+from rocking.signal.accelerogram import Accelerogram, Calibration
 
 
 def from_obspy(

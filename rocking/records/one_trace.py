@@ -8,13 +8,13 @@ import numpy as np
 
 from rocking.errors import RecordError, UndeclaredError, about
 from rocking.quantities import GRAVITY, acceleration_factor
-from rocking.records.accelerogram import OBSPY_EXTRAS, SAME_STEP, Accelerogram, Calibration, Source
 from rocking.records.direction import Direction, directed
 from rocking.records.formats.format import plain, without_offset
 from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import BURIED
 from rocking.records.traces import STEEP, calibrated, names, quantity_order, site, unit_left_by
 from rocking.remarks import Remark
+from rocking.signal.accelerogram import OBSPY_EXTRAS, SAME_STEP, Accelerogram, Calibration, Source
 
 _TO_DISPLACEMENT = "GSE1", "GSE2", "CSS", "NNSA_KB_CORE"
 """The formats whose calibration is in nm of displacement a count, at a period that it is stated for."""

@@ -16,14 +16,12 @@ from numpy.lib.stride_tricks import sliding_window_view
 
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY, acceleration_factor
-from rocking.records.accelerogram import LARGEST_PEAK, Accelerogram
 from rocking.records.doors import advice
 from rocking.records.kinds import RecordKind
-from rocking.records.processing import UNPROCESSED_DEFAULT, integral, process, velocity
 from rocking.remarks import Remark
+from rocking.signal.accelerogram import LARGEST_PEAK, RARE_PEAK, Accelerogram
+from rocking.signal.processing import UNPROCESSED_DEFAULT, integral, process, velocity
 
-RARE_PEAK = 3 * GRAVITY
-"""m/s²; a handful of records of the world exceed it."""
 SMALLEST_PEAK = 1e-5 * GRAVITY
 """m/s²; below, a record is noise or has a wrong unit."""
 RARE_VELOCITY = 3.0
@@ -102,15 +100,6 @@ def agree_with_header(
         return record
     stands_at = float(instants[magnitudes.argmax()])
     return record.warned(Remark.of(RecordKind.PEAK_ELSEWHERE, stated_s=at, time_s=stands_at))
-
-
-def scaled(record: Accelerogram, factor: float) -> Accelerogram:
-    """Return `record` multiplied by `factor`, with a warning where that, and not the file, takes its peak above 3 g."""
-    enlarged = record.scaled(factor)
-    peak = enlarged.peak_acceleration
-    if peak <= max(RARE_PEAK, record.peak_acceleration):
-        return enlarged
-    return enlarged.warned(Remark.of(RecordKind.PEAK_RARE_BY_FACTOR, factor=factor, peak_g=peak / GRAVITY))
 
 
 def pass_limits(record: Accelerogram, form: str = "") -> tuple[Remark, ...]:

@@ -18,7 +18,6 @@ import numpy as np
 from rocking.errors import RecordError, UndeclaredError, UnknownFormatError, about
 from rocking.hashes import sha256_of_bytes
 from rocking.quantities import shown
-from rocking.records.accelerogram import Accelerogram, Source
 from rocking.records.archive import archive_of, is_archive, member_bytes, members
 from rocking.records.claims import refuse_spectrum, vertical_in_name, without_end
 from rocking.records.direction import (
@@ -43,6 +42,7 @@ from rocking.records.plausibility import (
 )
 from rocking.records.sheet import table_of_workbook
 from rocking.remarks import Remark
+from rocking.signal.accelerogram import Accelerogram, Source
 from rocking.tables import read_whole
 from rocking.tables.sheets import is_workbook
 

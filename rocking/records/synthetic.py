@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from rocking.earthquakes.sample import MADE
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY, finite, positive
-from rocking.records.accelerogram import Accelerogram
-from rocking.records.sample import MADE
+from rocking.signal.accelerogram import Accelerogram
 
 _EPSILON = 0.2
 _ETA = 0.05

@@ -16,10 +16,10 @@ from rocking.assessment.rows import ComparisonRow, PulseRow, RecordRows
 from rocking.errors import FaultError, one_structure
 from rocking.motion.response import Response
 from rocking.quantities import counted, listed, percents
-from rocking.records.accelerogram import Accelerogram
 from rocking.reports.drawings import Trace, drawn_by_hand, sine_lines, svg_path, thinned
 from rocking.reports.pages import Against, AgainstHead, Compared, ComparedWords, Ground, Picture, Tick
 from rocking.reports.printing import NOTHING, number, quantity, unit_of
+from rocking.signal.accelerogram import Accelerogram
 from rocking.structures import Mechanism, Structure
 
 MOST_STRIPS = 24

@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rocking.records.accelerogram import Accelerogram
-from rocking.records.measures import response_spectrum
 from rocking.reports.printing import unit_of
 from rocking.reports.style import PULSE, new_figure, plain_logarithmic, styled
+from rocking.signal.accelerogram import Accelerogram
+from rocking.signal.measures import response_spectrum
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from rocking.records.design_spectrum import DesignSpectrum
+    from rocking.codes.design_spectrum import DesignSpectrum
 
 _PERIODS = np.geomspace(0.04, 4.0, 60)
 MOST_LINES = 60

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from rocking.records.measures import record_measures
 from rocking.reports.pages import Picture
 from rocking.reports.style import PULSE
+from rocking.signal.measures import record_measures
 from rocking.structures import Structure
 from rocking.structures.drawing import Bay, Mark
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.transforms import Transform
 
     from rocking.pulses import Pulse
-    from rocking.records.accelerogram import Accelerogram
+    from rocking.signal.accelerogram import Accelerogram
 
 
 class Line(NamedTuple):

@@ -24,8 +24,6 @@ from rocking.assessment.rows import ComparisonRow, RecordRow, RecordRows, Remark
 from rocking.assessment.scene import placed
 from rocking.errors import FaultError, one_structure
 from rocking.quantities import GRAVITY, counted
-from rocking.records.accelerogram import Accelerogram
-from rocking.records.processing import displacement
 from rocking.reports.against import (
     HEADS,
     LEGEND,
@@ -44,6 +42,8 @@ from rocking.reports.panels import moving_span
 from rocking.reports.printing import LOOKS, SHARES, band_text, cell_text, known_crack, ratio, sentence
 from rocking.reports.record import warnings_of
 from rocking.reports.variants import strips_in_html
+from rocking.signal.accelerogram import Accelerogram
+from rocking.signal.processing import displacement
 from rocking.structures import Structure
 
 Content = dict[str, Any]

@@ -32,8 +32,8 @@ if TYPE_CHECKING:
     from rocking.motion.batch import RockingSpectrum
     from rocking.motion.response import Response
     from rocking.pulses import Pulse, PulseAnalysis
-    from rocking.records.accelerogram import Accelerogram
-    from rocking.records.measures import ResponseSpectrum
+    from rocking.signal.accelerogram import Accelerogram
+    from rocking.signal.measures import ResponseSpectrum
     from rocking.strengthening import Strengthening
     from rocking.structures import Mechanism, Structure
     from rocking.structures.capacity import StaticCurve

@@ -76,7 +76,7 @@ from rocking.structures.crackable import Crackable
 from rocking.structures.kinds import StructureKind
 
 if TYPE_CHECKING:
-    from rocking.records.design_spectrum import DesignSpectrum
+    from rocking.codes.design_spectrum import DesignSpectrum
 
 MOST_CARRIED = 10
 """Structures on supports that page two names, the worst first; supports.csv holds all."""

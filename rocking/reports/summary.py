@@ -78,7 +78,7 @@ from rocking.structures import Structure
 from rocking.tables import Row, rows_of
 
 if TYPE_CHECKING:
-    from rocking.records.design_spectrum import DesignSpectrum
+    from rocking.codes.design_spectrum import DesignSpectrum
 
 FEWEST_POINTS = 3
 """Cases from which on the closed form is drawn against the integration; fewer are read from the tables."""

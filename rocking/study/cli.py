@@ -286,7 +286,7 @@ def _tables(options: argparse.Namespace) -> None:
 
 
 def _read(options: argparse.Namespace) -> int:
-    from rocking.records.plausibility import scaled
+    from rocking.signal.scaling import scaled
     from rocking.study.own_files import read_files
 
     try:

@@ -38,10 +38,11 @@ from rocking.catalogue.place import Place
 from rocking.catalogue.station import station_of
 from rocking.errors import ConfigurationError, RockingError, about, fault_in_words, one_structure
 from rocking.quantities import counted
-from rocking.records import Accelerogram, aligned
-from rocking.records.processing import process
+from rocking.records import Accelerogram
 from rocking.records.read import LARGEST_FILE
-from rocking.records.scaling import ScalingTarget, scaled_to
+from rocking.signal import aligned
+from rocking.signal.processing import process
+from rocking.signal.scaling import ScalingTarget, scaled_to
 from rocking.structures import Structure
 from rocking.study.contents import ContentHashes
 from rocking.study.folder import locked

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import yaml
 
 from rocking.assessment.settings import AssessmentSettings, Heading
+from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.described import (
     Described,
     check_described,
@@ -24,11 +25,10 @@ from rocking.described import (
 from rocking.errors import ConfigurationError, RecordError
 from rocking.hashes import sha256_of, sha256_of_sources
 from rocking.quantities import GRAVITY
-from rocking.records.design_spectrum import DesignSpectrum
-from rocking.records.processing import Processing
-from rocking.records.scaling import ScalingTarget
 from rocking.remarks import Remark
 from rocking.reports.pages import Fact, PageSettings
+from rocking.signal.processing import Processing
+from rocking.signal.scaling import ScalingTarget
 from rocking.structures.joints import USUAL, Joints
 from rocking.structures.kinds import StructureKind
 from rocking.structures.structure import CRACKS

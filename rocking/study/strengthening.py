@@ -12,10 +12,10 @@ from rocking.assessment.store import RecordStore
 from rocking.catalogue import load_catalogue
 from rocking.codes.check import CodeTerms
 from rocking.codes.selection import scaled_pool
+from rocking.earthquakes.sample import Sample
 from rocking.errors import ConfigurationError
 from rocking.quantities import counted, shown
 from rocking.records import Accelerogram
-from rocking.records.sample import Sample
 from rocking.reports.panels import svg_of
 from rocking.reports.style import PICTURE
 from rocking.strengthening import Strengthening, Tried, size_named, sizes, strengthen_scene

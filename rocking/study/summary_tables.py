@@ -28,8 +28,8 @@ from rocking.assessment.rows import (
     sample_of_records,
     structure_rows,
 )
+from rocking.earthquakes.sample import Sample
 from rocking.errors import RockingError, one_structure
-from rocking.records.sample import Sample
 from rocking.structures import Structure
 from rocking.structures.equivalent_block import Scale
 from rocking.study.outcomes import RecordOutcome

@@ -12,8 +12,8 @@ from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram, read
 from rocking.records.formats import FORMATS, Options
 from rocking.records.kinds import RecordKind
-from rocking.records.processing import displacement, velocity
 from rocking.records.read import bare_text, read_content
+from rocking.signal.processing import displacement, velocity
 from tests.refusals import refused
 
 pytestmark = pytest.mark.real_records

@@ -22,6 +22,7 @@ FLOORS = [
     {"quantities", "drawn", "hashes"},
     {"described"},
     {"tables"},
+    {"signal", "earthquakes"},
     {"records"},
     {"catalogue"},
     {"floors"},
@@ -38,7 +39,7 @@ FLOORS = [
 ]
 ONLY_IN = {
     "pydantic": ("described.py", "catalogue/readings.py"),
-    "obspy": ("records/", "catalogue/files.py"),
+    "obspy": ("records/", "signal/accelerogram.py", "catalogue/files.py"),
     "numba": ("motion/", "pulses/", "sine_pulse/", "contacts/"),
     "matplotlib": ("reports/", "products/"),
     "typst": ("reports/",),
@@ -50,8 +51,8 @@ DRAWN = ("matplotlib.axes.Axes",)
 UPWARDS = {
     ("rocking.drawn", "rocking.reports.panels"),
     ("rocking.structures.structure", "rocking.reports.panels"),
-    ("rocking.records.accelerogram", "rocking.records.measures"),
-    ("rocking.records.accelerogram", "rocking.records.obspy_stream"),
+    ("rocking.signal.accelerogram", "rocking.signal.measures"),
+    ("rocking.signal.accelerogram", "rocking.records.obspy_stream"),
 }
 """Methods that a person calls on an object and that a module above it does: `wall.plot()`, `record.spectrum()`.
 

@@ -10,7 +10,7 @@ from scipy.integrate import quad
 
 from rocking.motion import integrate
 from rocking.pulses.pulse import Pulse
-from rocking.records.accelerogram import Accelerogram
+from rocking.signal.accelerogram import Accelerogram
 from rocking.structures import Arch, Block, EquivalentBlock, Outcome, Wall
 
 BLOCK = Block(1.0, 0.25, restitution=0.85).mechanism()

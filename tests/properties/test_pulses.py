@@ -5,7 +5,7 @@ import pytest
 from scipy import signal
 
 from rocking.pulses import PULSE_METHODS, extract_pulses, predicting_pulse
-from rocking.records.accelerogram import Accelerogram
+from rocking.signal.accelerogram import Accelerogram
 
 SEEDS = 60
 

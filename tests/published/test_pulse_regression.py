@@ -7,7 +7,7 @@ from scipy.constants import g
 
 from rocking.pulses import PulseSettings, extract_pulses, velocity_pulse
 from rocking.records import Accelerogram, read
-from rocking.records.direction import rotate
+from rocking.signal.rotation import rotate
 
 # record, |a_g| [g], T_g [s], t₀ [s], EVa, G₂/G₁; mean of the first 0.5 s removed, acausal 0.05 Hz high-pass, 0.12–5 Hz
 REGRESSION = [

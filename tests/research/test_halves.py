@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from docs.research.halves import TARGETS, scores_of_halves, seems, shown, split
-from rocking.records.sample import Sample
+from rocking.earthquakes.sample import Sample
 from rocking.strengthening import GRID, Strengthening, Tried, sizes
 from rocking.structures import Block
 

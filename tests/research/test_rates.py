@@ -16,7 +16,7 @@ from docs.research.rates import (
     rates_of_sites,
     study_scores,
 )
-from rocking.records.sample import Sample
+from rocking.earthquakes.sample import Sample
 
 SLOPE = 1.5
 CLOSED_FORM = {

@@ -7,8 +7,8 @@ from scipy.optimize import minimize
 from docs.research import scores
 from docs.research.scores import HAPPENED, logistic, logit_slope
 from docs.research.sites import independent, spread
+from rocking.earthquakes.sample import Sample
 from rocking.records import Accelerogram
-from rocking.records.sample import Sample
 
 
 def planted(many: int) -> tuple[np.ndarray, np.ndarray]:

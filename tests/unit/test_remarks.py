@@ -14,6 +14,7 @@ from rocking.assessment.store import decoded, encoded
 from rocking.floors.kinds import FloorKind
 from rocking.records.kinds import RecordKind
 from rocking.remarks import Kind, Remark, every_kind, kind_of
+from rocking.signal.kinds import SignalKind
 
 PACKAGE = Path(inspect.getfile(rocking)).parent
 TESTS = Path(__file__).parents[1]
@@ -86,7 +87,7 @@ def test_what_a_remark_is_about_stands_before_a_sentence_that_does_not_name_it()
 
 
 @pytest.mark.parametrize(("remark", "words"), [
-    (Remark.of(RecordKind.STEP_UNUSUAL, time_step_s=0.11, shortest_s=1e-4, longest_s=0.1), "is 0.11 s: accelerographs"),
+    (Remark.of(SignalKind.STEP_UNUSUAL, time_step_s=0.11, shortest_s=1e-4, longest_s=0.1), "is 0.11 s: accelerographs"),
     (Remark.of(RecordKind.SAMPLE_ALONE, time_s=1.5, peak_g=3.0591, others_g=0.10197), "at 1.5 s is 3.06 g and"),
     (Remark.of(FloorKind.STILL_RINGING, share=0.0314, after_s=60.0), "at 3.1% of its peak"),
     (Remark.of(RecordKind.PEAK_UNLIKE_HEADER, peak_m_s2=9.80665, stated_m_s2=9.9), "is 9.80665 m/s², but the header"),

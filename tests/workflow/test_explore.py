@@ -19,11 +19,11 @@ from rocking.assessment.scene import load_scenes
 from rocking.catalogue.catalogue import load_catalogue
 from rocking.motion.integration import integrate
 from rocking.pulses import extract_pulses
-from rocking.records.processing import displacement
 from rocking.remarks import Remark
 from rocking.reports.against import in_words
 from rocking.reports.explore import BINS, RECORD_SCRIPT, drawings, explore_page, extremes
 from rocking.reports.printing import number
+from rocking.signal.processing import displacement
 from rocking.sine_pulse import predict_maximum
 from rocking.study.job import Study
 from rocking.study.settings import read_settings

@@ -10,8 +10,8 @@ from rocking.catalogue.place import Place
 from rocking.errors import StructureError
 from rocking.pulses import Pulse, PulseEvidence, VelocityPulse
 from rocking.pulses.pulse import PulseAnalysis
-from rocking.records.measures import RecordMeasures, record_measures
 from rocking.remarks import Kind
+from rocking.signal.measures import RecordMeasures, record_measures
 from rocking.structures import Side, Structure
 from rocking.structures.capacity import StaticCurve
 from rocking.structures.crackable import WEAK_MASONRY

@@ -12,8 +12,8 @@ import numpy as np
 
 from rocking.assessment.rows import of_inputs as inputs
 from rocking.assessment.rows import of_record as rows
+from rocking.earthquakes.sample import MADE, TAIL, UNNAMED, Sample
 from rocking.records import Accelerogram
-from rocking.records.sample import MADE, TAIL, UNNAMED, Sample
 from rocking.tables import Columns, Row, RowOf, row
 
 

@@ -20,6 +20,7 @@ from rocking.codes.check import (
     says_nothing,
 )
 from rocking.codes.code_capacity import LIMIT_STATES, CodeCapacity
+from rocking.codes.design_spectrum import DesignSpectrum, NtcSpectrum, PointSpectrum
 from rocking.codes.kinds import CheckKind
 from rocking.codes.selection import SETS, Selection
 from rocking.errors import ErrorKind, RockingError, one_structure
@@ -30,7 +31,6 @@ from rocking.products.checks.figures import bars_figure, basis_figure, selection
 from rocking.products.checks.pages import Answer, Basis, SetFigure, Sheet, SignWords, StructuresPage, Sure
 from rocking.products.checks.rows import KINDS, code_check_rows
 from rocking.quantities import GRAVITY, percent
-from rocking.records.design_spectrum import DesignSpectrum, NtcSpectrum, PointSpectrum
 from rocking.remarks import Kind, Phrase, Remark
 from rocking.reports.pages import Cell, Fact, Footer, PageSettings, Strip, Table
 from rocking.reports.printing import UNITS_IN_WORDS, displaying, stamp, strong, table, unit_of

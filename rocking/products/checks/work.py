@@ -20,12 +20,12 @@ from rocking.catalogue import load_catalogue
 from rocking.codes.check import CodeTerms, StructureCheck
 from rocking.codes.dynamic_check import check
 from rocking.codes.selection import Selection
+from rocking.earthquakes.sample import Sample
 from rocking.errors import ConfigurationError, RockingError, one_structure
 from rocking.floors.support import Support
 from rocking.products.checks.conclusion import CodeConclusion, code_conclusion_in_words, code_conclusions
 from rocking.products.checks.report import CheckedStructure, structures_data
 from rocking.products.checks.rows import KINDS, CodeCheckRow, code_check_rows
-from rocking.records.sample import Sample
 from rocking.remarks import Remark
 from rocking.reports.pages import Panel, Part
 from rocking.reports.printing import sentence, strong, table_of, words, write_document

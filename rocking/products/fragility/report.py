@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 from rocking.assessment.rows import PlacedRow
 from rocking.assessment.scene import placed
+from rocking.earthquakes.sample import FEWEST, interval_words
 from rocking.fragility.hazard import REACHING
 from rocking.fragility.measures import INTENSITY_MEASURES, intensity_measure
 from rocking.products.fragility.rows import (
@@ -22,7 +23,6 @@ from rocking.products.fragility.rows import (
     IntensityMeasureRow,
 )
 from rocking.quantities import counted
-from rocking.records.sample import FEWEST, interval_words
 from rocking.reports.pages import CaptionedTable, Panel, Part, PlainPage
 from rocking.reports.panels import CurveBand, draw_probability
 from rocking.reports.printing import (

@@ -10,6 +10,7 @@ import numpy as np
 from scipy.special import ndtri
 
 from rocking.assessment.rows import RECORD, Placed, PlacedRow
+from rocking.earthquakes.sample import Sample
 from rocking.errors import ConfigurationError
 from rocking.fragility.curves import (
     Explanation,
@@ -25,8 +26,7 @@ from rocking.fragility.measures import (
     compared,
 )
 from rocking.records import Accelerogram
-from rocking.records.measures import peak_velocity
-from rocking.records.sample import Sample
+from rocking.signal.measures import peak_velocity
 from rocking.structures import Mechanism
 from rocking.tables import Columns, Row, row
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from rocking.assessment.cracks import never_overturns_because
 from rocking.assessment.rows import FailureRow
 from rocking.catalogue import CatalogueRecord
+from rocking.earthquakes.sample import Sample
 from rocking.errors import ConfigurationError, RockingError
 from rocking.fragility.curves import Fragility, fragility
 from rocking.fragility.exchange import nrml, nrml_without
@@ -24,7 +25,6 @@ from rocking.products.fragility.rows import (
     intensity_measure_rows,
 )
 from rocking.records import Accelerogram
-from rocking.records.sample import Sample
 from rocking.reports.pages import Panel
 from rocking.reports.printing import faults_in_words
 from rocking.structures import Mechanism

@@ -15,6 +15,7 @@ from typing import TypeVar
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
+from rocking.earthquakes.sample import Sample, interval_words
 from rocking.errors import PulseError, RockingError
 from rocking.motion import integrate
 from rocking.products.trade.rows import TimedAnswer, TradeMethod, TradeRow, TriedMethod
@@ -22,7 +23,6 @@ from rocking.pulses import DEMAND_CANDIDATES, PulseEvidence, extract_pulses
 from rocking.pulses.pulse import DOMINATES
 from rocking.quantities import counted
 from rocking.records import Accelerogram
-from rocking.records.sample import Sample, interval_words
 from rocking.sine_pulse import predict_as_printed, predict_maximum
 from rocking.structures import EquivalentBlock, Mechanism, Structure
 

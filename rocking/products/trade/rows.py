@@ -10,7 +10,7 @@ from statistics import median
 import numpy as np
 
 from rocking.assessment.methods import Agreement, agreement, ratio, rests
-from rocking.records.sample import Sample
+from rocking.earthquakes.sample import Sample
 from rocking.tables import Columns, RowOf, row
 
 

@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from rocking.errors import RecordError
-from rocking.records.accelerogram import Accelerogram
 from rocking.records.direction import Direction
 from rocking.records.formats import text
 from rocking.records.formats.format import (
@@ -27,6 +26,7 @@ from rocking.records.formats.format import (
 )
 from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
+from rocking.signal.accelerogram import Accelerogram
 
 _UNAM_HEADER = 160  # lines of the longest header
 _UNAM = Layout("gal", {

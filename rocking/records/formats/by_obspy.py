@@ -20,7 +20,6 @@ import numpy as np
 
 from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import acceleration_unit, positive
-from rocking.records.accelerogram import Accelerogram
 from rocking.records.claims import refuse_other_quantity
 from rocking.records.doors import advice
 from rocking.records.formats import text
@@ -30,6 +29,7 @@ from rocking.records.kinds import RecordKind
 from rocking.records.one_trace import as_stated, from_traces, header
 from rocking.records.traces import first_line, joined, printed
 from rocking.remarks import Remark
+from rocking.signal.accelerogram import Accelerogram
 from rocking.tables import read_whole
 
 _DAMAGE = re.compile(r"integrity|not a SEED record|unexpected end|will not be read|corrupt|mismatch", re.I)

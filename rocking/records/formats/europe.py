@@ -4,7 +4,7 @@ import re
 from typing import Any
 
 from rocking.errors import RecordError
-from rocking.records.accelerogram import Accelerogram
+from rocking.quantities import NUMBER
 from rocking.records.direction import Direction
 from rocking.records.formats import text
 from rocking.records.formats.format import (
@@ -19,8 +19,9 @@ from rocking.records.formats.format import (
     typed_magnitude,
     universal,
 )
-from rocking.records.formats.text import NUMBER, iso_date
+from rocking.records.formats.text import iso_date
 from rocking.records.plausibility import agree_with_velocity
+from rocking.signal.accelerogram import Accelerogram
 
 _DYNA = Layout("", keyed(
     samples="NDATA", step="SAMPLING_INTERVAL_S", duration="DURATION_S", component="STREAM", station="STATION_CODE",

@@ -14,14 +14,12 @@ from typing import Any, Literal, get_args
 import numpy as np
 
 from rocking.errors import RecordError, UndeclaredError
-from rocking.quantities import acceleration_factor, acceleration_unit, positive
-from rocking.records.accelerogram import LARGEST_PEAK, Accelerogram, Source
+from rocking.quantities import NUMBER, acceleration_factor, acceleration_unit, positive
 from rocking.records.claims import Claim, What, Where, agreed, refuse_other_quantity
 from rocking.records.direction import directed
 from rocking.records.doors import advice
 from rocking.records.formats.layouts import Layouts
 from rocking.records.formats.text import (
-    NUMBER,
     count,
     even_step,
     fields,
@@ -40,6 +38,7 @@ from rocking.records.plausibility import (
     site_warnings,
 )
 from rocking.remarks import Remark
+from rocking.signal.accelerogram import LARGEST_PEAK, Accelerogram, Source
 
 Response = Literal["sensitivity", "full"]
 

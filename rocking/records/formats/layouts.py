@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import Literal, get_args
 
 from rocking.errors import CatalogueError, RecordError, UndeclaredError
-from rocking.quantities import acceleration_unit, counted
+from rocking.quantities import acceleration_unit, counted, is_number
 from rocking.records.claims import other_quantity
-from rocking.records.formats.text import is_number
 from rocking.tables import edited_text, read_edited
 
 NAME = "layouts.csv"

@@ -3,7 +3,7 @@
 import re
 
 from rocking.errors import RecordError
-from rocking.records.accelerogram import Accelerogram
+from rocking.quantities import NUMBER
 from rocking.records.claims import refuse_other_quantity
 from rocking.records.formats import text
 from rocking.records.formats.format import (
@@ -19,10 +19,10 @@ from rocking.records.formats.format import (
     parted,
     typed_magnitude,
 )
-from rocking.records.formats.text import NUMBER
 from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import agree_with_velocity
 from rocking.remarks import Remark
+from rocking.signal.accelerogram import Accelerogram
 
 _CWB_HEADER = 60  # lines of the longest header
 _CWB = Layout("gal", {"unit": key("AMPLITUDEUNIT", WORD)} | keyed(

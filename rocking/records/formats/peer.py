@@ -4,12 +4,13 @@ import re
 from typing import Any
 
 from rocking.errors import RecordError
-from rocking.records.accelerogram import Accelerogram
+from rocking.quantities import is_number
 from rocking.records.claims import Declarations, azimuth_of_sensor, factor_warnings, other_quantity
 from rocking.records.formats.format import Format, Layout, Options
-from rocking.records.formats.text import after_lines, count, is_number, lines, number, numbers, whole
+from rocking.records.formats.text import after_lines, count, lines, number, numbers, whole
 from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
+from rocking.signal.accelerogram import Accelerogram
 
 _STEPS = (
     re.compile(

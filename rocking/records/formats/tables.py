@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from rocking.errors import RecordError, UndeclaredError
-from rocking.records.accelerogram import Accelerogram
+from rocking.quantities import is_number
 from rocking.records.claims import (
     END,
     AnswerContradictedError,
@@ -47,6 +47,7 @@ from rocking.records.formats.layouts import (
 )
 from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
+from rocking.signal.accelerogram import Accelerogram
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
 _EMPTY_LAST = re.compile(rb"[,;][ \t]*(?:\n|\Z)")
@@ -102,7 +103,7 @@ class NumberTable:
         lines = text.lines(content, _ABOVE + 2 * _HEAD)
         parted = [re.sub(_TOUCHING.pattern.decode(), r"\1 ", _bare(line)) for line in lines]
         cells = [_SEPARATOR.split(line) if line else [] for line in parted]
-        numeric = [len(row) if row and all(map(text.is_number, row)) else 0 for row in cells]
+        numeric = [len(row) if row and all(map(is_number, row)) else 0 for row in cells]
         start = next(
             (at for at in range(len(lines)) if numeric[at] and _begins(lines[at:], numeric[at:])), None
         )
@@ -172,7 +173,7 @@ def _begins(lines: Sequence[str], numeric: Sequence[int]) -> bool:
 def _counts(line: str) -> tuple[Above, ...]:
     """Return in which order a line holds a number of samples and a step, and no other number; () of another line."""
     parts = _WORDS.sub(" ", line).split()
-    if len(parts) != 2 or not all(map(text.is_number, parts)) or "/" in line:
+    if len(parts) != 2 or not all(map(is_number, parts)) or "/" in line:
         return ()
     orders: tuple[tuple[Above, ...], ...] = ("n", "dt"), ("dt", "n")
     for order, (samples, step) in zip(orders, (parts, parts[::-1]), strict=True):
@@ -464,7 +465,7 @@ def _above(table: NumberTable, layout: TableLayout | None, content: bytes) -> tu
     while len(found) < len(roles) and lines:
         found += _WORDS.sub(" ", lines.pop(0)).split()
         at += 1
-    if len(found) != len(roles) or not all(map(text.is_number, found)):
+    if len(found) != len(roles) or not all(map(is_number, found)):
         named = ", ".join(roles)
         raise RecordError(
             f"above its samples stand {' '.join(found)[:40]!r}, and not the numbers {named}.",
@@ -504,7 +505,7 @@ def _is_row(line: str, width: int) -> bool:
         return bool(bare)
     if re.match(r"[+-]?\.?\d", bare):
         return True
-    is_like_one = len(cells) == width and 2 * sum(map(text.is_number, cells)) >= width
+    is_like_one = len(cells) == width and 2 * sum(map(is_number, cells)) >= width
     return is_like_one or (width == 1 == len(cells) and bool(re.search(r"\d", bare)))
 
 

@@ -8,14 +8,13 @@ from datetime import datetime
 import numpy as np
 
 from rocking.errors import RecordError
-from rocking.records.claims import NUMBER as NUMBER
+from rocking.quantities import is_number
 from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
 
 _NUMERIC = b"0123456789+-.eE \t\n\r"
 _LARGEST = 1e100
 """The largest plausible number; a larger one (or, in a header, one below its inverse) is damage, and would overflow."""
-_NUMBER = re.compile(NUMBER)
 
 
 def lines(content: bytes, limit: int | None = None) -> list[str]:
@@ -33,11 +32,6 @@ def lines(content: bytes, limit: int | None = None) -> list[str]:
 def after_lines(content: bytes, number: int) -> bytes:
     """Return `content` after its first `number` lines."""
     return content.split(b"\n", number)[number] if content.count(b"\n") >= number else b""
-
-
-def is_number(token: str) -> bool:
-    """Whether `token` is a plain finite decimal number; "1_0", "nan" and "inf" are not."""
-    return bool(_NUMBER.fullmatch(token))
 
 
 def number(field: str, token: str) -> float:

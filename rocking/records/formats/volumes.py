@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 
 from rocking.errors import RecordError
-from rocking.quantities import acceleration_factor
-from rocking.records.accelerogram import Accelerogram
+from rocking.quantities import acceleration_factor, is_number
 from rocking.records.direction import Direction
 from rocking.records.formats import text
 from rocking.records.formats.format import (
@@ -30,6 +29,7 @@ from rocking.records.formats.format import (
 from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import agree_with_mean_square, agree_with_velocity
 from rocking.remarks import Remark
+from rocking.signal.accelerogram import Accelerogram
 
 _COSMOS = Layout("", {
     "event": r"\A.*\n(?:Rcrd|Record)?[ \t]*(?:of)?[ \t]*(.*)", "station": r"Code:\s*(\S+)",
@@ -211,9 +211,9 @@ def _bhrc(block: list[str], options: Options, _: int) -> Accelerogram:
     step = text.number("duration", optional(_DURATION, head)) / values.size
     reals = " ".join(block[_REALS_AT : _REALS_AT + 2]).split()
     printed = reals[_RATE] if len(reals) > _RATE else "0"
-    rate = float(printed) if text.is_number(printed) else 0.0
+    rate = float(printed) if is_number(printed) else 0.0
     notes: tuple[Remark, ...] = ()
-    if not text.is_number(printed):
+    if not is_number(printed):
         notes = (Remark.of(RecordKind.RATE_NO_NUMBER, rate=printed),)
     elif 1 <= rate <= 1e4 and abs(rate * step - 1) > 1e-3:
         notes = (Remark.of(RecordKind.RATE_UNLIKE_STEP, rate_hz=rate, time_step_s=step),)

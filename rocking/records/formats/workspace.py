@@ -20,7 +20,6 @@ import numpy as np
 
 from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import acceleration_unit
-from rocking.records.accelerogram import Accelerogram
 from rocking.records.claims import refuse_other_quantity
 from rocking.records.doors import advice
 from rocking.records.formats.by_obspy import inventory_of, parsed_inventory
@@ -29,6 +28,7 @@ from rocking.records.kinds import RecordKind
 from rocking.records.one_trace import from_traces
 from rocking.records.traces import joined
 from rocking.remarks import Remark
+from rocking.signal.accelerogram import Accelerogram
 
 MARK = b"\x89HDF\r\n\x1a\n"
 """The begin of an HDF5 file."""

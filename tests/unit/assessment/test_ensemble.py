@@ -19,8 +19,8 @@ from rocking.errors import ConfigurationError
 from rocking.motion import integrate
 from rocking.motion.integration import follow_runs
 from rocking.records import Accelerogram
-from rocking.records.accelerogram import Source
-from rocking.records.processing import Processing, process
+from rocking.signal.accelerogram import Source
+from rocking.signal.processing import Processing, process
 from rocking.structures import Arch, Block, Wall
 from tests.refusals import refused
 

@@ -14,7 +14,7 @@ from rocking.assessment.rows import (
     falls_under,
     interval_of_mean,
 )
-from rocking.records.sample import Sample
+from rocking.earthquakes.sample import Sample
 from tests.unit.assessment.made_rows import broken, case, station, verdicts
 
 

@@ -6,8 +6,8 @@ from scipy.optimize import minimize
 from scipy.stats import norm
 from scipy.stats import t as student
 
+from rocking.earthquakes.sample import Sample
 from rocking.fragility.curves import explanation
-from rocking.records.sample import Sample
 
 LEVELS = np.log(np.geomspace(0.05, 20.0, 60))
 

@@ -21,11 +21,11 @@ from rocking.catalogue.files import download, fill_hashes, path_of
 from rocking.catalogue.folder import list_folder
 from rocking.catalogue.listing import listing_text
 from rocking.described import described_values
+from rocking.earthquakes.sample import earthquakes_of, stations_of
 from rocking.errors import CatalogueError, RecordError
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.records.kinds import RecordKind
-from rocking.records.sample import earthquakes_of, stations_of
 from rocking.remarks import Remark
 from tests.refusals import refused
 

@@ -11,9 +11,10 @@ from rocking.catalogue import CatalogueRecord, open_station
 from rocking.catalogue.folder import catalogue_of_folder, list_folder, unlisted
 from rocking.catalogue.listing import doubts_of
 from rocking.errors import RecordError
-from rocking.records import Accelerogram, aligned
+from rocking.records import Accelerogram
 from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
+from rocking.signal import aligned
 from tests.refusals import refused
 
 VALUES = np.sin(np.arange(300) * 0.3)

@@ -21,8 +21,8 @@ from rocking import (
 )
 from rocking.codes import dynamic_check
 from rocking.codes.kinds import CheckKind
+from rocking.earthquakes.sample import Sample
 from rocking.records import Accelerogram
-from rocking.records.sample import Sample
 from rocking.remarks import Remark
 from tests.made_pools import made_answers, made_pool
 

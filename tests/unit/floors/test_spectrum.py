@@ -9,8 +9,7 @@ from rocking.errors import RecordError
 from rocking.floors.spectrum import floor_spectrum, spectrum_of
 from rocking.floors.support import Mode, Support
 from rocking.records import read
-from rocking.records.design_spectrum import damping_factor
-from rocking.records.measures import response_spectrum
+from rocking.signal.measures import damping_factor, response_spectrum
 from tests.refusals import refused
 
 ONE = Support((Mode(period=0.3, damping_ratio=0.05, participation=1.3),))

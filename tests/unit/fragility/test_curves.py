@@ -13,6 +13,7 @@ from scipy.stats import norm
 import rocking
 from rocking.assessment.ensemble import drawn
 from rocking.assessment.settings import EnsembleSettings
+from rocking.earthquakes.sample import Sample
 from rocking.errors import ConfigurationError
 from rocking.fragility import curves
 from rocking.fragility.curves import Fragility, IncrementalDynamicAnalysis, fragility, fragility_of
@@ -23,7 +24,6 @@ from rocking.motion.batch import integrate_batch
 from rocking.products.fragility.rows import ida_rows
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
-from rocking.records.sample import Sample
 from rocking.structures import Block
 from tests.refusals import refused
 

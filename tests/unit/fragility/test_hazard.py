@@ -10,10 +10,10 @@ import pytest
 from scipy.stats import lognorm, norm
 
 import rocking
+from rocking.earthquakes.sample import Sample
 from rocking.errors import ConfigurationError
 from rocking.fragility.curves import Fragility, fragility_of
 from rocking.fragility.hazard import Hazard
-from rocking.records.sample import Sample
 from tests.refusals import refused
 
 LEVELS = np.geomspace(0.02, 50.0, 400)

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.constants import g
 
 from rocking.pulses.pulse import Pulse
-from rocking.records.accelerogram import Accelerogram
+from rocking.signal.accelerogram import Accelerogram
 from rocking.structures import Arch, Block, Wall
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
 

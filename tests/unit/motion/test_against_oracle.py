@@ -9,7 +9,7 @@ from straight import straight
 
 from rocking.motion import integrate
 from rocking.pulses.pulse import Pulse
-from rocking.records.accelerogram import Accelerogram
+from rocking.signal.accelerogram import Accelerogram
 from rocking.structures import Outcome
 from rocking.structures.mechanism import Mechanism
 

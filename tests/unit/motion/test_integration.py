@@ -8,7 +8,7 @@ from scipy.constants import g
 from rocking.errors import MotionError
 from rocking.motion import integrate, integrate_batch
 from rocking.pulses.pulse import Pulse
-from rocking.records.accelerogram import Accelerogram
+from rocking.signal.accelerogram import Accelerogram
 from rocking.structures import Block, Facade, Outcome
 from tests.refusals import refused
 

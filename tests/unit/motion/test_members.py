@@ -9,7 +9,7 @@ from rocking.errors import MotionError
 from rocking.motion import Members, integrate, integrate_batch, integrate_members
 from rocking.motion.batch import rocking_spectrum
 from rocking.pulses.pulse import Pulse
-from rocking.records.accelerogram import Accelerogram
+from rocking.signal.accelerogram import Accelerogram
 from rocking.structures import Block, EquivalentBlock
 from tests.refusals import refused
 

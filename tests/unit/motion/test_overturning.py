@@ -8,7 +8,7 @@ from scipy.constants import g
 
 from rocking.motion import integrate
 from rocking.pulses.pulse import Pulse
-from rocking.records.accelerogram import Accelerogram
+from rocking.signal.accelerogram import Accelerogram
 from rocking.structures import Block, EquivalentBlock, Outcome
 
 

@@ -11,8 +11,8 @@ from hypothesis.extra.numpy import arrays
 from rocking.errors import PulseError
 from rocking.pulses import Pulse, PulseSettings, extract_pulses
 from rocking.pulses.kinds import PulseKind
-from rocking.records.accelerogram import Accelerogram, Source
 from rocking.remarks import Remark
+from rocking.signal.accelerogram import Accelerogram, Source
 from tests.refusals import refused
 
 STEP = 0.01

@@ -6,7 +6,7 @@ import pytest
 from rocking.pulses import Pulse, extract_pulses
 from rocking.pulses.extraction import oscillates
 from rocking.pulses.kinds import PulseKind
-from rocking.records.accelerogram import Accelerogram
+from rocking.signal.accelerogram import Accelerogram
 
 STEP = 0.01
 TIMES = np.arange(3000) * STEP

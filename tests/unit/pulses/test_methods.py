@@ -8,7 +8,7 @@ import pytest
 from rocking.errors import PulseError
 from rocking.pulses import PULSE_METHODS, Pulse, extract_pulses, predicting_pulse
 from rocking.pulses.velocity_pulse import largest_velocity_pulse
-from rocking.records.accelerogram import Accelerogram
+from rocking.signal.accelerogram import Accelerogram
 from tests.refusals import refused
 
 TIMES = np.arange(3000) * 0.01

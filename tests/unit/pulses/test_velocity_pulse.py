@@ -19,7 +19,7 @@ from rocking.pulses.velocity_pulse import (
     searched_scales,
     transform,
 )
-from rocking.records.accelerogram import Accelerogram
+from rocking.signal.accelerogram import Accelerogram
 from tests.refusals import refused
 
 STEP = 0.005

@@ -8,8 +8,8 @@ from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import agree_with_velocity, damage_warnings, repeated_rows
-from rocking.records.processing import integral
 from rocking.remarks import Remark
+from rocking.signal.processing import integral
 
 SHAKING = np.sin(np.arange(400) / 5) * np.hanning(400)
 

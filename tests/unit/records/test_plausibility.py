@@ -12,6 +12,7 @@ from rocking.records import Accelerogram, Source
 from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import StatedPeak, agree_with_header, pass_limits
 from rocking.remarks import Remark
+from rocking.signal.kinds import SignalKind
 from tests.refusals import refused
 
 
@@ -60,8 +61,8 @@ SHAKING = np.sin(np.arange(400) / 5) * np.hanning(400)
 def test_steps_and_peaks_that_no_instrument_gives_are_told_of_arrays_as_of_files() -> None:
     for step in (1e-9, 0.11, 6.01, 1e3):
         (warning,) = Accelerogram(SHAKING, step).warnings
-        assert warning.kind is RecordKind.STEP_UNUSUAL and warning["time_step_s"] == step
-    assert Accelerogram(SHAKING * 1000, 0.01).warnings == (Remark(RecordKind.PEAK_IMPOSSIBLE),)
+        assert warning.kind is SignalKind.STEP_UNUSUAL and warning["time_step_s"] == step
+    assert Accelerogram(SHAKING * 1000, 0.01).warnings == (Remark(SignalKind.PEAK_IMPOSSIBLE),)
     assert len(replace(Accelerogram(SHAKING * 1000, 1e-9), station="A").warnings) == 2
     assert not Accelerogram(SHAKING * 5 * GRAVITY, 1e-4).warnings + Accelerogram(SHAKING, 0.1).warnings
 

@@ -25,11 +25,11 @@ from rocking.assessment.rows import (
 from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import AssessmentSettings
 from rocking.pulses import Pulse
-from rocking.records.accelerogram import Accelerogram, Source
 from rocking.reports.pages import PageSettings
 from rocking.reports.printing import compile_document
 from rocking.reports.record import RecordReport
 from rocking.reports.summary import summary_data
+from rocking.signal.accelerogram import Accelerogram, Source
 from rocking.structures import Arch, Block, Wall
 from rocking.tables import Row
 from tests.unit.assessment.made_rows import case, station

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from rocking.records.measures import record_measures
 from rocking.reports.drawings import MOST_POINTS, draw_structure, fallen_rotation, thinned
 from rocking.reports.explore import drawings
 from rocking.reports.record import ground_strip, structure_row
 from rocking.reports.style import COMMON, glyphs
+from rocking.signal.measures import record_measures
 from rocking.structures import Arch, Block, Facade, LoadedWall, Wall
 
 STRUCTURES = [Block.of_size(1.0, 4.0), Wall(1.6, 1.4, 0.4), Arch(10, 1.5, 2.75)]

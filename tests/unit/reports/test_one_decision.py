@@ -16,10 +16,10 @@ from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.rows import VerdictRow, rows_of_record
 from rocking.assessment.scene import load_scenes, placed
 from rocking.catalogue import load_catalogue
+from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.dynamic_check import check
 from rocking.products.checks.report import structures_data
 from rocking.products.checks.work import _checked
-from rocking.records.design_spectrum import DesignSpectrum
 from rocking.remarks import Remark
 from rocking.reports.explore import explore_page, record_content
 from rocking.reports.printing import LOOKS, cell_text

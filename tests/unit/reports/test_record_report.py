@@ -13,13 +13,13 @@ from rocking.assessment.methods import Acts, Agreement
 from rocking.assessment.rows import rows_of_record, structure_rows
 from rocking.assessment.scene import Scene
 from rocking.quantities import counted
-from rocking.records.accelerogram import Accelerogram
 from rocking.remarks import Remark
 from rocking.reports import printing
 from rocking.reports.kinds import ReportKind
 from rocking.reports.pages import Part, RecordPage, Table, TableCell
 from rocking.reports.printing import MEASURED, compile_document
 from rocking.reports.record import RecordReport, failure_page
+from rocking.signal.accelerogram import Accelerogram
 from rocking.structures import Arch, ArchOnPiers, Block, Facade, Frame, Joints, LoadedWall, Spire, Wall
 from rocking.structures.kinds import StructureKind
 from rocking.tables import cell

@@ -27,7 +27,6 @@ from rocking.fragility.measures import compared
 from rocking.products.fragility.report import fragility_data, fragility_figure, ida_frame
 from rocking.products.fragility.rows import FragilityRow, FragilitySummaryRow, IdaRow, IntensityMeasureRow
 from rocking.products.fragility.work import Fragilities
-from rocking.records.measures import response_spectrum
 from rocking.remarks import Remark
 from rocking.reports.design_figure import (
     MOST_LINES,
@@ -40,6 +39,7 @@ from rocking.reports.pages import Part, TableCell
 from rocking.reports.scatter import prediction_scatter
 from rocking.reports.style import svg
 from rocking.reports.summary import outcomes_figure, severity_map, summary_data
+from rocking.signal.measures import response_spectrum
 from rocking.structures import Wall
 from rocking.structures.kinds import StructureKind
 from rocking.tables import frame

@@ -8,11 +8,11 @@ import pytest
 from scipy.stats import beta
 
 import rocking
+from rocking.codes.design_spectrum import DesignSpectrum
+from rocking.earthquakes.sample import Sample
 from rocking.errors import ConfigurationError
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
-from rocking.records.design_spectrum import DesignSpectrum
-from rocking.records.sample import Sample
 from rocking.strengthening import (
     GRID,
     Strengthening,

@@ -6,7 +6,7 @@ from straight import straight
 
 from rocking.motion import integrate
 from rocking.pulses.pulse import Pulse
-from rocking.records.accelerogram import Accelerogram
+from rocking.signal.accelerogram import Accelerogram
 from rocking.sine_pulse import predict_maximum
 from rocking.structures import Arch, Block, EquivalentBlock, Mechanism, Wall
 

@@ -9,9 +9,9 @@ from courses import Courses
 
 from rocking.assessment.cracks import cracks, mechanisms_of
 from rocking.codes.check import CodeTerms
+from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.static_check import kinematic_check
 from rocking.errors import DoesNotStandError, StructureError
-from rocking.records.design_spectrum import DesignSpectrum
 from rocking.structures import Facade, LoadedWall
 
 WEIGHT = 18e3

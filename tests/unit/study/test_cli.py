@@ -19,8 +19,8 @@ import yaml
 import rocking
 from rocking.assessment.scene import load_scenes, placed
 from rocking.errors import ConfigurationError
-from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
+from rocking.signal.kinds import SignalKind
 from rocking.study.cli import main
 from rocking.study.plan import check_config_file, make_plan
 from rocking.study.products import FRAGILITY
@@ -85,7 +85,7 @@ def test_a_factor_that_takes_the_peak_above_three_g_is_told(record, capsys, scal
     """The file reaches 0.5 g: six times that is the limit."""
     assert main(["read", str(record), "--unit", "g", f"--scale={scale}"]) == 0
     peak = 0.5 * abs(float(scale))
-    told = Remark.of(RecordKind.PEAK_RARE_BY_FACTOR, factor=float(scale), peak_g=peak)
+    told = Remark.of(SignalKind.PEAK_RARE_BY_FACTOR, factor=float(scale), peak_g=peak)
     assert (str(told) in capsys.readouterr().out) == warned
 
 

@@ -10,8 +10,8 @@ import rocking
 from rocking.assessment.decide import Verdict
 from rocking.assessment.rows import ExpectedFallsRow, RecordRow, VerdictRow
 from rocking.catalogue import load_catalogue
+from rocking.earthquakes.sample import Sample
 from rocking.products.checks.work import write_checks
-from rocking.records.sample import Sample
 from rocking.strengthening import sizes, strengthen_scene
 from rocking.study.job import Study
 from rocking.study.plan import make_plan

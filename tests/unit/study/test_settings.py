@@ -12,12 +12,12 @@ from hypothesis import strategies as st
 from jsonschema import Draft7Validator
 
 from rocking.assessment.settings import AssessmentSettings
+from rocking.codes.design_spectrum import SOILS, TOPOGRAPHIES
 from rocking.described import described_values, parts_of
 from rocking.errors import ConfigurationError
 from rocking.fragility.measures import INTENSITY_MEASURES, MEASURES_IN_WORDS, SPELLINGS
-from rocking.records.design_spectrum import SOILS, TOPOGRAPHIES
-from rocking.records.processing import UNPROCESSED_DEFAULT
 from rocking.reports.pages import Fact
+from rocking.signal.processing import UNPROCESSED_DEFAULT
 from rocking.study.made_from import settings_for
 from rocking.study.settings import (
     EXAMPLE,

@@ -9,9 +9,9 @@ from scipy.interpolate import CubicHermiteSpline
 
 from rocking.errors import RecordError
 from rocking.records import Accelerogram
-from rocking.records import processing as steps
-from rocking.records.processing import Processing, adaptive_baseline, displacement, process, velocity
 from rocking.records.synthetic import SHIPPED, synthetic_record
+from rocking.signal import processing as steps
+from rocking.signal.processing import Processing, adaptive_baseline, displacement, process, velocity
 from tests.refusals import refused
 
 DT = 0.01

@@ -10,8 +10,8 @@ from rocking.catalogue import CatalogueRecord, open_station
 from rocking.catalogue.catalogue import repeated
 from rocking.errors import CatalogueError, ConfigurationError, RecordError
 from rocking.quantities import GRAVITY
-from rocking.records.kinds import RecordKind
-from rocking.records.scaling import ScalingTarget
+from rocking.signal.kinds import SignalKind
+from rocking.signal.scaling import ScalingTarget
 from rocking.study.job import Study
 from rocking.study.settings import Settings, read_settings
 from tests.refusals import refused
@@ -86,7 +86,7 @@ def test_a_study_scales_the_motion_that_acts(record: CatalogueRecord, apply: str
 def test_a_factor_beyond_ten_is_told(record: CatalogueRecord) -> None:
     for text, is_told in (("pga 1.7 g", False), ("pga 1.9 g", True), ("pga 0.01 g", True)):
         (north, _) = open_station(replace(record, scale_to=text)).horizontal
-        assert (RecordKind.SCALED_FAR in {each.kind for each in north.warnings}) == is_told, text
+        assert (SignalKind.SCALED_FAR in {each.kind for each in north.warnings}) == is_told, text
 
 
 def test_a_velocity_is_reached(record: CatalogueRecord) -> None:

@@ -8,7 +8,7 @@ import pytest
 from rocking import DesignSpectrum
 from rocking.errors import ConfigurationError
 from rocking.quantities import GRAVITY
-from rocking.records.design_spectrum import damping_factor
+from rocking.signal.measures import damping_factor
 from tests.refusals import refused
 
 ROUNDING = 1e-12

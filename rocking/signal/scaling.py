@@ -9,13 +9,11 @@ import numpy as np
 
 from rocking.described import number_hint
 from rocking.errors import RecordError
-from rocking.quantities import VELOCITY_UNITS, acceleration_factor, shown
-from rocking.records.accelerogram import Accelerogram
-from rocking.records.formats.text import is_number
-from rocking.records.kinds import RecordKind
-from rocking.records.plausibility import scaled
-from rocking.records.processing import velocity
+from rocking.quantities import GRAVITY, VELOCITY_UNITS, acceleration_factor, is_number, shown
 from rocking.remarks import Remark
+from rocking.signal.accelerogram import RARE_PEAK, Accelerogram
+from rocking.signal.kinds import SignalKind
+from rocking.signal.processing import velocity
 
 FORM = "a measure, pga or pgv, a number and its unit, as in pga 0.35 g or pgv 50 cm/s"
 _SPELLING = re.compile(r"(pga|pgv)\s+([-+.,\d]+(?:e[-+]?\d+)?|nan|inf)\s*([a-z].*)", re.I)
@@ -91,10 +89,19 @@ def scaled_to(
     )
 
     is_far = not 1 / LARGEST_FACTOR <= factor <= LARGEST_FACTOR
-    doubt = [Remark.of(RecordKind.SCALED_FAR, factor=factor, largest=LARGEST_FACTOR)] if is_far else []
+    doubt = [Remark.of(SignalKind.SCALED_FAR, factor=factor, largest=LARGEST_FACTOR)] if is_far else []
 
     def enlarged(record: Accelerogram) -> Accelerogram:
         larger = scaled(record, factor).warned(*doubt)
         return replace(larger, processing=(*larger.processing, sentence))
 
     return [enlarged(record) for record in horizontal], None if vertical is None else enlarged(vertical)
+
+
+def scaled(record: Accelerogram, factor: float) -> Accelerogram:
+    """Return `record` multiplied by `factor`, with a warning where that, and not the file, takes its peak above 3 g."""
+    enlarged = record.scaled(factor)
+    peak = enlarged.peak_acceleration
+    if peak <= max(RARE_PEAK, record.peak_acceleration):
+        return enlarged
+    return enlarged.warned(Remark.of(SignalKind.PEAK_RARE_BY_FACTOR, factor=factor, peak_g=peak / GRAVITY))

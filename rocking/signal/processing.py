@@ -8,7 +8,7 @@ import numpy as np
 
 from rocking.described import check_described, described
 from rocking.errors import RecordError
-from rocking.records.accelerogram import Accelerogram
+from rocking.signal.accelerogram import Accelerogram
 
 Baseline = Literal["none", "linear", "adaptive"]
 _LOW_PASS_SHARE = 0.8

@@ -10,7 +10,7 @@ from scipy.constants import g
 
 from rocking.errors import RecordError
 from rocking.records import Accelerogram, read
-from rocking.records.measures import record_measures, response_spectrum
+from rocking.signal.measures import record_measures, response_spectrum
 from tests.refusals import refused
 
 STEP = 0.005

@@ -13,8 +13,8 @@ import numpy as np
 from rocking.drawn import Drawn
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY, instance, positive, within
-from rocking.records.accelerogram import Accelerogram
-from rocking.records.processing import displacement, integral, velocity
+from rocking.signal.accelerogram import Accelerogram
+from rocking.signal.processing import displacement, integral, velocity
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -215,3 +215,17 @@ def _largest_displacement(accelerogram: Accelerogram, period: float, damping: fl
     ground = np.pad(np.interp(places, np.arange(samples.size), samples), (0, after))
     response = lfilter([second, first - second], [1.0, -np.exp(pole * step)], ground)
     return float(np.abs(response.imag).max()) / pole.imag
+
+
+LEAST_DAMPING_FACTOR = 0.55
+"""Below it η does not fall, however large the damping (NTC 2018, 3.2.3.2.1)."""
+
+
+def damping_factor(damping: float) -> float:
+    """Return η = √(10/(5 + ξ)) ≥ 0.55, with ξ in per cent of the critical damping; `damping`: as a share.
+
+    >>> from rocking.signal.measures import damping_factor
+    >>> damping_factor(0.05)
+    1.0
+    """
+    return max(math.sqrt(10 / (5 + 100 * damping)), LEAST_DAMPING_FACTOR)

@@ -16,9 +16,9 @@ from typing import Protocol
 
 import numpy as np
 
+from rocking.earthquakes.kinds import SampleKind
 from rocking.errors import ConfigurationError
 from rocking.quantities import counted
-from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
 
 FEWEST = 5
@@ -296,25 +296,25 @@ class Sample:
         remarks = []
         unnamed = [place for place, event in enumerate(of_records) if not event]
         if unnamed and not each_unnamed:
-            remarks.append(Remark.of(RecordKind.EARTHQUAKES_UNNAMED, records=len(unnamed), all=len(records)))
+            remarks.append(Remark.of(SampleKind.EARTHQUAKES_UNNAMED, records=len(unnamed), all=len(records)))
         filled = [
             event or (own[place] if each_unnamed else UNNAMED) for place, event in enumerate(of_records)
         ]
         for event, other in _named_twice(records, filled) if events is None else ():
-            remarks.append(Remark.of(RecordKind.EARTHQUAKE_NAMED_TWICE, first=event, second=other))
+            remarks.append(Remark.of(SampleKind.EARTHQUAKE_NAMED_TWICE, first=event, second=other))
         first_of: dict[str, str] = {}
         for station, event in zip(own, filled, strict=True):
             first = first_of.setdefault(station, event)
             if first != event:
                 remarks.append(
-                    Remark.of(RecordKind.STATION_OF_TWO_EARTHQUAKES, station, first=first, second=event)
+                    Remark.of(SampleKind.STATION_OF_TWO_EARTHQUAKES, station, first=first, second=event)
                 )
         of_station = [first_of[station] for station in own]
         made = cls(tuple(own), tuple(of_station))
         if made.earthquakes == 1 < made.count and not unnamed:
-            remarks.append(Remark.of(RecordKind.EARTHQUAKE_ONE, stations=made.count))
+            remarks.append(Remark.of(SampleKind.EARTHQUAKE_ONE, stations=made.count))
         elif 1 < made.earthquakes < FEWEST:
-            remarks.append(Remark.of(RecordKind.EARTHQUAKES_FEW, earthquakes=made.earthquakes, fewest=FEWEST))
+            remarks.append(Remark.of(SampleKind.EARTHQUAKES_FEW, earthquakes=made.earthquakes, fewest=FEWEST))
         return cls(made.stations, made.events, tuple(dict.fromkeys(remarks)))
 
     @classmethod

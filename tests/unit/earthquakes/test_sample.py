@@ -8,10 +8,10 @@ import pytest
 from scipy.stats import beta, t
 
 from docs.research.earthquakes import sample_of, weighted_median
+from rocking.earthquakes.kinds import SampleKind
+from rocking.earthquakes.sample import CORRELATION, FEWEST, Sample, earthquakes_of, interval_words
 from rocking.errors import ConfigurationError
 from rocking.records import Accelerogram
-from rocking.records.kinds import RecordKind
-from rocking.records.sample import CORRELATION, FEWEST, Sample, earthquakes_of, interval_words
 from tests.refusals import refused
 
 
@@ -58,8 +58,8 @@ def test_what_names_no_earthquake_counts_as_one_unless_each_is_declared():
     told = Sample.of(records)
     assert (told.count, told.earthquakes) == (4, 2)
     assert [each.kind for each in told.remarks] == [
-        RecordKind.EARTHQUAKES_UNNAMED,
-        RecordKind.EARTHQUAKES_FEW,
+        SampleKind.EARTHQUAKES_UNNAMED,
+        SampleKind.EARTHQUAKES_FEW,
     ]
     assert told.remarks[0]["records"] == 3
     declared = Sample.of(records, each_unnamed=True)
@@ -68,7 +68,7 @@ def test_what_names_no_earthquake_counts_as_one_unless_each_is_declared():
 
 def test_one_event_for_all_says_that_nothing_is_told_of_others():
     sample = Sample.of([Named("Kobe", name) for name in "abcdef"])
-    assert [each.kind for each in sample.remarks] == [RecordKind.EARTHQUAKE_ONE]
+    assert [each.kind for each in sample.remarks] == [SampleKind.EARTHQUAKE_ONE]
     assert sample.interval(lambda weights: float(weights.sum())) == (0.0, np.inf)
     low, high = sample.share_bounds(np.array([1.0, 0, 0, 0, 0, 0]))
     assert (low, high) == (0, 1)
@@ -78,7 +78,7 @@ def test_a_motion_under_two_earthquakes_is_named():
     wave = np.sin(np.arange(100) / 5)
     records = [Accelerogram(wave, 0.01, station="a", event=event) for event in ("Kobe", "Landers")]
     twice = next(
-        each for each in Sample.of(records).remarks if each.kind is RecordKind.EARTHQUAKE_NAMED_TWICE
+        each for each in Sample.of(records).remarks if each.kind is SampleKind.EARTHQUAKE_NAMED_TWICE
     )
     assert (twice["first"], twice["second"]) == ("Kobe", "Landers")
 
@@ -86,7 +86,7 @@ def test_a_motion_under_two_earthquakes_is_named():
 def test_a_station_that_is_given_for_two_earthquakes_counts_for_the_first():
     sample = Sample.of([Named(), Named(), Named()], ["a", "a", "b"], ["one", "two", "two"])
     assert sample.events == ("one", "one", "two")
-    assert sample.remarks[0].kind is RecordKind.STATION_OF_TWO_EARTHQUAKES
+    assert sample.remarks[0].kind is SampleKind.STATION_OF_TWO_EARTHQUAKES
 
 
 def test_components_and_processings_of_a_station_are_one():

@@ -11,8 +11,8 @@ from rocking.drawn import Drawn
 from rocking.errors import RecordError, about
 from rocking.hashes import sha256_of_bytes
 from rocking.quantities import GRAVITY, UNPRINTABLE, finite, four_digits, positive
-from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
+from rocking.signal.kinds import SignalKind
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -21,12 +21,14 @@ if TYPE_CHECKING:
 
 LARGEST_PEAK = 5 * GRAVITY
 """m/s²; the largest recorded so far is 4.4 g (Iwate-Miyagi 2008, IWTH25), so what is above is a wrong unit."""
+RARE_PEAK = 3 * GRAVITY
+"""m/s²; a handful of records of the world exceed it."""
 
 SHORTEST_STEP = 1e-4
 """s; no accelerograph has a shorter one."""
 LONGEST_STEP = 0.1
 """s; a longer one leaves out what makes a structure rock."""
-_AT_BIRTH = (RecordKind.STEP_UNUSUAL, RecordKind.PEAK_IMPOSSIBLE)
+_AT_BIRTH = (SignalKind.STEP_UNUSUAL, SignalKind.PEAK_IMPOSSIBLE)
 """The doubts that an accelerogram has by its own step and peak."""
 
 SAME_STEP = 1e-6
@@ -192,9 +194,9 @@ class Accelerogram(Drawn):
         doubts = []
         if not SHORTEST_STEP <= self.time_step <= LONGEST_STEP:
             limits = {"shortest_s": SHORTEST_STEP, "longest_s": LONGEST_STEP}
-            doubts.append(Remark.of(RecordKind.STEP_UNUSUAL, "", time_step_s=self.time_step, **limits))
+            doubts.append(Remark.of(SignalKind.STEP_UNUSUAL, "", time_step_s=self.time_step, **limits))
         if self.peak_acceleration > LARGEST_PEAK:
-            doubts.append(Remark(RecordKind.PEAK_IMPOSSIBLE))
+            doubts.append(Remark(SignalKind.PEAK_IMPOSSIBLE))
         # A copy with another factor or step keeps no doubt of the first one's.
         still = [warning for warning in self.warnings if warning.kind not in _AT_BIRTH or warning in doubts]
         new = (doubt for doubt in doubts if doubt not in still)

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 
 from rocking.errors import ConfigurationError
 from rocking.quantities import GRAVITY, finite, positive, within
+from rocking.signal.measures import damping_factor
 from rocking.tables import read_whole
 
 SOILS = {
@@ -38,8 +39,6 @@ TOPOGRAPHIES = (1.0, 1.4)
 LONGEST_FIRST_PERIOD = 0.05
 """s; what a spectrum by its points must reach down to, so that its first ordinate may stand for the peak."""
 
-LEAST_DAMPING_FACTOR = 0.55
-"""Below it η does not fall, however large the damping (NTC 2018, 3.2.3.2.1)."""
 
 LARGEST_LEVEL = 3 * GRAVITY
 """m/s²; a design level above it is a number in another unit."""
@@ -48,16 +47,6 @@ _LARGEST_FILE = 2**20
 _PERIODS_TRIED = 401
 """Periods at which the largest displacement of a spectrum by its points is searched for, in addition to the points."""
 _ACCELERATIONS = {"acceleration_m_s2": 1.0, "acceleration_g": GRAVITY}
-
-
-def damping_factor(damping: float) -> float:
-    """Return η = √(10/(5 + ξ)) ≥ 0.55, with ξ in per cent of the critical damping; `damping`: as a share.
-
-    >>> from rocking.records.design_spectrum import damping_factor
-    >>> damping_factor(0.05)
-    1.0
-    """
-    return max(math.sqrt(10 / (5 + 100 * damping)), LEAST_DAMPING_FACTOR)
 
 
 @dataclass(frozen=True, eq=False)
