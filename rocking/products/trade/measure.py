@@ -198,24 +198,24 @@ def what_follows(rows: Iterable[TradeRow]) -> Iterator[str]:
     mechanism = of_all.get(TradeMethod.MECHANISM)
     if sine is None or mechanism is None:
         return
-    times = (
-        f"One sine takes {1e3 * sine.cpu_s:.2g} ms a structure and {1e3 * sine.preparation_record_s:.2g} ms a record "
-        f"for its search, the mechanism on the record {1e3 * mechanism.cpu_s:.2g} ms"
-    )
     structures = break_even(sine, mechanism)
-    if structures < math.inf:
-        yield f"{times}: below {counted(int(structures), 'structure')} a record the closed form is the slower method."
-    else:
-        yield f"{times}: the closed form is the slower method for any number of structures."
-    yield (
-        f"It is never the more accurate one: {_in_words(sine)}"
-        + "".join(
-            f"; {name}: {_in_words(of_all[method])}"
-            for method, name in _BESIDE.items()
-            if method in of_all and of_all[method].cases
-        )
-        + "."
+    upto = (
+        f"below {counted(int(structures), 'structure')} per record"
+        if structures < math.inf
+        else "for any number"
     )
+    yield (
+        f"One sine takes {1e3 * sine.cpu_s:.2g} ms per structure, and {1e3 * sine.preparation_record_s:.2g} ms per "
+        f"record for its search, the mechanism on the record {1e3 * mechanism.cpu_s:.2g} ms: {upto} the closed form is "
+        f"the slower method, and never the more accurate one: {_in_words(sine)}."
+    )
+    others = [
+        f"{name}: {_in_words(of_all[method])}"
+        for method, name in _BESIDE.items()
+        if method in of_all and of_all[method].cases
+    ]
+    if others:
+        yield f"{'; '.join(others)}.".capitalize()
     yield (
         "Use it without a record (design curves, spectra of pulses), for many structures under one motion, and where "
         "the sine explains most of the energy."
