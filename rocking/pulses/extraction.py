@@ -22,6 +22,12 @@ LEAST_PEAK = 1e-100
 """Peak acceleration, m/s², above which squares do not vanish."""
 GREATEST_PEAK = 1e100
 """Peak acceleration, m/s², below which squares do not overflow."""
+PER_OCTAVE = 24
+"""Frequencies of the scan in each octave."""
+LEAST_SAMPLES = 8
+"""Samples in the shortest cycle that is sought."""
+SAME_OVERLAP = 0.5
+"""Ratio of common to joint time from which two pulses are one."""
 REFINEMENT_REACH = 3.0
 """Steps of the frequency grid that a refinement may walk from its scanned maximum."""
 SCANNED_OVERLAP = 0.7
@@ -153,18 +159,17 @@ class PulseSearch:
     def of(cls, accelerogram: Accelerogram, settings: PulseSettings) -> "PulseSearch":
         """Return that of the frequencies in `settings` that the record can hold; raises PulseError without any."""
         step = accelerogram.time_step
-        per_octave = settings.frequencies_per_octave
         low = max(settings.lowest_frequency, 1 / accelerogram.duration)
-        high = min(settings.highest_frequency, 1 / (settings.samples_per_cycle * step))
+        high = min(settings.highest_frequency, 1 / (LEAST_SAMPLES * step))
         if low >= high:
             raise PulseError(
                 f"{accelerogram.source.path or 'The accelerogram'} lasts {accelerogram.duration:g} s at a time step of "
                 f"{step:g} s, but a pulse between {settings.lowest_frequency:g} and "
-                f"{settings.highest_frequency:g} Hz needs one period of record and {settings.samples_per_cycle:g} "
+                f"{settings.highest_frequency:g} Hz needs one period of record and {LEAST_SAMPLES} "
                 "samples in a cycle; give a longer or more finely sampled record, or widen the band."
             )
-        count = math.ceil(per_octave * math.log2(high / low) - 1e-9) + 1
-        frequencies = low * 2.0 ** (np.arange(count) / per_octave)
+        count = math.ceil(PER_OCTAVE * math.log2(high / low) - 1e-9) + 1
+        frequencies = low * 2.0 ** (np.arange(count) / PER_OCTAVE)
         frequencies[-1] = high
         return cls(step, frequencies, settings)
 
@@ -219,7 +224,7 @@ class PulseSearch:
         starts = np.array([evidence.pulse.start_time for evidence in refined])
         ends = np.array([evidence.pulse.end_time for evidence in refined])
         gains = np.array([evidence.gain for evidence in refined])
-        chosen = apart(starts, ends, gains, self.settings.alternatives, self.settings.overlap)
+        chosen = apart(starts, ends, gains, self.settings.alternatives, SAME_OVERLAP)
         return tuple(refined[place] for place in chosen)
 
     def refined_maxima(self, samples: np.ndarray, maxima: Maxima, count: int) -> list[PulseEvidence]:
@@ -243,7 +248,7 @@ class PulseSearch:
 
         turn = 2 * math.pi * self.time_step
         lowest, highest = (turn * limit for limit in self.band)
-        reach = REFINEMENT_REACH * math.log(2) / self.settings.frequencies_per_octave
+        reach = REFINEMENT_REACH * math.log(2) / PER_OCTAVE
         angle, start, sine, norm = refine(samples, onset, turn * frequency, lowest, highest, reach)
         pulse = Pulse(
             amplitude=sine / norm,
@@ -269,8 +274,8 @@ class PulseSearch:
         first = max(math.floor((pulse.start_time - NEAR_TIME * pulse.period) / self.time_step), 0)
         longest = (NEAR_TIME + 2**NEAR_OCTAVES) * pulse.period
         window = samples[first : math.ceil((pulse.start_time + longest) / self.time_step) + 2]
-        steps = round(NEAR_OCTAVES * self.settings.frequencies_per_octave)
-        octaves = np.arange(-steps, steps + 1) / self.settings.frequencies_per_octave
+        steps = round(NEAR_OCTAVES * PER_OCTAVE)
+        octaves = np.arange(-steps, steps + 1) / PER_OCTAVE
         frequencies = np.unique(np.clip(2.0**octaves / pulse.period, *self.band))
         onsets = math.ceil((pulse.start_time + NEAR_TIME * pulse.period) / self.time_step) + 1 - first
         maxima = self.maxima(window, slice(0, onsets), frequencies, NEAR_BEST)

@@ -123,18 +123,12 @@ class PulseSettings:
         Lowest 1/T of the search, Hz.
     highest_frequency : float, default 5.0
         Highest 1/T of the search, Hz.
-    frequencies_per_octave : int, default 24
-        Number of frequencies of the scan in each octave.
     candidates : int, default 10
         Number of maxima of the scan that are refined.
     alternatives : int, default 5
         Number of pulses that are reported in addition to the dominant one.
     pursuit : int, default 3
         Number of pulses of the pursuit, each found in what the ones before it left.
-    overlap : float, default 0.5
-        Largest share of their duration that two reported pulses may have in common.
-    samples_per_cycle : float, default 8.0
-        Samples in the shortest cycle that the scan keeps of a record that is sampled more finely.
 
     Raises
     ------
@@ -150,12 +144,9 @@ class PulseSettings:
 
     lowest_frequency: float = described(0.15, "lowest frequency of the search for pulses", "Hz", gt=0)
     highest_frequency: float = described(5.0, "highest frequency of the search for pulses", "Hz", gt=0)
-    frequencies_per_octave: int = described(24, "number of frequencies per octave", ge=4, le=200)
     candidates: int = described(10, "number of maxima that the search refines", ge=1, le=MOST)
     alternatives: int = described(5, "number of ranked pulses in the report", ge=1, le=MOST)
     pursuit: int = described(3, "number of pulses of the pursuit sequence", ge=1, le=MOST)
-    overlap: float = described(0.5, "ratio of common to joint time from which two pulses are one", gt=0, le=1)
-    samples_per_cycle: float = described(8.0, "smallest number of samples in one cycle", gt=0)
 
     def __post_init__(self) -> None:
         check_described(PulseError, self)

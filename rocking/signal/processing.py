@@ -19,8 +19,8 @@ _LOW_PASS_SHARE = 0.8
 class Processing:
     """Settings, applied in the order they stand here; a step that is None, 0 or "none" is left out.
 
-    order: of each Butterworth filter, before it is run both ways. padding: zeros of 1.5 order/corner seconds (Boore
-    2005); velocity and displacement need them kept to end at rest. Raises RecordError when a setting is out of range.
+    order: of each Butterworth filter, before it is run both ways. While it is filtered, a record stands between zeros of
+    1.5 order/corner seconds (Boore 2005). Raises RecordError when a setting is out of range.
     """
 
     pre_event: float | None = described(
@@ -35,8 +35,6 @@ class Processing:
     high_pass: float | None = described(None, "corner frequency of the acausal high-pass filter", "Hz", gt=0)
     low_pass: float | None = described(None, "corner frequency of the acausal low-pass filter", "Hz", gt=0)
     order: int = described(4, "order of the filters", ge=1, le=10)
-    padding: bool = described(True, "whether zeros are added before and after while filtering")
-    keep_padding: bool = described(False, "whether these zeros are kept")
     time_step: float | None = described(
         None, "time step to which the record is resampled", "s", ge=1e-4, le=1
     )
@@ -123,18 +121,17 @@ def _filtered(record: Accelerogram, processing: Processing) -> Accelerogram:
         values = values * np.minimum(window, window[::-1])
         steps.append(f"Cosine taper over {processing.taper:.3g} of the record at each end.")
     lowest = processing.high_pass or processing.low_pass
-    pad = _room(processing.order, lowest, record) if processing.padding and lowest else 0
+    pad = _room(processing.order, lowest, record) if lowest else 0
     if pad:
         values = np.pad(values, pad)
-        steps.append(f"{pad} zeros before and after{'' if processing.keep_padding else ' while filtering'}.")
+        steps.append(f"{pad} zeros before and after while filtering.")
     for kind, corner in (("highpass", processing.high_pass), ("lowpass", processing.low_pass)):
         if corner:
-            margin = 0 if pad else _room(processing.order, corner, record)
-            values = _butterworth(values, record.time_step, kind, corner, processing.order, margin)
+            values = _butterworth(values, record.time_step, kind, corner, processing.order, 0)
             run = f"of order {processing.order}, run both ways, corner {corner:g} Hz"
             steps.append(f"Acausal Butterworth {kind} {run}.")
     initial: dict[str, float] = {}
-    if pad and not processing.keep_padding:
+    if pad:
         # A filter that is run both ways moves the ground before the record; without that, displacement would drift.
         speed = integral(values, record.time_step)
         initial["initial_velocity"] = float(speed[pad])

@@ -111,10 +111,8 @@ def test_a_record_too_coarse_for_the_upper_frequency_says_so():
     [
         {"lowest_frequency": 0},
         {"highest_frequency": 0.1},
-        {"frequencies_per_octave": 2.5},
         {"candidates": 0},
         {"pursuit": True},
-        {"overlap": float("nan")},
     ],
 )
 def test_impossible_settings_are_refused(change):
