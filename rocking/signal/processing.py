@@ -19,8 +19,8 @@ _LOW_PASS_SHARE = 0.8
 class Processing:
     """Settings, applied in the order they stand here; a step that is None, 0 or "none" is left out.
 
-    order: of each Butterworth filter, before it is run both ways. While it is filtered, a record stands between zeros of
-    1.5 order/corner seconds (Boore 2005). Raises RecordError when a setting is out of range.
+    order: of each Butterworth filter, before it is run both ways. While it is filtered, a record stands between zeros
+    of 1.5 order/corner seconds (Boore 2005). Raises RecordError when a setting is out of range.
     """
 
     pre_event: float | None = described(
