@@ -49,7 +49,7 @@ _PARTS = re.compile(r"[\s_.,:;()\[\]]+|(?<=[a-z])(?=[A-Z])|成分|方向")
 """The places at which the words of a label part."""
 _NO_DIRECTION = re.compile(
     r"(?i)linear|ground|input|raw|corr(ected)?|(un)?filt(ered)?|acc\w*|acel\w*|beschl\w*|ivme\w*|comp\w*|dir\w*|"
-    r"axis|eje|ch(an(nel)?)?\d{0,2}|canal|kanal|\d{1,2}|g|a"
+    r"axis|eje|ch(an(nel)?)?\d{0,2}|canal|kanal|\d{1,2}|g|a|加速度|ускорени\w*|επιτάχυνση"
 )
 """A word that says nothing of where a channel points."""
 _LEADING = re.compile(r"(?i)^(?:acc(?:el(?:eration)?)?|a)(?=(?:ns|ew|ud|up|[xyznev])$)")
