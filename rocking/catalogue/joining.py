@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Collection, Sequence
+from dataclasses import dataclass
 from datetime import datetime
 from typing import Protocol
 
@@ -9,15 +10,17 @@ import numpy as np
 
 from rocking.errors import RecordError
 from rocking.records.direction import Channel
+from rocking.records.formats.peer import PEER_AT2
 from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
 from rocking.signal.accelerogram import SAME_STEP, Accelerogram
+from rocking.signal.measures import end_of_shaking
 
 LONGEST_TAIL = 0.02
 """Share of the longest file that it may last beyond the shortest one where no file says when it begins.
 
 The channels of one recorder start together, and processing cuts each at an end of its own: by at most 1.5 % of real
-stations. What differs by more is another record, or lacks its beginning.
+stations. What differs by more is another record, or lacks its beginning; of PEER it is reported.
 """
 _OFF_GRID = 0.1  # share of a time step by which the samples of two files may lie between one another
 
@@ -33,8 +36,20 @@ class ComponentFacts(Channel, Protocol):
     def borehole(self) -> bool: ...
 
 
-def why_apart(channels: Sequence[ComponentFacts], samples: Collection[int]) -> Remark | None:
-    """Return why channels of several files, of so many samples, cannot be one station's; None where they can."""
+@dataclass(frozen=True)
+class Extent:
+    """How long a file is, in samples, and up to which of them 98 % of its energy has come; whether it is of PEER."""
+
+    samples: int
+    shaking: int
+    is_peer: bool
+
+
+def why_apart(channels: Sequence[ComponentFacts], extents: Collection[Extent]) -> Remark | None:
+    """Return why channels of several files cannot be one station's; None where they can.
+
+    Files of PEER, which never say when they begin, are one record at any length that leaves out no shaking.
+    """
     names = Counter(channel.component for channel in channels if not channel.borehole)
     if twice := next((name for name, n in names.items() if n > 1), ""):
         return Remark.of(RecordKind.COMPONENT_TWICE, twice, times=names[twice])
@@ -42,16 +57,25 @@ def why_apart(channels: Sequence[ComponentFacts], samples: Collection[int]) -> R
     if max(steps) / min(steps) - 1 > SAME_STEP:
         return Remark.of(RecordKind.STEPS_UNLIKE, least_s=min(steps), most_s=max(steps))
     have_starts = [bool(channel.start_time) for channel in channels]
-    tail = max(samples) - min(samples)
+    samples = [extent.samples for extent in extents]
+    is_still = all(extent.is_peer and extent.shaking <= min(samples) for extent in extents)
     allowed = 0 if any(have_starts) else LONGEST_TAIL * max(samples)
-    if tail > allowed and not all(have_starts):
+    if max(samples) - min(samples) > allowed and not (all(have_starts) or is_still):
         return Remark.of(RecordKind.BEGINNINGS_UNKNOWN, least=min(samples), most=max(samples))
     return None
 
 
 def joined(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
     """Return the channels of several files on their common span. Raises RecordError when they do not fit together."""
-    if why := why_apart(channels, [channel.acceleration.size for channel in channels]):
+    extents = [
+        Extent(
+            channel.acceleration.size,
+            end_of_shaking(channel.acceleration),
+            channel.source.format == PEER_AT2.name,
+        )
+        for channel in channels
+    ]
+    if why := why_apart(channels, extents):
         raise RecordError(
             f"its files do not fit together: {why}; give each file a row of its own.", files=str(why)
         )
@@ -89,7 +113,10 @@ def _on_common_span(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
 def _to_the_shortest(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
     """Return channels that do not say when they begin from the first sample of each to the end of the shortest."""
     size = min(channel.acceleration.size for channel in channels)
+    longest = max(channel.acceleration.size for channel in channels)
     cut = []
+    is_far = longest - size > LONGEST_TAIL * longest
+    told = [Remark.of(RecordKind.LENGTHS_UNLIKE, least=size, most=longest)] if is_far else []
     for channel in channels:
         surplus = channel.acceleration.size - size
         sentence = (
@@ -97,7 +124,7 @@ def _to_the_shortest(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
             "begin together."
         )
         samples = channel.acceleration[:size]
-        cut.append(channel.processed_by(samples, sentence) if surplus else channel)
+        cut.append((channel.processed_by(samples, sentence) if surplus else channel).warned(*told))
     return cut
 
 

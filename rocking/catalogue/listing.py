@@ -20,6 +20,7 @@ from rocking.records.read import printable, read_raw
 from rocking.remarks import Kind, Remark
 from rocking.signal.accelerogram import Accelerogram
 from rocking.signal.kinds import SignalKind
+from rocking.signal.measures import end_of_shaking
 from rocking.signal.processing import process, velocity
 
 CELLS = {"unit": "unit", "time_step": "time_step_s"}
@@ -46,8 +47,9 @@ _OF_DIRECTION = (RecordKind.DIRECTION_UNKNOWN, RecordKind.VERTICAL_BY_NAME, Reco
 class ListedChannel:
     """One channel of a listed file, as the fields of an Accelerogram say it, without its samples.
 
-    samples: their number. peak_acceleration, peak_velocity: as they are listed, in g and m/s; "" where the unit or the
-    time step is not known; PGV as a study clears the record by default, "" where it is too short for that.
+    samples: their number; shaking: up to which of them 98 % of its energy has come. peak_acceleration, peak_velocity:
+    as they are listed, in g and m/s; "" where the unit or the time step is not known; PGV as a study clears the record
+    by default, "" where it is too short for that.
     """
 
     component: str
@@ -55,6 +57,7 @@ class ListedChannel:
     answer: str
     time_step: float
     samples: int
+    shaking: int
     peak_acceleration: str
     peak_velocity: str
     network: str
@@ -201,6 +204,7 @@ def _without_samples(record: Accelerogram, is_known: bool) -> ListedChannel:
         "format": record.source.format,
         "answer": record.source.answer,
         "samples": record.acceleration.size,
+        "shaking": end_of_shaking(record.acceleration),
         "peak_acceleration": f"{record.peak_acceleration / GRAVITY:.3g}" if is_known else "",
         "peak_velocity": speed,
     }

@@ -138,6 +138,9 @@ class RecordKind(Kind):
     COMPONENT_TWICE = auto(), "component {about} occurs {times} times"
     STEPS_UNLIKE = auto(), "their time steps are {least_s:g} and {most_s:g} s"
     BEGINNINGS_UNKNOWN = auto(), "they hold {least} and {most} samples and do not all say when they begin"
+    LENGTHS_UNLIKE = auto(), """The components of this record hold {least} to {most} samples, and none says when
+        it begins: they are taken to begin together, and are cut to the shortest; compare where their shaking
+        begins."""
     COMPONENT_NOT_NAMED = auto(), "{about} does not name its component"
     TOO_MANY_COMPONENTS = auto(), "it has {horizontal} horizontal and {vertical} vertical components"
     POINT_THE_SAME_WAY = auto(), "components {first} and {second} point the same way"

@@ -217,6 +217,12 @@ def _largest_displacement(accelerogram: Accelerogram, period: float, damping: fl
     return float(np.abs(response.imag).max()) / pole.imag
 
 
+def end_of_shaking(acceleration: np.ndarray) -> int:
+    """Return the number of samples by which 98 % of the energy ∫a² of an `acceleration`, (n,), has come."""
+    spent = np.cumsum(np.square(acceleration))
+    return int(np.searchsorted(spent, 0.98 * spent[-1])) + 1
+
+
 LEAST_DAMPING_FACTOR = 0.55
 """Below it η does not fall, however large the damping (NTC 2018, 3.2.3.2.1)."""
 

@@ -114,16 +114,27 @@ def test_components_of_unlike_length_are_joined_from_the_first_sample(tmp_path: 
     )
 
 
-def test_what_is_much_shorter_is_another_record_or_lacks_its_beginning(tmp_path: Path) -> None:
-    """Of Erzincan 1992 one component is 106 samples of 4262 longer, and its shaking comes half a second later."""
-    peer(tmp_path, "a.AT2", "000", 3900)
+def test_peer_components_of_unlike_length_are_one_record_and_reported(tmp_path: Path) -> None:
+    """Of Erzincan 1992 one component is 106 samples of 4262 longer: nothing of the shaking is cut off with them."""
+    for name, component, size in (("a", "000", 3700), ("b", "090", 4000), ("v", "UP", 3800)):
+        peer(tmp_path, f"{name}.AT2", component, size)
+    assert list(rows(tmp_path)) == ["a.AT2;b.AT2;v.AT2"]
+    (station,) = opened(tmp_path)
+    for channel in (*station.horizontal, station.vertical):
+        assert channel.acceleration.size == 3700
+        assert Remark.of(RecordKind.LENGTHS_UNLIKE, least=3700, most=4000) in channel.warnings
+
+
+def test_what_lacks_the_end_of_the_shaking_is_no_component_of_the_same_record(tmp_path: Path) -> None:
+    peer(tmp_path, "a.AT2", "000", 2500)
     peer(tmp_path, "b.AT2", "090", 4000)
-    assert len(rows(tmp_path)) == 2 and "they hold 3900 and 4000 samples" in notes(tmp_path)
-    peer(tmp_path, "v.AT2", "UP", 3700)
-    peer(tmp_path, "a.AT2", "000", 3950)
-    assert list(rows(tmp_path)) == ["a.AT2;b.AT2"]
-    listed = {file.file: file for file in list_folder(tmp_path)[0]}
-    assert "no horizontal component" in listed["v.AT2"].refusal
+    assert len(rows(tmp_path)) == 2 and "they hold 2500 and 4000 samples" in notes(tmp_path)
+
+
+def test_tables_of_unlike_length_may_lack_their_beginning(tmp_path: Path) -> None:
+    bare(tmp_path, "a_NS.csv", 1.0, "time (s),acceleration (g)\n", 3700)
+    bare(tmp_path, "a_EW.csv", 0.9, "time (s),acceleration (g)\n", 4000)
+    assert len(rows(tmp_path)) == 2
 
 
 @pytest.mark.parametrize("ends", [

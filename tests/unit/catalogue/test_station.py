@@ -144,6 +144,7 @@ def test_a_file_that_a_catalogue_refused_is_not_said_to_be_new_until_it_is_anoth
 
 JOINED = {
     "capemend1992_petrolia": 3, "chichi1999_tcu052": 2, "christchurch2011_cccc": 2, "duzce1999_bolu": 2,
+    "erzincan1992": 3, "manjil1990_abbar": 2,
     "formats_afad": 3, "formats_emod3d": 3, "formats_esm_dyna": 3, "formats_knet": 6, "impvall1940_elcentro": 2,
     "formats_mseed_stationxml": 3, "formats_sac": 3, "formats_smc": 2, "impvall1979_bonds_corner": 2,
     "impvall1979_e04": 2, "impvall1979_e06": 3, "impvall1979_e07": 3, "kobe1995_kjma": 3, "kocaeli1999_yarimca": 3,

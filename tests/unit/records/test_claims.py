@@ -231,7 +231,8 @@ def test_a_person_settles_what_a_file_says_twice_and_contradicts_nothing_that_it
 
 
 @pytest.mark.parametrize("head", [
-    "時間(s),南北動 加速度(gal),東西動 加速度(gal),上下動 加速度(gal)\n", "время (с);СЮ (см/с2);ВЗ (см/с2);верт (см/с2)\n",
+    "時間(s),南北動 加速度(gal),東西動 加速度(gal),上下動 加速度(gal)\n",
+    "время (с);СЮ (см/с2);ВЗ (см/с2);верт (см/с2)\n",
 ])  # fmt: skip
 def test_heads_in_other_scripts_are_read(tmp_path: Path, head: str) -> None:
     path = tmp_path / "made.csv"
