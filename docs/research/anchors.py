@@ -33,10 +33,11 @@ from docs.research.sites import (
     lifting_factor,
     one_of_each,
     sample_of,
+    trials_under,
 )
 from docs.research.stacks import strong_part
 from rocking import Facade, Verdict, assess
-from rocking.errors import RockingError, StructureWarning
+from rocking.errors import StructureWarning
 from rocking.structures.joints import USUAL
 from rocking.structures.stack import Stack
 from rocking.tables import column, row
@@ -119,27 +120,19 @@ def sliding(wall: Facade) -> Stack:
 
 def anchors(target: Target) -> None:
     """Hold what is said of walls with light anchors against stacks whose anchors slide out."""
-    trials: list[AnchorTrial] = []
-    for component in one_of_each(independent(target.records)):
-        trials += anchor_trials(component)
-        followed = [trial for trial in trials if trial.falls is not None]
-        fall = sum(bool(trial.falls) for trial in followed)
-        target.tell(
-            f"{component.identifier}: {len(trials)} trials, {len(followed)} followed, {fall} of these fall"
-        )
+    components = one_of_each(independent(target.records))
+    trials = trials_under(
+        components, anchor_trial, [(place,) for place in range(WALLS)], target.tell, _followed
+    )
     subtitle = "Walls with ties that may get more than the wall around their anchors gives, beside stacks."
     target.publish(
         "What anchors grip", subtitle, {AnchorTrial: trials, scores.Score: list(anchor_scores(trials))}
     )
 
 
-def anchor_trials(component: SiteRecord) -> Iterator[AnchorTrial]:
-    """Yield the trials under one component."""
-    for place in range(WALLS):
-        try:
-            yield anchor_trial(component, place)
-        except RockingError:
-            continue  # drawn so that it does not stand at rest
+def _followed(trials: Sequence[AnchorTrial]) -> str:
+    followed = [trial for trial in trials if trial.falls is not None]
+    return f", {len(followed)} followed, {sum(bool(trial.falls) for trial in followed)} of these fall"
 
 
 def anchor_trial(component: SiteRecord, place: int) -> AnchorTrial:
@@ -166,12 +159,10 @@ def anchor_trial(component: SiteRecord, place: int) -> AnchorTrial:
                 true_runs(replace(as_described, friction=min(as_described.friction, USUAL.friction)), motion)
             )
     return AnchorTrial(
-        record=component.identifier,
-        site=component.site,
-        earthquake=component.earthquake,
+        **component.named,
         structure="front with light anchors",
         scale_factor=factor,
-        catalogue="fema_p695" if component.identifier.startswith("P695") else "near_fault",
+        catalogue=component.catalogue,
         storeys=len(wall.storey_heights),
         yields=wall.tie_strength is not None,
         grip=min((tie.grip / tie.most for tie in ties), default=np.inf),

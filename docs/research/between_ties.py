@@ -30,10 +30,11 @@ from docs.research.sites import (
     lifting_factor,
     one_of_each,
     sample_of,
+    trials_under,
 )
 from docs.research.stacks import strong_part
 from rocking import Accelerogram, Facade, Verdict, assess
-from rocking.errors import RockingError, StructureWarning
+from rocking.errors import StructureWarning
 from rocking.quantities import GRAVITY
 from rocking.structures.joints import USUAL
 from rocking.tables import column, row
@@ -125,25 +126,19 @@ def drawn(draw: np.random.Generator) -> DrawnWall:
 
 def between_ties(target: Target) -> None:
     """Hold what is said of walls with ties at a spacing against walls of units."""
-    trials: list[BetweenTrial] = []
-    for component in one_of_each(independent(target.records)):
-        trials += between_trials(component)
-        stand = [trial for trial in trials if trial.falls is not None]
-        fall = sum(bool(trial.falls) for trial in stand)
-        target.tell(f"{component.identifier}: {len(trials)} trials, {len(stand)} stand, {fall} of these fall")
+    components = one_of_each(independent(target.records))
+    trials = trials_under(
+        components, between_trial, [(place,) for place in range(WALLS)], target.tell, _standing
+    )
     subtitle = "Walls with ties at a spacing, beside walls of units in running bond in three dimensions."
     target.publish(
         "Between two ties", subtitle, {BetweenTrial: trials, scores.Score: list(between_scores(trials))}
     )
 
 
-def between_trials(component: SiteRecord) -> Iterator[BetweenTrial]:
-    """Yield the trials under one component."""
-    for place in range(WALLS):
-        try:
-            yield between_trial(component, place)
-        except RockingError:
-            continue  # drawn so that it does not stand at rest
+def _standing(trials: Sequence[BetweenTrial]) -> str:
+    stand = [trial for trial in trials if trial.falls is not None]
+    return f", {len(stand)} stand, {sum(bool(trial.falls) for trial in stand)} of these fall"
 
 
 def between_trial(component: SiteRecord, place: int) -> BetweenTrial:
@@ -164,12 +159,10 @@ def between_trial(component: SiteRecord, place: int) -> BetweenTrial:
     ending = unit_runs(wall.units(ends_at_ties=True), motion) if stands and place == 0 else []
     thickness = wall.described.thicknesses[0]
     return BetweenTrial(
-        record=component.identifier,
-        site=component.site,
-        earthquake=component.earthquake,
+        **component.named,
         structure="wall between ties",
         scale_factor=factor,
-        catalogue="fema_p695" if component.identifier.startswith("P695") else "near_fault",
+        catalogue=component.catalogue,
         height_m=wall.described.height,
         thickness_m=thickness,
         unit_m=wall.unit,

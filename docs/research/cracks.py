@@ -47,7 +47,7 @@ from rocking.errors import StructureWarning
 from rocking.quantities import GRAVITY
 from rocking.remarks import Remark
 from rocking.structures.stack import Course, Stack
-from rocking.tables import column, read_rows, row, write_rows
+from rocking.tables import column, row
 
 COURSES = (6, 12, 20)
 CHANCES = (0.7, 0.2, 0.1)
@@ -220,12 +220,9 @@ def govern(target: Target) -> None:
     """
     rows: list[CrackRow] = []
     for count, component in enumerate(one_of_each(independent(target.records))):
-        path = target.folder / "trials" / f"{component.identifier}.csv"
-        if not path.is_file():
-            checked = len(KINDS) if count < CHECKED else 0
-            trials = (crack_row(component, k, k < checked) for k in range(SCALES * len(KINDS)))
-            write_rows(CrackRow, trials, path)
-        rows += read_rows(CrackRow, path)
+        checked = len(KINDS) if count < CHECKED else 0
+        trials = (crack_row(component, k, k < checked) for k in range(SCALES * len(KINDS)))
+        rows += target.kept(CrackRow, component.identifier, trials)
         target.tell(f"{component.identifier}: {len(rows)} trials")
     subtitle = "Stacks of courses beside the mechanism of every joint, one component of each site."
     tables: Tables = {CrackRow: rows, scores.Score: list(crack_scores(rows))}
@@ -253,9 +250,7 @@ def crack_row(component: SiteRecord, place: int, checked: bool) -> CrackRow:
     turns = stack(member, motion)
     return CrackRow(
         courses=member.courses,
-        record=component.identifier,
-        site=component.site,
-        earthquake=component.earthquake,
+        **component.named,
         structure=member.kind,
         scale_factor=factor,
         falls=bool(np.abs(turns).max() > TURN),

@@ -23,9 +23,10 @@ from docs.research.sites import (
     lifting_factor,
     one_of_each,
     sample_of,
+    trials_under,
 )
 from rocking import Mode, Support, Verdict, Wall, assess, integrate
-from rocking.errors import RockingError, StructureWarning
+from rocking.errors import StructureWarning
 from rocking.tables import column, row
 
 WALLS = 8
@@ -57,11 +58,9 @@ class DiaphragmTrial(Trial):
 
 def diaphragms(target: Target) -> None:
     """Hold what is said of walls between floors against the same walls below a diaphragm that drifts."""
-    trials: list[DiaphragmTrial] = []
-    for component in one_of_each(independent(target.records)):
-        trials += diaphragm_trials(component)
-        fall = sum(bool(trial.falls) for trial in trials)
-        target.tell(f"{component.identifier}: {len(trials)} trials, {fall} that stand fall below a diaphragm")
+    components = one_of_each(independent(target.records))
+    places = [(place,) for place in range(WALLS)]
+    trials = trials_under(components, diaphragm_trial, places, target.tell, _falling)
     target.publish(
         "Walls below a diaphragm",
         "Walls between floors that move with the ground, and below a diaphragm that drifts.",
@@ -69,38 +68,33 @@ def diaphragms(target: Target) -> None:
     )
 
 
-def diaphragm_trials(component: SiteRecord) -> Iterator[DiaphragmTrial]:
-    """Yield the trials under one component."""
-    for place in range(WALLS):
-        draw = draw_of(component.identifier, 134, place)
-        height = float(draw.uniform(2.5, 5.0))
-        thickness = float(draw.uniform(0.2, 0.5))
-        period = float(np.exp(draw.uniform(*np.log(PERIODS))))
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", StructureWarning)
-            try:
-                yield _trial(component, Wall.of_size(height, thickness), period, draw)
-            except RockingError:
-                continue  # drawn so squat that an impact stops it, of which its balance says nothing
+def _falling(trials: Sequence[DiaphragmTrial]) -> str:
+    return f", {sum(bool(trial.falls) for trial in trials)} that stand fall below a diaphragm"
 
 
-def _trial(component: SiteRecord, wall: Wall, period: float, draw: np.random.Generator) -> DiaphragmTrial:
-    factor = lifting_factor(component.accelerogram, wall.static_multiplier, UPLIFTS, draw)
-    ground = component.accelerogram.scaled(factor)
-    verdict = assess(ground, wall).verdict
-    share = drift_share(wall.lower_height, wall.upper_height)
-    roof = Support((Mode(period=period, damping_ratio=DAMPING, participation=1.0),)).motion(ground)
-    # The support rings on after the record, at samples that may be finer.
-    below = np.interp(roof.times, ground.times, ground.acceleration, right=0.0)
-    mixed = (1 - share) * below + share * roof.acceleration
-    responses = [
-        integrate(wall.mechanism(), replace(roof, acceleration=sign * mixed)) for sign in (1.0, -1.0)
-    ]
+def diaphragm_trial(component: SiteRecord, place: int) -> DiaphragmTrial:
+    """Return one trial: wall, diaphragm and scale drawn. Raises RockingError where an impact stops so squat a wall."""
+    draw = draw_of(component.identifier, 134, place)
+    height = float(draw.uniform(2.5, 5.0))
+    thickness = float(draw.uniform(0.2, 0.5))
+    period = float(np.exp(draw.uniform(*np.log(PERIODS))))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", StructureWarning)
+        wall = Wall.of_size(height, thickness)
+        factor = lifting_factor(component.accelerogram, wall.static_multiplier, UPLIFTS, draw)
+        ground = component.accelerogram.scaled(factor)
+        verdict = assess(ground, wall).verdict
+        share = drift_share(wall.lower_height, wall.upper_height)
+        roof = Support((Mode(period=period, damping_ratio=DAMPING, participation=1.0),)).motion(ground)
+        # The support rings on after the record, at samples that may be finer.
+        below = np.interp(roof.times, ground.times, ground.acceleration, right=0.0)
+        mixed = (1 - share) * below + share * roof.acceleration
+        responses = [
+            integrate(wall.mechanism(), replace(roof, acceleration=sign * mixed)) for sign in (1.0, -1.0)
+        ]
     falls = sum(np.isinf(response.rotation_ratio) for response in responses)
     return DiaphragmTrial(
-        record=component.identifier,
-        site=component.site,
-        earthquake=component.earthquake,
+        **component.named,
         structure="wall",
         scale_factor=factor,
         height_m=wall.height,

@@ -218,9 +218,7 @@ def screening_trials(
             again = [drawn(forms[k].mechanism, motions, points, EnsembleSettings()) for k in worst]
             fresh = max(decision.overturning_share for decision in again)
         yield ScreeningTrial(
-            record=component.identifier,
-            site=component.site,
-            earthquake=component.earthquake,
+            **component.named,
             structure=structure_name,
             scale_factor=factor,
             verdict=decide(in_study.facts).word,

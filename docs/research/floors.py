@@ -75,9 +75,7 @@ def floor_trials(component: sites.SiteRecord) -> Iterator[FloorTrial]:
         for structure, body in BODIES.items():
             block = body.mechanism().equivalent_block()
             yield FloorTrial(
-                record=component.identifier,
-                site=component.site,
-                earthquake=component.earthquake,
+                **component.named,
                 structure=structure,
                 support_period_s=period,
                 amplification=floor.peak_acceleration / ground.peak_acceleration,

@@ -91,9 +91,7 @@ def front_trial(component: SiteRecord, place: int) -> FrontTrial:
         for restitution in RESTITUTIONS
     )
     return FrontTrial(
-        record=component.identifier,
-        site=component.site,
-        earthquake=component.earthquake,
+        **component.named,
         structure="front with a tie" if is_tied else "front",
         scale_factor=factor,
         is_tied=is_tied,

@@ -27,12 +27,20 @@ import pandas as pd
 
 from docs.research import scores
 from docs.research.report import Target
-from docs.research.sites import SiteRecord, Trial, draw_of, independent, lifting_factor, sample_of
+from docs.research.sites import (
+    SiteRecord,
+    Trial,
+    draw_of,
+    independent,
+    lifting_factor,
+    sample_of,
+    trials_under,
+)
 from docs.research.stacks import TRUE_STEP, strong_part
 from rocking import Accelerogram, Facade, LoadedWall, Verdict, assess
 from rocking.assessment.decide import decide
 from rocking.contacts.dynamics import follow_stack
-from rocking.errors import RockingError, StructureWarning
+from rocking.errors import StructureWarning
 from rocking.structures.joints import USUAL, Joints
 from rocking.structures.stack import Stack
 from rocking.structures.tied import Tied
@@ -156,26 +164,13 @@ DRAWN = {
 
 def hold(target: Target) -> None:
     """Hold what is said of walls that something holds against stacks of the whole wall."""
-    trials: list[HeldTrial] = []
-    for component in independent(target.records):
-        catalogue = "fema_p695" if component.identifier.startswith("P695") else "near_fault"
-        trials += held_trials(component, catalogue)
-        target.tell(f"{component.identifier}: {len(trials)} trials")
+    places = [(kind, place) for kind, number in TRIALS.items() for place in range(number)]
+    trials = trials_under(independent(target.records), held_trial, places, target.tell)
     subtitle = "Walls with ties, floors or cross walls, and walls under light roofs, beside stacks of the whole wall."
     target.publish("Who holds", subtitle, {HeldTrial: trials, scores.Score: list(held_scores(trials))})
 
 
-def held_trials(component: SiteRecord, catalogue: str) -> Iterator[HeldTrial]:
-    """Yield the trials under one component."""
-    for kind, number in TRIALS.items():
-        for place in range(number):
-            try:
-                yield held_trial(component, catalogue, kind, place)
-            except RockingError:
-                continue  # drawn so that it does not stand at rest
-
-
-def held_trial(component: SiteRecord, catalogue: str, kind: str, place: int) -> HeldTrial:
+def held_trial(component: SiteRecord, kind: str, place: int) -> HeldTrial:
     """Return one trial: wall and scale drawn."""
     record = component.accelerogram
     draw = draw_of(component.identifier, 1, list(TRIALS).index(kind), place)
@@ -195,12 +190,10 @@ def held_trial(component: SiteRecord, catalogue: str, kind: str, place: int) -> 
     runs = list(true_runs(replace(stack, friction=min(stack.friction, friction or USUAL.friction)), motion))
     free = [0.0, *sorted(hold.height for hold in wall.held_wall.holds), wall.height]
     return HeldTrial(
-        record=component.identifier,
-        site=component.site,
-        earthquake=component.earthquake,
+        **component.named,
         structure=kind,
         scale_factor=factor,
-        catalogue=catalogue,
+        catalogue=component.catalogue,
         storeys=len(wall.held_wall.storeys),
         slenderness=float(np.diff(free).max() / thickness_of(wall)),
         friction=friction or np.nan,

@@ -19,11 +19,19 @@ import pandas as pd
 from docs.research import scores
 from docs.research.held_walls import UNIT_WEIGHT, true_runs
 from docs.research.report import Target
-from docs.research.sites import SiteRecord, Trial, draw_of, independent, lifting_factor, sample_of
+from docs.research.sites import (
+    SiteRecord,
+    Trial,
+    draw_of,
+    independent,
+    lifting_factor,
+    sample_of,
+    trials_under,
+)
 from docs.research.stacks import strong_part
 from rocking import Facade, LoadedWall, Verdict, Wall, assess
 from rocking.assessment.settings import AssessmentSettings
-from rocking.errors import RockingError, StructureWarning
+from rocking.errors import StructureWarning
 from rocking.structures.building_parts import FreeWall
 from rocking.structures.joints import USUAL
 from rocking.structures.leaves import Leaved, parts_of
@@ -101,26 +109,17 @@ def drawn(kind: str, draw: np.random.Generator) -> Leaved:
 
 def leaves(target: Target) -> None:
     """Hold what is said of walls of two leaves against stacks of each leaf."""
-    trials: list[LeavesTrial] = []
-    for component in independent(target.records):
-        trials += leaves_trials(component)
-        stand = sum(trial.true_runs is not None for trial in trials)
-        fall = sum(bool(trial.true_falls) for trial in trials)
-        target.tell(f"{component.identifier}: {len(trials)} trials, {stand} stand, {fall} of these fall")
+    places = [(kind, place) for kind, number in TRIALS.items() for place in range(number)]
+    trials = trials_under(independent(target.records), leaves_trial, places, target.tell, _standing)
     subtitle = "Walls of two leaves, with bonders and without, beside stacks of each leaf."
     target.publish(
         "Leaves that part", subtitle, {LeavesTrial: trials, scores.Score: list(leaves_scores(trials))}
     )
 
 
-def leaves_trials(component: SiteRecord) -> Iterator[LeavesTrial]:
-    """Yield the trials under one component."""
-    for kind, number in TRIALS.items():
-        for place in range(number):
-            try:
-                yield leaves_trial(component, kind, place)
-            except RockingError:
-                continue  # drawn so that it does not stand at rest
+def _standing(trials: Sequence[LeavesTrial]) -> str:
+    stand = sum(trial.true_runs is not None for trial in trials)
+    return f", {stand} stand, {sum(bool(trial.true_falls) for trial in trials)} of these fall"
 
 
 def leaves_trial(component: SiteRecord, kind: str, place: int) -> LeavesTrial:
@@ -149,12 +148,10 @@ def leaves_trial(component: SiteRecord, kind: str, place: int) -> LeavesTrial:
                 turns += [turn for _, turn in runs]
     (case,) = station.cases.values()
     return LeavesTrial(
-        record=component.identifier,
-        site=component.site,
+        **component.named,
         structure=kind,
         scale_factor=float(motion.peak_acceleration / record.peak_acceleration),
-        earthquake=component.earthquake,
-        catalogue="fema_p695" if component.identifier.startswith("P695") else "near_fault",
+        catalogue=component.catalogue,
         bonders=len(wall.bonder_heights),
         thrown_back=wall.thrown_back is not None,
         verdict=station.verdict,

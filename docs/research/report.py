@@ -1,9 +1,10 @@
 """What every target is given, and what it writes: its tables, and one report of the scores among them."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import chain
 from pathlib import Path
+from typing import TypeVar
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -15,8 +16,9 @@ from rocking.reports.pages import Part, PlainPage
 from rocking.reports.printing import compile_document
 from rocking.reports.style import new_figure, picture, styled
 from rocking.structures import Structure
-from rocking.tables import Row, write_tables, write_whole
+from rocking.tables import Row, read_rows, write_rows, write_tables, write_whole
 
+R = TypeVar("R", bound=Row)
 Tables = Mapping[type[Row], Sequence[Row]]
 """The rows of each table that a target writes."""
 
@@ -37,6 +39,13 @@ class Target:
     def records(self) -> Iterator[NamedRecord]:
         """The records of all catalogues, one catalogue after the other."""
         return chain.from_iterable(self.catalogues)
+
+    def kept(self, row_class: type[R], name: str, trials: Iterable[R]) -> list[R]:
+        """Return the rows of a file in the folder, which is written of `trials` where an earlier run left none."""
+        path = self.folder / "trials" / f"{name}.csv"
+        if not path.is_file():
+            write_rows(row_class, trials, path)
+        return list(read_rows(row_class, path))
 
     def publish(self, title: str, subtitle: str, tables: Tables, text: str = "") -> None:
         """Write `tables`, datapackage.json and report.pdf into the folder. text: stands before the scores."""

@@ -3,15 +3,17 @@
 import re
 import zlib
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import chain
 from operator import itemgetter
 from time import process_time
-from typing import TypeVar
+from typing import TypedDict, TypeVar
 
 import numpy as np
 
 from rocking.earthquakes.sample import UNNAMED, Sample, earthquakes_of
+from rocking.errors import RockingError
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import Arch, Block, Structure, Wall
@@ -40,6 +42,24 @@ class SiteRecord:
     site: str
     earthquake: str
     accelerogram: Accelerogram
+
+    @property
+    def named(self) -> "Named":
+        """What a trial under it says of it."""
+        return {"record": self.identifier, "site": self.site, "earthquake": self.earthquake}
+
+    @property
+    def catalogue(self) -> str:
+        """The catalogue that it is of: that on which thresholds were read off, or another one."""
+        return "fema_p695" if self.identifier.startswith("P695") else "near_fault"
+
+
+class Named(TypedDict):
+    """The columns of a trial that name its component."""
+
+    record: str
+    site: str
+    earthquake: str
 
 
 @row()
@@ -116,6 +136,26 @@ def one_of_each(records: Iterable[SiteRecord]) -> list[SiteRecord]:
     """Return the first component of each site of records as `independent` gives them."""
     first = {component.site: component for component in reversed(list(records))}
     return list(reversed(first.values()))
+
+
+def trials_under(
+    components: Iterable[SiteRecord],
+    trial: Callable[..., T],
+    places: Sequence[tuple[str | int, ...]],
+    tell: Callable[[str], None],
+    found: Callable[[Sequence[T]], str] = lambda _: "",
+) -> list[T]:
+    """Return `trial` of each component and each of `places`, which say what is drawn; none of what cannot stand.
+
+    tell: takes a line after each component. found: what the line says of the trials so far.
+    """
+    trials: list[T] = []
+    for component in components:
+        for place in places:
+            with suppress(RockingError):
+                trials.append(trial(component, *place))
+        tell(f"{component.identifier}: {len(trials)} trials{found(trials)}")
+    return trials
 
 
 def spread(catalogues: Sequence[Records], most: int) -> list[list[NamedRecord]]:

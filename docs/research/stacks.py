@@ -41,7 +41,7 @@ from rocking.structures import Structure
 from rocking.structures.building_parts import building_part
 from rocking.structures.crackable import Crackable
 from rocking.structures.stack import Stack
-from rocking.tables import column, read_rows, row, write_rows
+from rocking.tables import column, row
 
 COURSES = (6, 8, 10, 13)
 """Numbers of courses of which the true stack has one."""
@@ -247,15 +247,9 @@ def stand(target: Target) -> None:
     """Hold the verdicts against stacks under one component of each site, whose rows are written as they come."""
     rows: list[StackRow] = []
     for component in one_of_each(independent(target.records)):
-        path = target.folder / "trials" / f"{component.identifier}.csv"
-        if not path.is_file():
-            trials = (
-                stack_row(component, kind, k)
-                for kind in judged_kinds(component.site)
-                for k in range(TRIALS[kind])
-            )
-            write_rows(StackRow, trials, path)
-        rows += read_rows(StackRow, path)
+        kinds = judged_kinds(component.site)
+        trials = (stack_row(component, kind, k) for kind in kinds for k in range(TRIALS[kind]))
+        rows += target.kept(StackRow, component.identifier, trials)
         target.tell(f"{component.identifier}: {len(rows)} trials")
     subtitle = "Members in courses and walls whose contacts open, on sites that took no part in the rule."
     target.publish("Who stands", subtitle, {StackRow: rows, scores.Score: list(stack_scores(rows))})
@@ -278,9 +272,7 @@ def stack_row(component: SiteRecord, kind: str, place: int) -> StackRow:
     response = follow_stack(stack, motion, TRUE_STEP)
     height = stack.courses[response.opened].base
     return StackRow(
-        record=component.identifier,
-        site=component.site,
-        earthquake=component.earthquake,
+        **component.named,
         structure=kind,
         scale_factor=factor,
         courses=courses,

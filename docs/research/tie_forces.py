@@ -99,9 +99,7 @@ def tie_rows(component: SiteRecord, place: int) -> Iterator[TieRow]:
         if held.tie is None or at is None or abs(at - held.point[1]) > 1e-6:
             continue
         yield TieRow(
-            record=component.identifier,
-            site=component.site,
-            earthquake=component.earthquake,
+            **component.named,
             structure="wall with ties",
             scale_factor=factor,
             height_m=at,

@@ -41,7 +41,7 @@ from rocking.errors import StructureError
 from rocking.quantities import GRAVITY
 from rocking.structures.joints import USUAL
 from rocking.structures.stones import Stone, Stones
-from rocking.tables import column, read_rows, row, write_rows
+from rocking.tables import column, row
 
 CAMPAIGN = 14
 """Structures and scales are drawn anew for each campaign."""
@@ -165,18 +165,15 @@ def voussoirs(target: Target) -> None:
     trials: list[StonesTrial] = []
     for kind in TRIALS:
         for component in components:
-            path = target.folder / "trials" / f"{component.identifier} {kind}.csv"
-            if not path.is_file():
-                write_rows(StonesTrial, stones_trials(component, kind), path)
-            trials += read_rows(StonesTrial, path)
+            trials += target.kept(
+                StonesTrial, f"{component.identifier} {kind}", stones_trials(component, kind)
+            )
         own = [trial.verdict for trial in trials if trial.structure == kind]
         target.tell(f"{kind}: {len(own)} trials, {own.count(Verdict.STANDS)} stand")
     checks: list[CheckedTrial] = []
     for place, component in enumerate(components[:CHECKED]):
-        path = target.folder / "trials" / f"{component.identifier} in LMGC90.csv"
-        if not path.is_file():
-            write_rows(CheckedTrial, checked_trials(component, place), path)
-        checks += read_rows(CheckedTrial, path)
+        name = f"{component.identifier} in LMGC90"
+        checks += target.kept(CheckedTrial, name, checked_trials(component, place))
         target.tell(f"{component.identifier}: {len(checks)} runs of LMGC90")
     subtitle = "Arches, arches on piers and frames of two columns, beside other chains of stones and LMGC90."
     found = [*stones_scores(trials), *checked_scores(checks)]
@@ -216,9 +213,7 @@ def stones_trial(component: SiteRecord, kind: str, place: int) -> StonesTrial:
             turns.append(float(response.largest_turns.max()))
     stack_falls, stack_runs = facts.stacks or (None, None)
     return StonesTrial(
-        record=component.identifier,
-        site=component.site,
-        earthquake=component.earthquake,
+        **component.named,
         structure=kind,
         scale_factor=float(motion.peak_acceleration / record.peak_acceleration),
         voussoirs=getattr(structure, "voussoirs", None),
@@ -395,9 +390,7 @@ def checked_trials(component: SiteRecord, place: int) -> Iterator[CheckedTrial]:
         turn, drop, seconds = answer or (np.nan, np.nan, np.nan)
         fell = turn > stones.fallen_turn or drop > of_arch.thickness / 2
         yield CheckedTrial(
-            record=component.identifier,
-            site=component.site,
-            earthquake=component.earthquake,
+            **component.named,
             structure="arch" if of_arch.pier_width is None else "arch on piers",
             scale_factor=float(motion.peak_acceleration / record.peak_acceleration),
             voussoirs=of_arch.voussoirs,
