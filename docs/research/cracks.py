@@ -38,7 +38,7 @@ from docs.research.sites import (
 )
 from rocking import Accelerogram, LoadedWall, Mechanism, RigidBody, Verdict
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
-from rocking.assessment.decide import Facts, decide
+from rocking.assessment.decide import Decision, Limit, decide
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.motions import GroundMotions
@@ -246,7 +246,7 @@ def crack_row(component: SiteRecord, place: int, checked: bool) -> CrackRow:
     beside = round(MARGIN / motion.time_step)
     span = slice(max(strong[0] - beside, 0), strong[-1] + beside + 1)
     motion = replace(motion, acceleration=motion.acceleration[span])
-    facts, shares = ruled(mechanisms, static, motion, member.tapers)
+    decision, shares = ruled(mechanisms, static, motion, member.tapers)
     turns = stack(member, motion)
     return CrackRow(
         courses=member.courses,
@@ -259,14 +259,14 @@ def crack_row(component: SiteRecord, place: int, checked: bool) -> CrackRow:
         static_joint=static,
         static_share=shares[static],
         largest_share=max(shares.values()),
-        verdict=decide(facts).word,
+        verdict=decision.word,
     )
 
 
 def ruled(
     mechanisms: Mapping[int, Mechanism], static: int, motion: Accelerogram, tapers: bool = False
-) -> tuple[Facts, Mapping[int, float]]:
-    """Return what the decision is told, and the share of the ensemble that overturns at each joint.
+) -> tuple[Decision, Mapping[int, float]]:
+    """Return the decision, and the share of the ensemble that overturns at each joint.
 
     tapers: whether the courses of a member that lifts at all may be thrown.
     """
@@ -274,11 +274,10 @@ def ruled(
     of_each = {joint: ensemble(mechanism, motions) for joint, mechanism in mechanisms.items()}
     statics_first = sorted(of_each, key=lambda joint: joint != static)
     followed = (FollowedCrack(f"joint {joint}", joint, of_each[joint]) for joint in statics_first)
-    facts = CrackEnsembles(tuple(followed)).facts
     lifts = any(np.any(ensemble.rotation_ratios > 0) for ensemble in of_each.values())
-    if tapers and lifts:
-        facts = replace(facts, doubts=(Remark(AssessmentKind.COURSES_THROWN),))
-    return facts, {joint: ensemble.overturning_share for joint, ensemble in of_each.items()}
+    thrown = [Limit.untold(Remark(AssessmentKind.COURSES_THROWN))] if tapers and lifts else []
+    decision = decide(CrackEnsembles(tuple(followed)).facts, thrown)
+    return decision, {joint: ensemble.overturning_share for joint, ensemble in of_each.items()}
 
 
 def stack(member: Member, motion: Accelerogram, step: float = STEP) -> np.ndarray:

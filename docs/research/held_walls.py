@@ -185,7 +185,7 @@ def held_trial(component: SiteRecord, kind: str, place: int) -> HeldTrial:
         station = assess(motion, wall.on_joints(Joints(friction or USUAL.friction)))
         spent = process_time() - started
     (case,) = station.cases.values()
-    facts = case.facts(wall)
+    told = [limit for limit in case.limits if not limit.is_untold]
     stack = wall.stack()
     runs = list(true_runs(replace(stack, friction=min(stack.friction, friction or USUAL.friction)), motion))
     free = [0.0, *sorted(hold.height for hold in wall.held_wall.holds), wall.height]
@@ -198,7 +198,7 @@ def held_trial(component: SiteRecord, kind: str, place: int) -> HeldTrial:
         slenderness=float(np.diff(free).max() / thickness_of(wall)),
         friction=friction or np.nan,
         restitution=wall.mechanism().restitution,
-        mechanism=decide(replace(facts, doubts=(), stacks=None)).word,
+        mechanism=decide(replace(case.facts(wall), stacks=None), told).word,
         doubts=";".join(str(doubt.kind) for doubt in station.decision.doubts),
         verdict=station.verdict,
         farthest=case.largest_rotation_ratio,

@@ -7,7 +7,6 @@ that a contact opens was looked at on the even half, and that tapering members n
 one.
 """
 
-import math
 import warnings
 import zlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -31,7 +30,8 @@ from docs.research.sites import (
     sample_of,
 )
 from rocking import Accelerogram, Facade, LoadedWall, Spire, Verdict, assess
-from rocking.assessment.decide import Facts, decide
+from rocking.assessment.decide import Facts, Limit, decide
+from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.settings import AssessmentSettings
 from rocking.contacts.dynamics import follow_stack
 from rocking.errors import StructureWarning
@@ -83,11 +83,11 @@ class Case:
         """Uplift multiplier of statics, the least over its cracks: ground acceleration over g."""
         return self.structure.static_multiplier
 
-    def facts(self, motion: Accelerogram) -> Facts:
+    def facts(self, motion: Accelerogram) -> tuple[Facts, tuple[Limit, ...]]:
         """Return what a study with `fidelity: contact` decides by, contact dynamics included where it is asked."""
         station = assess(motion, self.structure, settings=SETTINGS)
         (case,) = station.cases.values()
-        return case.facts(self.structure)
+        return case.facts(self.structure), case.limits
 
     def stack(self, courses: int) -> Stack:
         """Return the true stack, on the friction of the study or less."""
@@ -101,11 +101,12 @@ class Case:
         return bool(np.isclose(self.structure.levels[:-1], height).any())
 
 
-def words_of(facts: Facts) -> tuple[Verdict, Verdict, Verdict]:
+def words_of(facts: Facts, limits: Sequence[Limit] = ()) -> tuple[Verdict, Verdict, Verdict]:
     """Return the word by mechanisms alone whatever their contacts do, that without contact dynamics, and that with."""
     without = replace(facts, stacks=None)
-    alone = replace(without, doubts=(), friction_needed=math.nan)
-    return decide(alone).word, decide(without).word, decide(facts).word
+    of_contacts = AssessmentKind.FRICTION_SHORT
+    alone = [limit for limit in limits if not limit.is_untold and limit.doubt.kind is not of_contacts]
+    return decide(without, alone).word, decide(without, limits).word, decide(facts, limits).word
 
 
 def laid(structure: Structure) -> Case:
@@ -264,9 +265,9 @@ def stack_row(component: SiteRecord, kind: str, place: int) -> StackRow:
     motion = strong_part(record.scaled(factor), case.multiplier)
     courses = int(draw.choice(COURSES))
     started = process_time()
-    facts = case.facts(motion)
+    facts, limits = case.facts(motion)
     spent = process_time() - started
-    mechanism, without, verdict = words_of(facts)
+    mechanism, without, verdict = words_of(facts, limits)
     stack_falls, stack_runs = facts.stacks or (None, None)
     stack = case.stack(courses)
     response = follow_stack(stack, motion, TRUE_STEP)
@@ -278,7 +279,7 @@ def stack_row(component: SiteRecord, kind: str, place: int) -> StackRow:
         courses=courses,
         velocity_ratio_s=peak_velocity(motion) / motion.peak_acceleration,
         mechanism=mechanism,
-        doubt="; ".join(map(str, facts.doubts)),
+        doubt="; ".join(str(limit.doubt) for limit in limits if limit.is_untold),
         without=without,
         verdict=verdict,
         stack_falls=stack_falls,

@@ -201,9 +201,7 @@ def stones_trial(component: SiteRecord, kind: str, place: int) -> StonesTrial:
     assessed, spent = timed(lambda: assess(motion, structure, settings=settings))
     (case,) = assessed.cases.values()
     facts = case.facts(structure)
-    mechanism = decide(
-        replace(facts, stacks=None, doubts=(), needs_stones=False, stackable=False, friction_needed=np.nan)
-    ).word
+    mechanism = decide(replace(facts, stacks=None, stackable=False)).word
     falls: list[bool] = []
     turns = [0.0]
     if assessed.verdict in STANDING or mechanism in STANDING:

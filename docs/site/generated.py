@@ -13,6 +13,7 @@ import rocking
 from docs.site.build import TOPICS, public_names
 from docs.site.drawings import forms
 from docs.site.kept import scores_of
+from rocking.assessment.evidence import EVIDENCE
 from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, HistoryRow, SpectrumRow
 from rocking.described import described_values, parts_of
 from rocking.products.trade.measure import what_follows as sentences_of_trade
@@ -53,6 +54,12 @@ def settings() -> str:
 def structures() -> str:
     """The drawing and the keys of every form of every type of structure."""
     return "\n\n".join(_structure(*form) for form in forms())
+
+
+def evidence() -> str:
+    """What speaks against the word of the mechanisms, in the order of looking."""
+    says = (" ".join((kind.__doc__ or "").split()).partition(": ") for kind in EVIDENCE)
+    return table(("evidence", "what it says"), ((what, words) for what, _, words in says))
 
 
 def tables() -> str:
@@ -321,7 +328,7 @@ def pulse_shapes() -> str:
 GENERATED: Mapping[str, Callable[[], str]] = {
     part.__name__: part
     for part in (
-        *(formats, units, settings, structures, tables, equations, pulse_methods, blocks, regimes),
+        *(formats, units, settings, structures, evidence, tables, equations, pulse_methods, blocks, regimes),
         *(what_follows, trade, earthquakes, rates, stands, pulse_shapes),
     )
 } | {f"api_{topic}": partial(api, topic) for topic in TOPICS}

@@ -393,7 +393,7 @@ class Assessor:
         ):
             return period_result
         # The factors of a mechanism would say nothing of what slides first, or falls in contact dynamics alone.
-        if not isnan(case.slides_at) or period_result.falls_in_stacks_alone:
+        if not isnan(case.slides_at) or period_result.decision.by_stacks_alone:
             return period_result
         structure = period_result.scene.structure
         description = case.ensembles.governing.description

@@ -18,7 +18,7 @@ from rocking.assessment.cracks import (
     never_overturns_because,
     worth_measuring,
 )
-from rocking.assessment.decide import BEYOND, Decision, Facts, Severity, Verdict, decide, severity
+from rocking.assessment.decide import Decision, Facts, Limit, Severity, Verdict, decide, severity
 from rocking.assessment.ensemble import NO_MEMBERS, Ensemble
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
@@ -32,9 +32,7 @@ from rocking.records import Accelerogram
 from rocking.remarks import Remark
 from rocking.sine_pulse import AsPrinted, Maximum
 from rocking.structures import EquivalentBlock, Outcome, Structure
-from rocking.structures.leaves import parts_of
 from rocking.structures.structure import Candidate
-from rocking.structures.tied import Tied
 
 DECISIVE = ("responses", "directions")
 """Stages whose failure leaves a structure without a result; the others only leave out a comparison."""
@@ -104,12 +102,9 @@ class CaseResult:
     responses: by method. check: whether the model held along the response of the mechanism to the record. ensembles: of
     the cracks that were followed; None where none ran. reserve: of the crack that governs; None where it was not
     computed; a store keeps it apart, as only what is printed has one. slides_at: acceleration [g] at which its joints
-    slide before they lift, where the motion reaches it; else nan. friction_needed: the coefficient that a contact needs
-    while it rocks, where it has less, of what (probably) stands but for that; else nan. crack: to which prediction,
-    responses and check belong; "" where it is that of the structure. statics: the case of that one, where another crack
-    governs. ties_give: whether its ties let so much through that it turns beyond BEYOND; not computed where that
-    changes no word. anchors_slide: whether a motion reaches the acceleration at which what an anchor grips slides out.
-    variations: other cracks, then other processings.
+    slide before they lift, where the motion reaches it; else nan. limits: what evidence sets against the word of its
+    mechanisms. crack: to which prediction, responses and check belong; "" where it is that of the structure. statics:
+    the case of that one, where another crack governs. variations: other cracks, then other processings.
     """
 
     component: str
@@ -120,12 +115,9 @@ class CaseResult:
     ensembles: CrackEnsembles | None = None
     reserve: Reserve | None = None
     slides_at: float = math.nan
-    friction_needed: float = math.nan
     crack: str = ""
     statics: "CaseResult | None" = None
-    doubt: Remark | None = None
-    ties_give: bool = False
-    anchors_slide: bool = False
+    limits: tuple[Limit, ...] = ()
     contact: ContactShare | None = None
     variations: tuple[Variation, ...] = ()
     failures: tuple[Failure, ...] = ()
@@ -169,15 +161,10 @@ class CaseResult:
         return self.response.rotation_ratio if self.response else 0.0
 
     def facts(self, body: Structure, failures: tuple[str, ...] = ()) -> Facts:
-        """Return the facts of this case from which the decision follows.
+        """Return the facts of this case from which, with its limits, the decision follows.
 
         body: the structure. failures: why other components are missing.
         """
-        several = counting_cracks(body)
-        held_parts = {
-            name for name, part in parts_of(body) if isinstance(part, Tied) and part.held_wall.holds
-        }
-        beyond = AssessmentKind.TIES_GIVE if self.ties_give else None
         other_runs = [
             variation.integrated_rotation_ratio
             for variation in self.variations
@@ -190,41 +177,37 @@ class CaseResult:
         if self.ensembles is not None:
             followed = [crack for crack in self.ensembles.followed if crack.counts]
             rests = all(bool((crack.ensemble.rotation_ratios == 0).all()) for crack in followed)
-            if any(crack.facts.farthest > BEYOND and crack.part in held_parts for crack in followed):
-                beyond = AssessmentKind.HELD_BEYOND
-        typed = several[0].mechanism.restitution_range is not None
-        stacks = (self.contact.falls, self.contact.runs) if self.contact and self.contact.runs else None
+        typed = counting_cracks(body)[0].mechanism.restitution_range is not None
+        tops = (restraint for restraint in body.restraints() if restraint.kind == "top" and restraint.lets_go)
         own = self.ensembles.facts if self.ensembles else Facts()
         return replace(
             own,
-            # What is missing or not followed may lift, and what slides apart does not have to.
-            rests=rests
-            and not failures
-            and not (self.doubt and self.doubt.kind is AssessmentKind.NOT_FOLLOWED)
-            and not (body.falls_by_sliding and not math.isnan(self.slides_at)),
+            # What slides apart does not have to lift.
+            rests=rests and not (body.falls_by_sliding and not math.isnan(self.slides_at)),
             run_ratio=max(runs, default=math.nan),
             never_overturns_because=never_overturns_because(body),
             slides_at=own.slides_at if math.isnan(self.slides_at) else self.slides_at,
-            friction_needed=self.friction_needed,
-            doubts=(self.doubt,) if self.doubt else (),
-            held=bool(held_parts),
-            beyond=beyond,
-            anchors_slide=self.anchors_slide,
-            top=next(
-                (
-                    restraint.remark
-                    for restraint in body.restraints()
-                    if restraint.kind == "top" and restraint.lets_go
-                ),
-                None,
-            ),
-            stacks=stacks,
+            top=next((top.remark for top in tops), None),
+            stacks=(self.contact.falls, self.contact.runs) if self.contact and self.contact.runs else None,
             as_stones=body.as_stones,
-            needs_stones=body.needs_stones,
             stackable=self.contact is None and stackable(body),
             remarks=worth_measuring(self.ensembles, restitution_is_typed=typed) if self.ensembles else (),
             failures=failures,
         )
+
+    def decision(self, body: Structure, failures: tuple[str, ...] = ()) -> Decision:
+        """Return the decision on it. body: the structure. failures: why other components are missing."""
+        return decide(self.facts(body, failures), self.limits)
+
+    @property
+    def friction_needed(self) -> float:
+        """The friction coefficient that a contact needs while it rocks, where it has less; else nan.
+
+        Of what was followed as stones nan: these stand or slide on what they have.
+        """
+        runs = self.contact.runs if self.contact else 0
+        short = (limit for limit in self.limits if limit.doubt.kind is AssessmentKind.FRICTION_SHORT)
+        return next((limit.value for limit in short if not (runs and limit.lifted_by == 1)), math.nan)
 
     @property
     def overturns(self) -> bool:
@@ -283,7 +266,7 @@ class PeriodResult:
         """The case that decides, None where no component gave a result; and the decision."""
         if self.directions is not None and self.directions.ensembles is not None:
             # All directions are one: what a component lacks takes nothing away.
-            return self.directions, decide(self.directions.facts(self.scene.structure))
+            return self.directions, self.directions.decision(self.scene.structure)
         answered = [case for case in self.cases.values() if case.response is not None]
         if not answered:
             first = [case.failure.message for case in self.cases.values() if case.failure][:1]
@@ -294,7 +277,7 @@ class PeriodResult:
             for case in both
             if case.failure
         )
-        decided = [(case, decide(case.facts(self.scene.structure, missing))) for case in answered]
+        decided = [(case, case.decision(self.scene.structure, missing)) for case in answered]
         return max(decided, key=lambda pair: (severity(pair[1]), *_rotation_severity(pair[0])))
 
     def check_of(self, candidate: Candidate) -> ModelCheck | None:
@@ -344,22 +327,10 @@ class PeriodResult:
         under the record itself.
         """
         case = self.decisive
-        if case is None or case.reserve is None or self.falls_in_stacks_alone:
+        if case is None or case.reserve is None or self.decision.by_stacks_alone:
             return None
         share = self.decision.share
         return case.reserve.held_to(self.ensemble.overturning_share if math.isnan(share) else share)
-
-    @cached_property
-    def falls_in_stacks_alone(self) -> bool:
-        """Whether contact dynamics says worse than its mechanisms, and no better than uncertain.
-
-        How far their members are from falling then says nothing of it.
-        """
-        case = self.decisive
-        if case is None or case.contact is None:
-            return False
-        by_mechanisms = decide(replace(case.facts(self.scene.structure), stacks=None, doubts=())).word
-        return self.decision.word.badness >= max(Verdict.UNCERTAIN.badness, by_mechanisms.badness + 1)
 
     def with_reserve(self, reserve: Reserve | None) -> "PeriodResult":
         """Return the result with the reserve of the case that decides."""
@@ -379,7 +350,7 @@ class PeriodResult:
         uplift to the limit, so that a body of courses that tapers is always in doubt.
         """
         both = [*self.cases.values(), *([self.directions] if self.directions else [])]
-        doubts = [case.doubt for case in both if case.doubt is not None]
+        doubts = [limit.doubt for case in both for limit in case.limits if limit.is_untold]
         doubts += [
             doubt
             for doubt in self.decision.doubts

@@ -5,39 +5,28 @@ bounce; and courses that stand on a rocking body are thrown by its impacts, whic
 bounds (theory: section 11). "Stands" is then not said.
 """
 
-import math
-from collections.abc import Iterable, Mapping, Sequence
-from contextlib import closing, suppress
+from collections.abc import Sequence
+from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from itertools import product
 from typing import Protocol
 
 import numpy as np
 
 from rocking.assessment.cores import in_order
-from rocking.assessment.cracks import weakest_not_followed
-from rocking.assessment.decide import BEYOND, UNANIMOUS
+from rocking.assessment.decide import UNANIMOUS
 from rocking.assessment.decide import step as step_of
-from rocking.assessment.kinds import AssessmentKind
-from rocking.assessment.methods import NEGLIGIBLE
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.contacts.dynamics import STEP, follow_stack
 from rocking.contacts.dynamics import expected_seconds as seconds_of_run
 from rocking.errors import RockingError
-from rocking.floors.place import swinging
-from rocking.motion.integration import Members, integrate, integrate_members, strict
-from rocking.motion.response import check_model
 from rocking.records import Accelerogram
-from rocking.remarks import Remark
 from rocking.signal.measures import peak_velocity
 from rocking.structures import Structure
 from rocking.structures.joints import Joints
-from rocking.structures.linkage import Turning
 from rocking.structures.stack import COURSES, Stack
 from rocking.structures.stones import Stones
-from rocking.structures.tied import Tied
 
 AMPLITUDES = (0.9, 1.1)
 """Least and largest factor on the motion at which contact dynamics follows a case: its steps are of first order, so
@@ -46,8 +35,6 @@ RUNS = 24
 """Runs of contact dynamics of a case that cannot be told otherwise: none may fall of so few, and it probably stands."""
 MOST_RUNS = UNANIMOUS
 """Runs with fidelity: contact, none of which falls where the word is "stands"."""
-LEAST_KEPT = 0.3
-"""Restitution by the balance of momentum below which joints close one after the other (theory: section 11)."""
 STEPS = (*7 * (STEP,), STEP / 2)
 """Time steps of contact dynamics, s, which its runs take in turn: every eighth one at a finer step."""
 
@@ -75,151 +62,17 @@ class Laid(Protocol):
         """Return it as rigid courses."""
 
 
-def doubt(
-    structure: Structure,
-    motions: GroundMotions,
-    rotation_ratio: float,
-    settings: AssessmentSettings | None = None,
-    bounces: bool | None = None,
-    of_leaves: Mapping[str, float] | None = None,
-) -> Remark | None:
-    """Return why a structure may be worse off than as a mechanism; None where nothing speaks for it.
-
-    rotation_ratio: the largest of its runs. bounces: whether a contact opens in the run as recorded, where that is
-    known. First where the mechanism of least λ cannot be followed, and the motion at its largest amplitude reaches that
-    λ; the doubts that follow are of what rocks. Of the members those are asked that land fastest: with the crack that
-    statics chooses, in every direction and sign, at the largest amplitude; what cannot be followed there is in doubt,
-    too. Where the balance of momentum keeps less than LEAST_KEPT of the velocity, the impact itself opens contacts.
-    What rests has no contact to open; a single body on the ground lands too slowly below a fall of more than a radian;
-    and the bulge of a wall that is held has row 8b of the decision instead, with `ties_give`: what they let stand did
-    not fall as a stack (docs, validation). Of a wall whose leaves may part each of these is asked, too; of_leaves: the
-    largest rotation ratio of each.
-    """
-    own = _doubt_of_part(structure, motions, rotation_ratio, settings or AssessmentSettings(), bounces)
-    ratios = of_leaves or {}
-    of_each = (
-        doubt(leaf, motions, ratios.get(name, rotation_ratio), settings)
-        for name, leaf in structure.leaves_alone
-    )
-    return own or next((reason for reason in of_each if reason is not None), None)
-
-
-def _doubt_of_part(
-    structure: Structure,
-    motions: GroundMotions,
-    rotation_ratio: float,
-    settings: AssessmentSettings,
-    bounces: bool | None,
-) -> Remark | None:
-    """Return why one part may be worse off than as a mechanism; None where nothing speaks for it."""
-    unknown = weakest_not_followed(structure)
-    reached = motions.excitation * (1 + settings.ensemble.amplitude_range)
-    if unknown is not None and reached > unknown.uplift_multiplier:
-        return Remark(AssessmentKind.NOT_FOLLOWED)
-    if not rotation_ratio > 0:
-        return None
-    if structure.tapers:
-        return Remark(AssessmentKind.COURSES_THROWN)
-    if rotation_ratio <= NEGLIGIBLE:
-        return None
-    if bounces:
-        return Remark(AssessmentKind.CONTACTS_OPEN)
-    candidates = [candidate.structure for candidate in structure.candidates() if not candidate.part]
-    bulges = [wall for wall in candidates if isinstance(wall, Tied) and wall.opening]
-    first = [body for body in candidates if body not in bulges][:1]
-    asked = [body for body in first if not all(isinstance(part, Turning) for part in body.linkages)]
-    for body, sign, direction in product(asked, _signs(structure, settings), _directions(motions)):
-        strongest = motions.horizontal[direction].scaled(sign * (1 + settings.ensemble.amplitude_range))
-        if _opens(body, strongest, motions.vertical, strict(settings.tolerance)):
-            return Remark(AssessmentKind.CONTACTS_OPEN)
-    return Remark(AssessmentKind.IMPACT_OPENS) if any(map(_keeps_little, [*asked, *bulges])) else None
-
-
-def _keeps_little(structure: Structure) -> bool:
-    """Whether its balance of momentum keeps less than LEAST_KEPT of the velocity at an impact."""
-    if structure.restitution_is_typed:
-        return False
-    return any(side.restitution < LEAST_KEPT for side in structure.mechanism().sides)
-
-
-def ties_give(structure: Structure, motions: GroundMotions, settings: AssessmentSettings) -> bool:
-    """Whether a wall turns beyond BEYOND under the motion that its ties let through.
-
-    Its mechanisms stand on ties and lean on them as if these did not stretch. Until it cracks, such a wall swings on
-    them as one body, and its bulge is shaken by the absolute acceleration of that oscillator: the bulge of least λ that
-    a tie holds or bears is followed under it, with both signs of every direction. What cannot be followed counts. So is
-    each leaf that may part.
-    """
-    if any(ties_give(leaf, motions, settings) for _, leaf in structure.leaves_alone):
-        return True
-    if not isinstance(structure, Tied) or not structure.tie_period:
-        return False
-    bulge = next(
-        (candidate.structure for candidate in structure.mechanisms() if structure.hangs_on_ties(candidate)),
-        None,
-    )
-    if bulge is None:
-        return False
-    both = Members(1 + settings.ensemble.amplitude_range, polarity=[1.0, -1.0])
-    for motion in (motions.horizontal[direction] for direction in _directions(motions)):
-        # Below two samples of the record it cannot be distinguished from one that moves with the ground.
-        period = structure.tie_period if structure.tie_period >= 2 * motion.time_step else 0.0
-        through_ties = swinging(period).motion(motion)
-        try:
-            followed = integrate_members(bulge, through_ties, both, strict(settings.tolerance))
-        except RockingError:
-            return True
-        if not (followed.rotation_ratio <= BEYOND).all():
-            return True
-    return False
-
-
-def friction_needed(
-    bodies: Iterable[Structure], motions: GroundMotions, settings: AssessmentSettings
-) -> float:
-    """Return the friction coefficient that a contact of the mechanisms needs where it has less; nan where none does.
-
-    bodies: the structure with each crack that is asked. Followed as recorded in every direction and sign, at every
-    sample at which they rock below the critical rotation; inf where nothing presses a contact there. What cannot be
-    followed, or has contacts of which nothing is known, says nothing.
-    """
-    largest = math.nan
-    for body, direction in product(bodies, _directions(motions)):
-        motion = motions.horizontal[direction]
-        for sign in _signs(body, settings):
-            acting = motion.scaled(sign)
-            with suppress(RockingError):
-                response = integrate(
-                    body, acting, settings.tolerance, history=True, vertical=motions.vertical
-                )
-                check = check_model(body, response, acting, motions.vertical)
-                if check.slides(body.joints.friction):
-                    largest = float(np.fmax(largest, check.required_friction))
-    return largest
-
-
-def _directions(motions: GroundMotions) -> list[tuple[str, str]]:
-    """The key of the motion of each direction, in the first of its processings."""
+def directions(motions: GroundMotions) -> list[tuple[str, str]]:
+    """Return the key of the motion of each direction, in the first of its processings."""
     first: dict[str, tuple[str, str]] = {}
     for direction, processing in motions.horizontal:
         first.setdefault(direction, (direction, processing))
     return list(first.values())
 
 
-def _signs(structure: Laid, settings: AssessmentSettings) -> tuple[float, ...]:
-    """Both signs of the motion where the sides differ and the sign varies."""
+def signs(structure: Laid, settings: AssessmentSettings) -> tuple[float, ...]:
+    """Return both signs of the motion where the sides differ and the sign varies."""
     return (1.0,) if structure.symmetric or not settings.ensemble.polarity else (1.0, -1.0)
-
-
-def _opens(
-    structure: Structure, motion: Accelerogram, vertical: Accelerogram | None, tolerance: float
-) -> bool:
-    """Whether a contact would have to pull, or the motion cannot be followed, so that nobody knows."""
-    try:
-        response = integrate(structure, motion, tolerance, history=True, vertical=vertical)
-    except RockingError:
-        return True
-    return check_model(structure, response, motion, vertical).bounces is True
 
 
 MANY_COURSES = 12
@@ -297,11 +150,9 @@ def _share_of(
     known and nothing holds it, else the courses that `Structure.stack` gives; a tapering member that does not state its
     courses is followed with COURSES and MANY_COURSES in turn. An arch or a portal is followed as its stones.
     """
-    signs = _signs(structure, settings)
-    directions = [motions.horizontal[direction] for direction in _directions(motions)[:: len(signs)]]
-    ways = [
-        (motion, sign) for motion in sorted(directions, key=peak_velocity, reverse=True) for sign in signs
-    ]
+    both = signs(structure, settings)
+    every = [motions.horizontal[direction] for direction in directions(motions)[:: len(both)]]
+    ways = [(motion, sign) for motion in sorted(every, key=peak_velocity, reverse=True) for sign in both]
     amplitudes = np.linspace(*AMPLITUDES, max(runs // len(ways), 1))[::-1]
     cases = [
         (amplitude, motion, sign, turn + way)

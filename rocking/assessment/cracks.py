@@ -24,7 +24,7 @@ from rocking.motion.table import table_of
 from rocking.remarks import Phrase, Remark
 from rocking.structures import Structure
 from rocking.structures.crackable import WEAK_MASONRY
-from rocking.structures.leaves import of_leaf, parts_of
+from rocking.structures.leaves import of_leaf
 from rocking.structures.structure import CRACKS, Candidate
 from rocking.structures.tied import Tied
 
@@ -351,12 +351,6 @@ def slides_first(candidate: Candidate, motions: GroundMotions) -> bool:
     """Whether a mechanism slides before it lifts, under motions that reach so far."""
     level = slides_at(candidate)
     return motions.excitation > level  # not where it is nan
-
-
-def anchors_slide(structure: Structure, motions: GroundMotions) -> bool:
-    """Whether the anchor of a tie slides out of the structure, or of a leaf, under motions that reach so far."""
-    level = min(part.anchors_slide_at for _, part in parts_of(structure))
-    return math.isfinite(level) and motions.excitation > level
 
 
 def slides_at(candidate: Candidate) -> float:

@@ -7,7 +7,7 @@ more.
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import KW_ONLY, dataclass
+from dataclasses import KW_ONLY, dataclass, replace
 from enum import StrEnum
 
 from rocking.assessment.kinds import AssessmentKind
@@ -20,9 +20,6 @@ FAR = 0.3
 """Rotation ratio that fewer members must all stay below to settle that the structure stands."""
 LATTICE_ERROR = 4.0
 """Members times the error of a probability that all but few cases stay below; `calibrate_ensemble` counts them."""
-BEYOND = 0.4
-"""Share of the critical rotation beyond which a chain of a held wall may fall though its mechanism stands (theory:
-section on ties)."""
 
 
 class Verdict(StrEnum):
@@ -206,34 +203,65 @@ class CrackFacts:
         return self.step(risk).badness, -1.0 if math.isnan(self.share) else self.share, farthest
 
 
-CONTACTS = (
-    AssessmentKind.CONTACTS_OPEN,
-    AssessmentKind.COURSES_THROWN,
-    AssessmentKind.IMPACT_OPENS,
-    AssessmentKind.NOT_FOLLOWED,
+_PLACES: dict[Kind, int] = {kind: place for place, kind in enumerate(AssessmentKind)}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Limit:
+    """What one kind of evidence sets against a word: no safer than `at_best`.
+
+    doubt: for which. settles: what would tell more of it, besides contact dynamics. lifted_by: runs of contact dynamics
+    from which on these say instead; inf where they follow nothing of it. at_rest: whether it acts before anything
+    lifts. value: the number behind it; nan without one.
+    """
+
+    doubt: Remark
+    at_best: Verdict = Verdict.PROBABLY_STANDS
+    settles: tuple[Remark, ...] = ()
+    lifted_by: float = UNANIMOUS
+    at_rest: bool = False
+    value: float = math.nan
+
+    @classmethod
+    def untold(cls, doubt: Remark) -> "Limit":
+        """Return that of a doubt in which nothing can be told of what does not fall, until contact dynamics ran."""
+        return cls(doubt=doubt, at_best=Verdict.CANNOT_BE_TOLD, lifted_by=1, at_rest=True)
+
+    @property
+    def is_untold(self) -> bool:
+        """Whether nothing can be told of what does not fall."""
+        return self.at_best is Verdict.CANNOT_BE_TOLD
+
+    @property
+    def by_contacts(self) -> bool:
+        """Whether contact dynamics would tell more of it."""
+        return math.isfinite(self.lifted_by)
+
+
+_MISSING = Limit(
+    doubt=Remark(AssessmentKind.COMPONENT_MISSING),
+    at_best=Verdict.CANNOT_BE_TOLD,
+    settles=(Remark(AssessmentKind.COMPONENT),),
+    lifted_by=math.inf,
+    at_rest=True,
 )
-"""Doubts that contact dynamics settles."""
+"""Of a structure a component of which gave no result."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Facts:
-    """The facts that are known of one structure under one motion.
+    """The facts that are known of one structure under one motion, but for the evidence against its mechanisms.
 
     cracks: those that were followed, first the one that is known or that statics chooses. rests: whether nothing can
     lift. run_ratio: largest rotation ratio of single runs, where no members were followed; nan without one.
     never_overturns_because: why no motion can overturn it with a crack that counts; "" where one can. slides_at: the
     least acceleration [g] at which the joints of a crack that counts slide before it lifts, where the motion reaches
-    it; else nan. friction_needed: the coefficient that a contact needs while it rocks, where it has less; else nan.
-    doubts: what one degree of freedom does not follow. held: whether it is a wall that is held above its foot, and
-    beyond: HELD_BEYOND where some chain of it goes beyond BEYOND of its critical rotation in any member, TIES_GIVE
-    where only one that its ties hold does, under the motion that these let through. anchors_slide: whether the motion
-    reaches the acceleration at which what the anchor of a tie grips slides out, which neither mechanisms nor stacks
-    follow. top: what its top needs and does not get, so that it slips; None where it holds, or there is none. stacks:
-    stacks of courses that fall in contact dynamics, of how many; None where none was followed. as_stones: as what chain
-    of stones it is followed then, "as voussoirs"; "" where as a stack of courses. needs_stones: whether only its stones
-    may say that it stands. stackable: whether contact dynamics can follow it and has not done so yet. remarks: what
-    would reduce the disagreement of the members. failures: why components gave no result. risk: largest probability of
-    the outcome opposite to "stands" or "overturns". Raises ValueError.
+    it; else nan. top: what its top needs and does not get, so that it slips; None where it holds, or there is none.
+    stacks: stacks of courses that fall in contact dynamics, of how many; None where none was followed. as_stones: as
+    what chain of stones it is followed then, "as voussoirs"; "" where as a stack of courses. stackable: whether contact
+    dynamics can follow it and has not done so yet. remarks: what would reduce the disagreement of the members.
+    failures: why components gave no result. risk: largest probability of the outcome opposite to "stands" or
+    "overturns". Raises ValueError.
     """
 
     cracks: tuple[CrackFacts, ...] = ()
@@ -241,15 +269,9 @@ class Facts:
     run_ratio: float = math.nan
     never_overturns_because: str = ""
     slides_at: float = math.nan
-    friction_needed: float = math.nan
-    doubts: tuple[Remark, ...] = ()
-    held: bool = False
-    beyond: Kind | None = None
-    anchors_slide: bool = False
     top: Remark | None = None
     stacks: tuple[int, int] | None = None
     as_stones: str = ""
-    needs_stones: bool = False
     stackable: bool = True
     remarks: tuple[Remark, ...] = ()
     failures: tuple[str, ...] = ()
@@ -258,10 +280,18 @@ class Facts:
     def __post_init__(self) -> None:
         if self.stacks is not None and not 0 <= self.stacks[0] <= self.stacks[1] != 0:
             raise ValueError(f"stacks {self.stacks}, but must be those that fall, of at least one.")
-        if odd := [str(doubt.kind) for doubt in self.doubts if doubt.kind not in CONTACTS]:
-            raise ValueError(f"doubts {odd}, but must be of {[str(kind) for kind in CONTACTS]}.")
         if not 0 < self.risk < 0.5:
             raise ValueError(f"risk {self.risk}, but must be above 0 and below 0.5.")
+
+    @property
+    def runs(self) -> int:
+        """Runs of contact dynamics."""
+        return self.stacks[1] if self.stacks else 0
+
+    @property
+    def slides_throughout(self) -> bool:
+        """Whether every crack that counts slides before it lifts, and the motion reaches so far."""
+        return not math.isnan(self.slides_at) and all(crack.slides for crack in self.counting)
 
     @property
     def counting(self) -> tuple[CrackFacts, ...]:
@@ -300,6 +330,9 @@ class Decision:
         What may make it worse than said.
     would_settle : tuple of Remark, optional
         What would tell more.
+    by_stacks_alone : bool, default False
+        Whether contact dynamics says worse than its mechanisms, and no better than uncertain: how far their
+        members are from falling then says nothing of it.
 
     Examples
     --------
@@ -314,6 +347,13 @@ class Decision:
     why: str
     doubts: tuple[Remark, ...] = ()
     would_settle: tuple[Remark, ...] = ()
+    by_stacks_alone: bool = False
+
+    @property
+    def remark(self) -> Remark | None:
+        """What would tell more of a word that is not sure, else what may make it worse; None without either."""
+        first = () if self.word.is_sure else self.would_settle
+        return next(iter((*first, *self.doubts)), None)
 
     @property
     def share_in_words(self) -> str:
@@ -383,18 +423,17 @@ def worst_first(cases: Iterable[tuple[str, Severity]]) -> list[str]:
     return sorted(worst, key=lambda name: (worst[name], shares[name]), reverse=True)
 
 
-def decide(facts: Facts) -> Decision:
-    """Return the decision on `facts`.
+def decide(facts: Facts, limits: Iterable[Limit] = ()) -> Decision:
+    """Return the decision on `facts`, and on what evidence sets against them.
 
-    The step of a crack is the word of its members (`step`), those that failed counted as falling. The first row whose
-    test holds ends, but for rows 5 to 7, which name a step, and rows 8b and 9, which limit it.
+    The step of a crack is the word of its members (`step`), those that failed counted as falling. The first of rows 1
+    to 7 whose test holds names the word of the mechanisms; rows 8 to 10 make it worse, and never safer.
 
     ===  ================================================================  =============================================
     row  facts                                                             word
     ===  ================================================================  =============================================
-    1    no crack that counts can overturn, no doubt                       cannot overturn
-    2    nothing can lift, and its ties do not give                        stands; probably stands where the anchor of
-                                                                           a tie slides out
+    1    no crack that counts can overturn, nothing limits that            cannot overturn
+    2    nothing can lift                                                  stands; only what acts at rest limits it
     3    every crack that counts slides before it lifts, and the motion    cannot be told
          reaches so far, and no stones were followed
     4    no result at all                                                  cannot be told
@@ -406,171 +445,172 @@ def decide(facts: Facts) -> Decision:
                                                                            worse of that and the step of its bulge
     7    a crack without one member, or only with the members that failed  cannot be told
          does it (probably) overturn
-    8    the step is overturns                                             overturns
-    8b   a held wall some chain of which goes beyond BEYOND, as the        no safer than probably stands
-         motion comes or as its ties let it through; or a contact that
-         needs more friction than it has while it rocks; and fewer than
-         UNANIMOUS runs of contact dynamics, which are on that friction;
-         or an arch on piers that was not followed as stones; or the
-         anchor of a tie that slides out, which no stack follows
-    9    contact dynamics ran                                              the worse of its step and that of the members
-    10   contacts open, an impact may open them or courses may be thrown   cannot be told
-         and contact dynamics did not run, or a component is missing; and
-         it does not (probably) overturn
-    11   else                                                              the step
+    8    limits that the runs of contact dynamics do not lift              no safer than each
+    9    contact dynamics ran                                              no safer than its step
+    10   a limit at which nothing can be told, or a component is missing   cannot be told, unless it falls anyway
     ===  ================================================================  =============================================
 
     A crack that slides first and is left out is reported as a doubt with every word better than probably overturns.
-    A further doubt, failure or fall never makes the word safer, nor the share smaller. The share is the largest among
+    A further limit, failure or fall never makes the word safer, nor the share smaller. The share is the largest among
     the cracks that count and the stacks, members that failed counted as falling: at it, the members of the crack or the
-    stacks that make the word have a step no safer than the word. Rows 5 and 8b and doubts limit the word, not the
-    share. Under row 7 the share is empty, and its interval reaches from the members that fall to those that fall or
-    failed; under row 10 from the share at least to 1.
+    stacks that make the word have a step no safer than the word. Row 5 and limits are of the word, not of the share.
+    Under row 7 the share is empty, and its interval reaches from the members that fall to those that fall or failed;
+    under row 10 from the share at least to 1.
     """
-    risk = facts.risk
-    followed = facts.followed
-    governing = facts.governing
-    unsettled = facts.doubts if facts.stacks is None else ()
-    missing = (Remark(AssessmentKind.COMPONENT_MISSING),) if facts.failures else ()
-    worse_other = _worse_than_known(facts)
-    doubts = (*unsettled, *missing, *([Remark(AssessmentKind.OTHER_CRACK_WORSE)] if worse_other else []))
-    sliding = _slides_throughout(facts)
-    none_left = sliding and not facts.rests
-    left_out = () if none_left or math.isnan(facts.slides_at) else (Remark(AssessmentKind.SLIDES_FIRST),)
-    asks_for_stacks = facts.stackable and facts.stacks is None
-    contact_dynamics = (Remark(AssessmentKind.CONTACT_DYNAMICS),) if asks_for_stacks else ()
-    if unsettled and not facts.stackable:
-        doubts = (*doubts, Remark(AssessmentKind.NO_STACK))
-    would_settle: tuple[Remark, ...]
+    evidence = list(limits)
+    several = sorted(
+        [*evidence, *([_MISSING] if facts.failures else [])], key=lambda limit: _PLACES[limit.doubt.kind]
+    )
+    acting = [
+        limit for limit in several if facts.runs < limit.lifted_by and (limit.at_rest or not facts.rests)
+    ]
+    untold = [limit for limit in acting if limit.is_untold]
+    limiting = [limit for limit in acting if not limit.is_untold]
+    alone, ends = _of_mechanisms(facts, is_limited=any(limit.at_rest for limit in evidence))
+    doubts = [*alone.doubts, *(limit.doubt for limit in untold)]
+    if any(limit.by_contacts for limit in untold) and not facts.stackable:
+        doubts.append(Remark(AssessmentKind.NO_STACK))
+    if ends:
+        return replace(alone, doubts=_in_order(doubts))
 
-    # 1, 2, 3: what follows without any member.
-    if facts.never_overturns_because and not facts.doubts and not facts.anchors_slide:
-        would_settle = (Remark(AssessmentKind.TIE_STRENGTH),)
-        return Decision(
-            Verdict.CANNOT_OVERTURN,
-            0.0,
-            (0.0, 0.0),
-            facts.never_overturns_because,
-            (*doubts, *left_out),
-            would_settle,
-        )
-    # What swings on ties that give may fall though its mechanism, which takes them as rigid, rests: rows 8b and 9.
-    if facts.rests and facts.beyond is not AssessmentKind.TIES_GIVE:
-        why = "the ground never reaches the uplift acceleration"
-        if facts.anchors_slide:
-            doubts = (*doubts, Remark(AssessmentKind.ANCHOR_GIVES))
-        word = Verdict.PROBABLY_STANDS if facts.anchors_slide else Verdict.STANDS
-        would_settle = (Remark(AssessmentKind.ANCHORS),) if facts.anchors_slide else ()
-        return Decision(word, 0.0, (0.0, 0.0), why, (*doubts, *left_out), would_settle)
-    if sliding and not (facts.as_stones and facts.stacks):
-        would_settle = (Remark(AssessmentKind.FRICTION), *(contact_dynamics if facts.as_stones else ()))
-        return Decision(Verdict.CANNOT_BE_TOLD, math.nan, (math.nan, math.nan), sliding, doubts, would_settle)
-
-    # 4
-    if governing is None and math.isnan(facts.run_ratio):
-        why = "; ".join(facts.failures) or "no component gave a result"
-        would_settle = (Remark(AssessmentKind.INPUT),)
-        return Decision(Verdict.CANNOT_BE_TOLD, math.nan, (math.nan, math.nan), why, doubts, would_settle)
-
-    if governing is None:
-        # 5: one run, whose scatter nobody knows.
-        word = Verdict.PROBABLY_STANDS if facts.run_ratio <= FAR else Verdict.UNCERTAIN
-        why = "one run as recorded, without an ensemble"
-        would_settle = (Remark(AssessmentKind.ENSEMBLE),)
-        share = float(facts.run_ratio == math.inf)
-        interval = share, share
-    else:
-        # 6: the worst crack; statics' own keeps a word in it.
-        word = _envelope((crack, crack.step(risk)) for crack in followed)
-        would_settle = facts.remarks
-        # Not that of the worst step: by their error fewer members may have the worse word and the smaller share.
-        share = max(crack.share for crack in followed)
-        why = _counted(facts, worse_other)
-        if left_out:
-            why = f"{why}; another crack slides first, at {facts.slides_at:.2g} g"
-        if facts.top is not None:
-            why = f"{why}; {facts.top.brief}"
-            would_settle = (*would_settle, Remark(AssessmentKind.TIE_THE_TOP))
-        of_part = [crack for crack in followed if crack.part == governing.part]
-        first = next((crack for crack in of_part if not crack.bulges), governing)
-        disagree = not governing.bulges and governing.step(risk) is not first.step(risk)
-        ends = {governing, first} if disagree else {governing}
-        interval = min(crack.falls / crack.members for crack in ends), share
-        # 7: failed members count as falling, but alone they make nothing fall.
-        falls_without = _envelope((crack, crack.step_of_followed(risk)) for crack in followed)
-        open_ = word.badness >= Verdict.PROBABLY_OVERTURNS.badness or not all(
-            crack.followed for crack in followed
-        )
-        if open_ and falls_without.badness < Verdict.PROBABLY_OVERTURNS.badness:
-            word = Verdict.CANNOT_BE_TOLD
-            would_settle = (Remark(AssessmentKind.TOLERANCE),)
-        if any(crack.failed for crack in followed):
-            doubts = (*doubts, Remark(AssessmentKind.MEMBERS_FAILED))
-
-    if sliding:
-        why = f"{sliding}; {why}"
+    why = alone.why
+    share = alone.share
+    interval = alone.interval
     if facts.stacks is not None:
         fallen, runs = facts.stacks
         followed_as = f"runs {facts.as_stones}" if facts.as_stones else "stacks of courses"
         why = f"{why}; {fallen} of {runs} {followed_as} fall in contact dynamics"
         share = max(share, fallen / runs)
         interval = interval[0], share
-
+    if alone.word is Verdict.OVERTURNS:
+        return Decision(alone.word, share, interval, why, _in_order(doubts))
     # 8
-    if word is Verdict.OVERTURNS:
-        return Decision(word, share, interval, why, doubts)
-    # 8b, 9: what bounds the step of the mechanism.
-    limits = [Remark(facts.beyond)] if facts.held and facts.beyond else []
-    slides = not math.isnan(facts.friction_needed)
-    if slides:
-        limits.append(Remark(AssessmentKind.FRICTION_SHORT))
-    if facts.needs_stones and facts.stacks is None:
-        limits.append(Remark(AssessmentKind.STONES_TELL))
-    if limits and (facts.stacks is None or facts.stacks[1] < UNANIMOUS):
-        word = worse(word, Verdict.PROBABLY_STANDS)
-        doubts = (*doubts, *limits)
-        would_settle = (
-            *would_settle,
-            *contact_dynamics,
-            *([Remark(AssessmentKind.FRICTION)] if slides else []),
-        )
-    if facts.anchors_slide:
-        word = worse(word, Verdict.PROBABLY_STANDS)
-        doubts = (*doubts, Remark(AssessmentKind.ANCHOR_GIVES))
-        would_settle = (*would_settle, Remark(AssessmentKind.ANCHORS))
+    word = worse(alone.word, *(limit.at_best for limit in limiting))
+    doubts += [limit.doubt for limit in limiting]
+    would_settle = (*alone.would_settle, *_settling(facts, limiting))
+    # 9
     if facts.stacks is not None:
-        of_stacks = step(falls=fallen, members=runs, risk=risk)
+        of_stacks = step(falls=fallen, members=runs, risk=facts.risk)
         if of_stacks.badness > word.badness and runs < UNANIMOUS and not fallen:
-            would_settle = (
-                *would_settle,
-                Remark(AssessmentKind.CONTACT_DYNAMICS),
-            )  # more runs of which none falls would say more
+            # More runs of which none falls would say more.
+            would_settle = (*would_settle, Remark(AssessmentKind.CONTACT_DYNAMICS))
         if of_stacks is not word:
             interval = min(interval[0], fallen / runs), interval[1]
         word = worse(word, of_stacks)
-    if word.badness < Verdict.PROBABLY_OVERTURNS.badness:
-        doubts = (*doubts, *left_out)
     # 10: a mechanism that stands says nothing of what it does not follow.
-    if (unsettled or missing) and word.badness < Verdict.PROBABLY_OVERTURNS.badness:
-        reasons = [*map(str, unsettled), *facts.failures]
-        would_settle = contact_dynamics if unsettled else ()
-        would_settle += (Remark(AssessmentKind.COMPONENT),) if missing else ()
-        at_least = interval[0], 1.0
-        return Decision(
-            Verdict.CANNOT_BE_TOLD, math.nan, at_least, "; ".join([*reasons, why]), doubts, would_settle
-        )
-    # 11
-    printed = math.nan if word is Verdict.CANNOT_BE_TOLD else share
-    return Decision(word, printed, interval, why, doubts, would_settle)
-
-
-def _slides_throughout(facts: Facts) -> str:
-    """Where every crack that counts slides before it lifts, and the motion reaches so far, in words; else ""."""
-    if math.isnan(facts.slides_at) or not all(crack.slides for crack in facts.counting):
-        return ""
-    return (
-        f"slides before it lifts, at {facts.slides_at:.2g} g" if facts.slides_at else "slides apart at rest"
+    if word.badness < Verdict.PROBABLY_OVERTURNS.badness:
+        doubts += _left_out(facts)
+        if untold:
+            word = Verdict.CANNOT_BE_TOLD
+            interval = interval[0], 1.0
+            not_followed = [str(limit.doubt) for limit in untold if limit is not _MISSING]
+            why = "; ".join([*not_followed, *facts.failures, why])
+            would_settle = _settling(facts, untold)
+    by_mechanisms = worse(alone.word, Verdict.PROBABLY_STANDS)
+    if facts.failures or facts.slides_throughout:
+        by_mechanisms = worse(by_mechanisms, Verdict.CANNOT_BE_TOLD)
+    return Decision(
+        word,
+        math.nan if word is Verdict.CANNOT_BE_TOLD else share,
+        interval,
+        why,
+        _in_order(doubts),
+        would_settle,
+        by_stacks_alone=facts.stacks is not None and word.badness > by_mechanisms.badness,
     )
+
+
+def _settling(facts: Facts, limits: Sequence[Limit]) -> tuple[Remark, ...]:
+    """What would tell more of what limits a word: first contact dynamics, where it can follow it and has not."""
+    asked = facts.stackable and facts.stacks is None and any(limit.by_contacts for limit in limits)
+    contact_dynamics = [Remark(AssessmentKind.CONTACT_DYNAMICS)] if asked else []
+    return (*contact_dynamics, *(remark for limit in limits for remark in limit.settles))
+
+
+def _in_order(doubts: Iterable[Remark]) -> tuple[Remark, ...]:
+    """The doubts in the order in which their kinds are declared."""
+    return tuple(sorted(doubts, key=lambda doubt: _PLACES[doubt.kind]))
+
+
+def _left_out(facts: Facts) -> tuple[Remark, ...]:
+    """That a crack that slides first was left out."""
+    none_left = facts.slides_throughout and not facts.rests
+    return () if none_left or math.isnan(facts.slides_at) else (Remark(AssessmentKind.SLIDES_FIRST),)
+
+
+def _of_mechanisms(facts: Facts, *, is_limited: bool) -> tuple[Decision, bool]:
+    """Rows 1 to 7: the decision on the mechanisms, and whether nothing can make it worse.
+
+    is_limited: whether anything acts against what cannot overturn.
+    """
+    worse_other = _worse_than_known(facts)
+    doubts = (Remark(AssessmentKind.OTHER_CRACK_WORSE),) if worse_other else ()
+    unknown = math.nan, math.nan
+    would_settle: tuple[Remark, ...]
+    # 1, 2, 3: what follows without any member.
+    if facts.never_overturns_because and not is_limited:
+        why = facts.never_overturns_because
+        would_settle = (Remark(AssessmentKind.TIE_STRENGTH),)
+        doubts = (*doubts, *_left_out(facts))
+        return Decision(Verdict.CANNOT_OVERTURN, 0.0, (0.0, 0.0), why, doubts, would_settle), True
+    if facts.rests:
+        why = "the ground never reaches the uplift acceleration"
+        return Decision(Verdict.STANDS, 0.0, (0.0, 0.0), why, doubts), False
+    sliding = ""
+    if facts.slides_throughout:
+        at = f"slides before it lifts, at {facts.slides_at:.2g} g"
+        sliding = at if facts.slides_at else "slides apart at rest"
+    if sliding and not (facts.as_stones and facts.stacks):
+        by_stones = facts.as_stones and facts.stackable and facts.stacks is None
+        would_settle = (Remark(AssessmentKind.FRICTION),)
+        would_settle += (Remark(AssessmentKind.CONTACT_DYNAMICS),) if by_stones else ()
+        return Decision(Verdict.CANNOT_BE_TOLD, math.nan, unknown, sliding, doubts, would_settle), True
+    if facts.governing is not None:
+        of_members = _of_members(facts, facts.governing, worse_other)
+        why = f"{sliding}; {of_members.why}" if sliding else of_members.why
+        return replace(of_members, why=why, doubts=(*doubts, *of_members.doubts)), False
+    if math.isnan(facts.run_ratio):  # 4
+        why = "; ".join(facts.failures) or "no component gave a result"
+        would_settle = (Remark(AssessmentKind.INPUT),)
+        return Decision(Verdict.CANNOT_BE_TOLD, math.nan, unknown, why, doubts, would_settle), True
+    # 5: one run, whose scatter nobody knows.
+    word = Verdict.PROBABLY_STANDS if facts.run_ratio <= FAR else Verdict.UNCERTAIN
+    share = float(facts.run_ratio == math.inf)
+    why = "one run as recorded, without an ensemble"
+    would_settle = (Remark(AssessmentKind.ENSEMBLE),)
+    return Decision(
+        word, share, (share, share), f"{sliding}; {why}" if sliding else why, doubts, would_settle
+    ), False
+
+
+def _of_members(facts: Facts, governing: CrackFacts, worse_other: CrackFacts | None) -> Decision:
+    """Rows 6 and 7: the worst crack; statics' own keeps a word in it."""
+    followed = facts.followed
+    word = _envelope((crack, crack.step(facts.risk)) for crack in followed)
+    would_settle = facts.remarks
+    # Not that of the worst step: by their error fewer members may have the worse word and the smaller share.
+    share = max(crack.share for crack in followed)
+    why = _counted(facts, worse_other)
+    if _left_out(facts):
+        why = f"{why}; another crack slides first, at {facts.slides_at:.2g} g"
+    if facts.top is not None:
+        why = f"{why}; {facts.top.brief}"
+        would_settle = (*would_settle, Remark(AssessmentKind.TIE_THE_TOP))
+    of_part = [crack for crack in followed if crack.part == governing.part]
+    first = next((crack for crack in of_part if not crack.bulges), governing)
+    disagree = not governing.bulges and governing.step(facts.risk) is not first.step(facts.risk)
+    ends = {governing, first} if disagree else {governing}
+    interval = min(crack.falls / crack.members for crack in ends), share
+    # 7: failed members count as falling, but alone they make nothing fall.
+    falls_without = _envelope((crack, crack.step_of_followed(facts.risk)) for crack in followed)
+    open_ = word.badness >= Verdict.PROBABLY_OVERTURNS.badness or not all(
+        crack.followed for crack in followed
+    )
+    if open_ and falls_without.badness < Verdict.PROBABLY_OVERTURNS.badness:
+        word = Verdict.CANNOT_BE_TOLD
+        would_settle = (Remark(AssessmentKind.TOLERANCE),)
+    failed = (Remark(AssessmentKind.MEMBERS_FAILED),) if any(crack.failed for crack in followed) else ()
+    return Decision(word, share, interval, why, failed, would_settle)
 
 
 def _envelope(words: Iterable[tuple[CrackFacts, Verdict]]) -> Verdict:

@@ -16,22 +16,22 @@ class AssessmentKind(Kind):
     COURSES_THROWN = auto(), "courses above a rocking body may be thrown", "courses may be thrown"
     NOT_FOLLOWED = auto(), "the mechanism of least λ cannot be followed", "weakest not followed"
 
-    # What else makes a decision doubtful.
+    # What else makes a decision doubtful: in the order in which a decision lists its doubts.
     COMPONENT_MISSING = auto(), "a component gave no result"
     OTHER_CRACK_WORSE = auto(), "a crack other than the known one is worse", "another crack is worse"
-    MEMBERS_FAILED = auto(), "members could not be followed", "some members failed"
-    SLIDES_FIRST = auto(), "a crack that slides before it lifts is left out", "a crack slides first"
     NO_STACK = auto(), """contact dynamics cannot follow it, because it is neither a stack of courses nor a
         chain of stones""", "no stack or stones"
-    STONES_TELL = auto(), """an arch on piers may fall as voussoirs where its mechanism
-        stands""", "not followed as voussoirs"
+    MEMBERS_FAILED = auto(), "members could not be followed", "some members failed"
     HELD_BEYOND = auto(), """a held wall rotates so far that its mechanism may predict too
         little""", "rotates far"
     TIES_GIVE = auto(), """its ties stretch, and under the motion that they transmit the wall between them
         rotates far""", "its ties give"
     FRICTION_SHORT = auto(), "a contact needs more friction than it has while it rocks", "a contact slides"
+    STONES_TELL = auto(), """an arch on piers may fall as voussoirs where its mechanism
+        stands""", "not followed as voussoirs"
     ANCHOR_GIVES = auto(), """the course that the anchor of a tie grips slides out before the wall moves as it
         is followed""", "an anchor slides out"
+    SLIDES_FIRST = auto(), "a crack that slides before it lifts is left out", "a crack slides first"
 
     # What would tell more of a decision.
     TIE_STRENGTH = auto(), "give the strength at which its ties fail", "give the ties' strength"

@@ -12,20 +12,15 @@ from functools import lru_cache, partial
 from time import process_time
 
 from rocking.assessment.case import CaseResult, Failure, Prediction, Variation
-from rocking.assessment.contacts import MOST_RUNS, RUNS, contact_share, doubt, friction_needed, ties_give
 from rocking.assessment.cracks import (
-    anchors_slide,
     counting_cracks,
-    cracked,
     cracks,
     ensemble_over_cracks,
     is_own,
-    slides_at,
-    sliding_first,
 )
-from rocking.assessment.decide import Verdict, decide
+from rocking.assessment.evidence import gathered
+from rocking.assessment.evidence.asked import Asked
 from rocking.assessment.inputs import CaseInputs, PairInputs, PulseInputs, ReserveInputs
-from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.ladder import reserve
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
 from rocking.assessment.motions import (
@@ -49,7 +44,6 @@ from rocking.pulses import Pulse, PulseEvidence, predicting_pulse
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_as_printed, predict_maximum
 from rocking.structures import Mechanism, Outcome, Structure
-from rocking.structures.leaves import parts_of
 from rocking.structures.structure import Candidate
 
 
@@ -132,7 +126,7 @@ def _under_component(inputs: CaseInputs, clock: Clock) -> CaseResult:
         motions = ground_motions(inputs.motion, settings.ensemble.processing)
         if settings.ensemble.members and not at_rest:
             case = replace(case, ensembles=ensemble_over_cracks(structure, motions, settings))
-        return with_contacts(case, structure, motions, settings, check.bounces)
+        return gathered(Asked(case, structure, motions, settings, check.bounces))
     except RockingError as error:
         return CaseResult(component=record.component, failures=(Failure("responses", str(error)),))
 
@@ -155,80 +149,9 @@ def _over_directions(inputs: CaseInputs) -> CaseResult:
     motions = ground_motions(inputs.motion, settings.ensemble.processing)
     try:
         case = replace(case, ensembles=ensemble_over_cracks(inputs.structure, motions, settings))
-        return with_contacts(case, inputs.structure, motions, settings, inputs.bounces)
+        return gathered(Asked(case, inputs.structure, motions, settings, inputs.bounces))
     except RockingError as error:
         return replace(case, failures=(Failure("directions", str(error)),))
-
-
-def with_contacts(
-    case: CaseResult,
-    structure: Structure,
-    motions: GroundMotions,
-    settings: AssessmentSettings,
-    bounces: bool | None,
-) -> CaseResult:
-    """Return the case with what its joints do: whether they slide, a doubt, and contact dynamics where it is needed.
-
-    Doubts are looked for with every word below "probably overturns"; of what stands whether its ties hold it still
-    enough; and of what (probably) stands whether its contacts have the friction that they need. Contact dynamics runs,
-    except with fidelity: quick, where nothing else decides, and where contacts have less; with fidelity: contact by
-    MOST_RUNS runs, and also where a held wall turns so far that it only probably stands. What is a chain of stones is
-    followed where `_asks_for_stones` says so, and these then say what its contacts do. bounces: whether a contact opens
-    in a run as recorded; None where that is not known.
-    """
-    runs = MOST_RUNS if settings.fidelity == "contact" else RUNS
-    counting = counting_cracks(structure)
-    sliding = sliding_first(cracks(structure), motions)
-    slides = all(candidate in sliding for candidate in counting)
-    if slides:
-        case = replace(case, slides_at=slides_at(counting[0]))
-    elif decide(case.facts(structure)).word.badness < Verdict.PROBABLY_OVERTURNS.badness:
-        ratios = {name: case.largest_of_part(name) for name, _ in parts_of(structure)}
-        reason = doubt(structure, motions, ratios.pop(""), settings, bounces, ratios)
-        case = replace(case, doubt=reason)
-    if _asks_for_stones(case, structure, settings):
-        case = replace(case, contact=contact_share(structure, motions, settings, runs))
-    if slides or (case.contact is not None and case.contact.runs):
-        return case
-    if decide(case.facts(structure)).word.stays_up:
-        case = replace(case, anchors_slide=anchors_slide(structure, motions))
-    if decide(case.facts(structure)).word is Verdict.STANDS:
-        case = replace(case, ties_give=ties_give(structure, motions, settings))
-    exempt = structure.joints.friction >= structure.stands_on_friction
-    if not exempt and decide(case.facts(structure)).word in (Verdict.STANDS, Verdict.PROBABLY_STANDS):
-        lifting = next(candidate for candidate in counting if candidate not in sliding)
-        governing = [case.ensembles.governing.description] if case.ensembles else []
-        bodies = [cracked(structure, name) for name in dict.fromkeys([lifting.description, *governing])]
-        case = replace(case, friction_needed=friction_needed(bodies, motions, settings))
-    decision = decide(case.facts(structure))
-    advised = any(remark.kind is AssessmentKind.CONTACT_DYNAMICS for remark in decision.would_settle)
-    asking = {
-        "quick": (),
-        "standard": (Verdict.CANNOT_BE_TOLD,),
-        "contact": (Verdict.CANNOT_BE_TOLD, Verdict.PROBABLY_STANDS),
-    }
-    lacks_friction = settings.fidelity != "quick" and not math.isnan(case.friction_needed)
-    if not advised or not (lacks_friction or decision.word in asking[settings.fidelity]):
-        return case
-    contact = contact_share(structure, motions, settings, runs)
-    if structure.as_stones and contact.runs:
-        case = replace(case, friction_needed=math.nan)  # these stand or slide on what they have
-    return replace(case, contact=contact)
-
-
-def _asks_for_stones(case: CaseResult, structure: Structure, settings: AssessmentSettings) -> bool:
-    """Whether a case is followed as stones, than which its mechanism may be better off or worse.
-
-    Never with fidelity: quick, nor what rests or overturns by its mechanism; with fidelity: contact always else, and
-    otherwise where the mechanism does not stand, or only stones may say that it does.
-    """
-    if settings.fidelity == "quick" or not structure.as_stones:
-        return False
-    facts = case.facts(structure)
-    word = decide(facts).word
-    if facts.rests or word in (Verdict.OVERTURNS, Verdict.CANNOT_OVERTURN):
-        return False
-    return settings.fidelity == "contact" or structure.needs_stones or word is not Verdict.STANDS
 
 
 def _integrated(mechanism: Mechanism, inputs: CaseInputs, clock: Clock) -> dict[Method, Response]:

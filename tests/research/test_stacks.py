@@ -18,7 +18,7 @@ from docs.research.stacks import (
     stack_scores,
     words_of,
 )
-from rocking.assessment.decide import CrackFacts, Facts, Verdict
+from rocking.assessment.decide import CrackFacts, Facts, Limit, Verdict
 from rocking.assessment.kinds import AssessmentKind
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
@@ -34,8 +34,8 @@ def test_a_member_stays_whole_below_uplift_and_falls_far_above_it(kind):
     case = DRAWN[kind](np.random.default_rng(1))
     least = case.multiplier * GRAVITY / SINE.peak_acceleration
     below, above = SINE.scaled(0.9 * least), SINE.scaled(15 * least)
-    assert words_of(case.facts(below))[-1] is Verdict.STANDS
-    assert words_of(case.facts(above))[-1] is Verdict.OVERTURNS
+    assert words_of(*case.facts(below))[-1] is Verdict.STANDS
+    assert words_of(*case.facts(above))[-1] is Verdict.OVERTURNS
     for courses in (6, 10):
         assert case.stack(courses).friction <= 0.6
         assert not stacks.follow_stack(case.stack(courses), below, 5e-4).falls
@@ -44,16 +44,16 @@ def test_a_member_stays_whole_below_uplift_and_falls_far_above_it(kind):
 
 def test_contact_dynamics_decides_what_a_doubt_leaves_open():
     stands = Facts(cracks=(CrackFacts("", 0, 64, farthest=0.5),))
-    doubted = replace(stands, doubts=(Remark(AssessmentKind.CONTACTS_OPEN),))
+    doubted = [Limit.untold(Remark(AssessmentKind.CONTACTS_OPEN))]
     untold = Verdict.CANNOT_BE_TOLD
-    assert words_of(replace(doubted, stacks=(0, 64))) == (Verdict.STANDS, untold, Verdict.STANDS)
-    assert words_of(replace(doubted, stacks=(0, 6)))[-1] is Verdict.PROBABLY_STANDS
-    assert words_of(replace(doubted, stacks=(1, 6)))[-1] is Verdict.UNCERTAIN
-    assert words_of(doubted)[-1] is untold
+    assert words_of(replace(stands, stacks=(0, 64)), doubted) == (Verdict.STANDS, untold, Verdict.STANDS)
+    assert words_of(replace(stands, stacks=(0, 6)), doubted)[-1] is Verdict.PROBABLY_STANDS
+    assert words_of(replace(stands, stacks=(1, 6)), doubted)[-1] is Verdict.UNCERTAIN
+    assert words_of(stands, doubted)[-1] is untold
     assert set(words_of(stands)) == {Verdict.STANDS}
-    short = replace(stands, friction_needed=0.8)
-    assert words_of(short) == (Verdict.STANDS, Verdict.PROBABLY_STANDS, Verdict.PROBABLY_STANDS)
-    assert words_of(replace(short, stacks=(0, 64)))[-1] is Verdict.STANDS
+    short = [Limit(doubt=Remark(AssessmentKind.FRICTION_SHORT))]
+    assert words_of(stands, short) == (Verdict.STANDS, Verdict.PROBABLY_STANDS, Verdict.PROBABLY_STANDS)
+    assert words_of(replace(stands, stacks=(0, 64)), short)[-1] is Verdict.STANDS
 
 
 def test_a_trial_is_the_same_at_every_call():

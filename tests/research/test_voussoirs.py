@@ -70,7 +70,7 @@ def test_true_stones_are_not_those_that_the_package_follows(kind):
     """Of the same mass; another number of an arch that states none, and finer steps than the package takes of all."""
     structure = drawn(kind, np.random.default_rng(1))
     own = structure.stones()
-    runs = list(true_stones(structure, 0.6))
+    runs = list(true_stones(structure))
     assert len({step for _, step, _ in runs}) == 3 and max(step for _, step, _ in runs) < 5e-4
     states = kind == "frame of two columns" or structure.voussoirs is not None
     for stones, _, _ in runs:

@@ -23,7 +23,7 @@ def test_its_members_are_those_of_its_structure():
     np.testing.assert_array_equal(alone.rotation_ratios, of_structure.rotation_ratios)
     assert 0 < alone.rotation_ratio == of_structure.rotation_ratio
     (case,) = alone.cases.values()
-    assert case.check.bounces is None and case.doubt is None
+    assert case.check.bounces is None and not case.limits
     (case,) = of_structure.cases.values()
     assert case.check.bounces is False
 

@@ -8,6 +8,7 @@ import pytest
 
 from rocking.assessment.case import Variation
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
+from rocking.assessment.decide import Limit
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.motions import Motion
 from rocking.records import Accelerogram
@@ -50,7 +51,9 @@ def test_the_ensemble_over_all_directions_decides_before_those_of_the_components
 @pytest.mark.parametrize("order", [1, -1])
 def test_of_components_that_are_no_pair_the_worse_word_counts_in_either_order(order):
     """A component whose word is worse may have the smaller share: what it does not follow adds to it."""
-    doubtful = replace(case("EW", 0.3, falls=10), doubt=Remark(AssessmentKind.CONTACTS_OPEN))
+    doubtful = replace(
+        case("EW", 0.3, falls=10), limits=(Limit.untold(Remark(AssessmentKind.CONTACTS_OPEN)),)
+    )
     result = station(*[doubtful, case("NS", 0.3, falls=30)][::order])
     assert (result.verdict, result.component) == ("cannot be told", "EW")
     assert result.decision.interval == (10 / 64, 1.0)

@@ -13,12 +13,11 @@ from rocking.assessment.contacts import (
     RUNS,
     ContactShare,
     contact_share,
-    doubt,
     expected_seconds,
-    friction_needed,
     stackable,
 )
 from rocking.assessment.decide import Decision, decide, step
+from rocking.assessment.evidence.bodies import friction_needed, why_open
 from rocking.assessment.inputs import CaseInputs
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.motions import GroundMotions, Motion, ground_motions
@@ -28,13 +27,13 @@ from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.contacts.dynamics import SECONDS_A_STEP, STEP, follow_stack
 from rocking.errors import MotionError, StructureError
 from rocking.quantities import GRAVITY
-from rocking.remarks import Remark
 from rocking.structures.joints import Joints
 from rocking.structures.stack import COURSES
 from rocking.structures.structure import Candidate
 from rocking.structures.unknown_geometry import as_structure
 
 CONTACT = AssessmentSettings(fidelity="contact")
+DEFAULT = AssessmentSettings()
 SPIRE = Spire(width=3.0, height=15.0, wall_thickness=0.25)
 # Three walls that stand as mechanisms, and whose two blocks fall under their slab in LMGC90 too: size, hinge, thickness
 # [m], load [N/m], record, samples that are kept, factor.
@@ -63,7 +62,7 @@ FALLING_WALLS = {
 def without_stacks(assessment) -> Decision:
     """The decision on the same facts had contact dynamics not been asked."""
     (case,) = assessment.cases.values()
-    return decide(replace(case.facts(assessment.body), stacks=None, stackable=True))
+    return decide(replace(case.facts(assessment.body), stacks=None, stackable=True), case.limits)
 
 
 def sine(amplitude: float, period: float = 0.6) -> Accelerogram:
@@ -90,7 +89,7 @@ def test_walls_whose_contacts_open_and_whose_blocks_fall_do_not_stand(name, real
     assert followed.stacks.falls > followed.stacks.runs / 2
     assert followed.stacks.runs <= RUNS
     assert f"{followed.stacks.falls} of {followed.stacks.runs} stacks of courses fall" in followed.why
-    assert followed.falls_in_stacks_alone
+    assert followed.decision.by_stacks_alone
     assert followed.with_reserve(Reserve(low=1.8, median=2.2, high=2.6, limit=3.0)).reserve is None, (
         "it is none of what falls"
     )
@@ -111,11 +110,11 @@ def test_a_spire_that_lifts_never_stands_by_its_mechanisms_alone():
 @pytest.mark.parametrize("falls", [False, True])
 def test_what_falls_as_a_stack_alone_has_no_reserve_by_its_mechanisms(monkeypatch, falls):
     monkeypatch.setattr(
-        "rocking.assessment.one_case.contact_share",
+        "rocking.assessment.evidence.asked.contact_share",
         lambda *arguments: ContactShare(falls=falls * arguments[-1], runs=arguments[-1]),
     )
     told = rocking.assess(sine(1.3 * SPIRE.static_multiplier * GRAVITY, 0.1), SPIRE)
-    assert told.falls_in_stacks_alone is falls
+    assert told.decision.by_stacks_alone is falls
     reserve = told.with_reserve(Reserve(low=1.8, median=2.2, high=2.6, limit=3.0)).reserve
     assert (reserve is None) is falls
 
@@ -144,7 +143,7 @@ def test_contact_dynamics_is_asked_where_it_cannot_be_told_and_of_a_held_wall_th
     """
     without_reserve = EnsembleSettings(reserve=0)
     monkeypatch.setattr(
-        "rocking.assessment.one_case.contact_share",
+        "rocking.assessment.evidence.asked.contact_share",
         lambda *arguments: ContactShare(falls=0, runs=arguments[-1]),
     )
     wall = rocking.Facade(
@@ -196,14 +195,14 @@ def test_without_an_ensemble_the_single_run_is_doubted_too():
     settings = AssessmentSettings(ensemble=EnsembleSettings(members=0))
     motion = sine(1.3 * SPIRE.static_multiplier * GRAVITY, 0.1)
     case = compute_case(CaseInputs(motion=Motion((motion,)), structure=SPIRE, settings=settings))
-    assert case.doubt == Remark(AssessmentKind.COURSES_THROWN)
+    assert [limit.doubt.kind for limit in case.limits] == [AssessmentKind.COURSES_THROWN]
 
 
 def test_what_keeps_its_contacts_or_rests_is_not_doubted():
     motions = GroundMotions.of(sine(1.5, 0.3))
-    assert doubt(Block.of_size(0.8, 4.0), motions, 0.1) is None
-    assert doubt(Wall(1.6, 1.6, 0.25), motions, 0.0) is None
-    assert doubt(as_structure(Block.of_size(0.8, 4.0).mechanism()), motions, 0.1) is None
+    assert why_open(Block.of_size(0.8, 4.0), motions, 0.1, DEFAULT) is None
+    assert why_open(Wall(1.6, 1.6, 0.25), motions, 0.0, DEFAULT) is None
+    assert why_open(as_structure(Block.of_size(0.8, 4.0).mechanism()), motions, 0.1, DEFAULT) is None
 
 
 def test_only_what_contact_dynamics_can_follow_is_advised_to_it():
@@ -358,9 +357,8 @@ def test_an_impact_that_keeps_little_by_balance_is_doubted_and_a_typed_one_is_no
             height, hinge, thickness, 20e3, top_load=share * nothing_kept, top_slab="flat", crack="known"
         )
         kept = wall.mechanism().restitution
-        remark = doubt(wall, motions, 0.05)
-        kinds[kept < 0.3] = remark and remark.kind
-        assert doubt(replace(wall, restitution=kept), motions, 0.05) is None
+        kinds[kept < 0.3] = why_open(wall, motions, 0.05, DEFAULT)
+        assert why_open(replace(wall, restitution=kept), motions, 0.05, DEFAULT) is None
     assert kinds == {False: None, True: AssessmentKind.IMPACT_OPENS}
 
 
@@ -370,9 +368,9 @@ def test_what_cannot_be_followed_may_open(monkeypatch):
 
     motions = GroundMotions.of(sine(1.5, 0.3))
     wall = Wall(1.6, 1.6, 0.25)
-    assert doubt(wall, motions, 0.05) is None
-    monkeypatch.setattr("rocking.assessment.contacts.integrate", lost)
-    assert doubt(wall, motions, 0.05) == Remark(AssessmentKind.CONTACTS_OPEN)
+    assert why_open(wall, motions, 0.05, DEFAULT) is None
+    monkeypatch.setattr("rocking.assessment.evidence.bodies.integrate", lost)
+    assert why_open(wall, motions, 0.05, DEFAULT) is AssessmentKind.CONTACTS_OPEN
 
 
 def test_a_mechanism_that_cannot_be_followed_is_doubted_alone_once_the_motion_reaches_it(monkeypatch):
@@ -395,16 +393,16 @@ def test_a_mechanism_that_cannot_be_followed_is_doubted_alone_once_the_motion_re
     wall = replace(wall)  # nothing that it kept
     assert wall.candidates()
     assert all(candidate.description != weakest.description for candidate in wall.candidates())
-    unfollowed = Remark(AssessmentKind.NOT_FOLLOWED)
-    for share, expected in ((0.9, None), (0.97, unfollowed), (1.2, unfollowed)):
+    unfollowed = [AssessmentKind.NOT_FOLLOWED]
+    for share, expected in ((0.9, []), (0.97, unfollowed), (1.2, unfollowed)):
         motion = sine(share * weakest.uplift_multiplier * GRAVITY)
         case = compute_case(
             CaseInputs(motion=Motion((motion,)), structure=wall, settings=AssessmentSettings())
         )
-        assert case.doubt == expected
-        assert (case.contact is not None) == (expected is not None)  # its stack may fall in any mechanism
-        word = decide(replace(case.facts(wall), stacks=None)).word
-        assert (word is Verdict.CANNOT_BE_TOLD) == (expected is not None)
+        assert [limit.doubt.kind for limit in case.limits if limit.is_untold] == expected
+        assert (case.contact is not None) == bool(expected)  # its stack may fall in any mechanism
+        word = decide(replace(case.facts(wall), stacks=None), case.limits).word
+        assert (word is Verdict.CANNOT_BE_TOLD) == bool(expected)
 
 
 # Friction -----------------------------------------------------------------------------------------------------
@@ -455,7 +453,7 @@ def test_a_block_whose_corner_needs_more_friction_than_it_has_only_probably_stan
     assert np.isnan(firm.friction_needed)
     quick = AssessmentSettings(fidelity="quick")
     case = compute_case(CaseInputs(motion=Motion((record,)), structure=block, settings=quick))
-    assert decide(case.facts(block)).word is Verdict.PROBABLY_STANDS, "as every path to a word has it"
+    assert case.decision(block).word is Verdict.PROBABLY_STANDS, "as every path to a word has it"
 
 
 @pytest.mark.process
@@ -522,7 +520,7 @@ def test_an_arch_on_piers_stands_by_its_stones_alone():
     quick = AssessmentSettings(fidelity="quick")
     case = compute_case(CaseInputs(motion=Motion((motion,)), structure=piers, settings=quick))
     assert case.contact is None
-    assert decide(case.facts(piers)).word is Verdict.PROBABLY_STANDS
+    assert case.decision(piers).word is Verdict.PROBABLY_STANDS
     rests = sine(0.9 * piers.static_multiplier * GRAVITY, 0.2)
     assert words_of(piers, rests, fidelity="contact") == ("stands", None)
     motion = sine(1.2 * arch.static_multiplier * GRAVITY, 0.2)

@@ -12,6 +12,7 @@ from rocking.assessment.assessor import Assessor
 from rocking.assessment.cracks import cracks, ensemble_over_cracks, slides_at
 from rocking.assessment.decide import Verdict, decide
 from rocking.assessment.ensemble import ensemble
+from rocking.assessment.evidence import walls
 from rocking.assessment.inputs import CaseInputs
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.motions import GroundMotions, Motion, component_of, processed
@@ -69,7 +70,8 @@ def test_the_verdict_and_every_number_are_those_of_all_cracks_followed_one_by_on
             worst = min(worst, Verdict.PROBABLY_OVERTURNS, key=lambda word: word.badness)
         (case,) = assessment.cases.values()
         # Of its members alone: what its contacts need of friction is not asked of cracks one by one.
-        without = decide(replace(case.facts(structure), stacks=None, friction_needed=math.nan))
+        limits = [each for each in case.limits if each.doubt.kind is not AssessmentKind.FRICTION_SHORT]
+        without = decide(replace(case.facts(structure), stacks=None), limits)
         if structure.tapers and worst.badness < Verdict.PROBABLY_OVERTURNS.badness:
             assert without.word is Verdict.CANNOT_BE_TOLD
             assert without.why.startswith("courses above a rocking body may be thrown; ")
@@ -338,7 +340,8 @@ def test_a_held_wall_that_turns_far_only_probably_stands():
     for amplitude in (4.0, 5.0):
         assessed = rocking.assess(record(amplitude, 0.6), front)
         (case,) = assessed.cases.values()
-        decision = decide(replace(case.facts(front), friction_needed=math.nan, stacks=None))
+        limits = [each for each in case.limits if each.doubt.kind is not AssessmentKind.FRICTION_SHORT]
+        decision = decide(replace(case.facts(front), stacks=None), limits)
         farthest = float(np.nanmax(assessed.rotation_ratios))
         if farthest <= 1:
             words[farthest > 0.4] = decision.word, [each.kind for each in decision.doubts]
@@ -371,7 +374,7 @@ def test_a_wall_whose_ties_swing_with_the_motion_only_probably_stands():
         motion = Accelerogram(amplitude * np.sin(2 * np.pi * times / period) * (times < 5), STEP)
         motions = GroundMotions.of(motion)
         assert rocking.integrate(wall.mechanisms()[0].structure, motion).rotation_ratio == 0
-        assert contacts.ties_give(wall, motions, AssessmentSettings()) is ties_give
+        assert walls.ties_give(wall, motions, AssessmentSettings()) is ties_give
 
 
 @pytest.mark.parametrize("share", [0.5, 0.95])

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 import pytest
 
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
-from rocking.assessment.decide import Verdict
+from rocking.assessment.decide import Limit, Verdict
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.rows import VerdictRow, rows_of_record
 from rocking.assessment.scene import load_scenes, placed
@@ -38,15 +38,15 @@ NO_BREAK = "\u00a0"
 SPECTRUM = DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
 
 
-def with_members(station, falls, doubt=None):
-    """The result with ensembles of 64 of each of its cracks, of which so many overturn, and a doubt."""
+def with_members(station, falls, limits=()):
+    """The result with ensembles of 64 of each of its cracks, of which so many overturn, and what limits its word."""
     cracks = tuple(
         FollowedCrack(f"hinge {place}" if len(falls) > 1 else "", math.nan, members(each))
         for place, each in enumerate(falls)
     )
     ensembles = CrackEnsembles(cracks)
     cases = {
-        name: replace(case, ensembles=ensembles, doubt=doubt, reserve=None)
+        name: replace(case, ensembles=ensembles, limits=limits, reserve=None)
         for name, case in station.cases.items()
     }
     return replace(station, cases=cases)
@@ -56,10 +56,10 @@ def with_members(station, falls, doubt=None):
 def report(example) -> RecordReport:
     """The example with as many words as it has structures; one is doubtful, and of one the cracks disagree."""
     made = {
-        "block 4 m": ([64], None),
-        "block 1 m": ([50], None),
-        "wall 3 m": ([0, 63], None),
-        "arch 20 m": ([12], Remark(AssessmentKind.CONTACTS_OPEN)),
+        "block 4 m": ([64], ()),
+        "block 1 m": ([50], ()),
+        "wall 3 m": ([0, 63], ()),
+        "arch 20 m": ([12], (Limit.untold(Remark(AssessmentKind.CONTACTS_OPEN)),)),
     }
     scenes = {
         name: replace(

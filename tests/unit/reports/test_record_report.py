@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rocking.assessment.decide import ORDER
+from rocking.assessment.decide import ORDER, Limit
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.methods import Acts, Agreement
 from rocking.assessment.rows import rows_of_record, structure_rows
@@ -341,7 +341,7 @@ def test_a_reserve_that_may_be_too_high_is_grey(example):
     scene = example.result.scenes[name]
     station = scene.worst
     cases = {
-        each: replace(case, doubt=Remark(AssessmentKind.CONTACTS_OPEN))
+        each: replace(case, limits=(Limit.untold(Remark(AssessmentKind.CONTACTS_OPEN)),))
         for each, case in station.cases.items()
     }
     in_doubt = replace(scene, periods=(replace(station, cases=cases),))

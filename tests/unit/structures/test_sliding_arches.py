@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from rocking import Accelerogram, Arch, ArchOnPiers, Block, Frame, Verdict
-from rocking.assessment.decide import Decision, decide
+from rocking.assessment.decide import Decision
 from rocking.assessment.inputs import CaseInputs
 from rocking.assessment.motions import Motion
 from rocking.assessment.one_case import compute_case
@@ -179,7 +179,7 @@ def test_what_slides_before_it_lifts_cannot_be_told_by_its_mechanism():
         motion = Motion((Accelerogram(peak * GRAVITY * shape, 0.005),))
         settings = AssessmentSettings(fidelity="quick")
         case = compute_case(CaseInputs(motion=motion, structure=arch, settings=settings))
-        return decide(case.facts(arch))
+        return case.decision(arch)
 
     between = 0.9 * SLIDES.static_multiplier
     assert told(between, 0.6).word is told(0.9 * slides_at, 0.4).word is Verdict.STANDS

@@ -1,0 +1,61 @@
+"""Evidence: what speaks against the word of the mechanisms, each kind a row, in the order of looking.
+
+The word of the mechanisms comes first and is asked once. Each kind of evidence then says whether it is due, given the
+word so far, looks, and sets a limit: no safer than this, for this doubt, until so many runs of contact dynamics say
+otherwise. A limit only ever makes a word worse, so that the last word is that of the mechanisms, of every limit and of
+the runs together (`decide`).
+"""
+
+from dataclasses import replace
+from typing import Protocol
+
+from rocking.assessment.case import CaseResult
+from rocking.assessment.contacts import ContactShare
+from rocking.assessment.cracks import slides_at
+from rocking.assessment.decide import Limit, Verdict, decide, worse
+from rocking.assessment.evidence.asked import Asked
+from rocking.assessment.evidence.bodies import ContactsOpen, Friction, Thrown
+from rocking.assessment.evidence.runs import Stacks, Stones, StonesMissing
+from rocking.assessment.evidence.walls import Anchors, Held, NotFollowed, Ties
+
+
+class Evidence(Protocol):
+    """One kind of evidence. Its docstring is its row in docs/pages/limits.md: what it is, a colon, what it says."""
+
+    def due(self, word: Verdict, asked: Asked) -> bool:
+        """Whether it is looked for, given the word so far: it may change that, and is worth what it costs."""
+
+    def look(self, asked: Asked) -> Limit | ContactShare | None:
+        """Return what was found; None where nothing speaks against the word."""
+
+
+EVIDENCE: tuple[Evidence, ...] = (
+    NotFollowed(),
+    Thrown(),
+    ContactsOpen(),
+    Held(),
+    Stones(),
+    StonesMissing(),
+    Anchors(),
+    Ties(),
+    Friction(),
+    Stacks(),
+)
+"""Every kind, in the order of looking: what is cheap or ends the search comes first."""
+
+
+def gathered(asked: Asked) -> CaseResult:
+    """Return the case with what every kind of evidence that was due has found."""
+    case = asked.case
+    if asked.slides_throughout:
+        case = replace(case, slides_at=slides_at(asked.counting[0]))
+    asked.facts = case.facts(asked.structure)
+    word = decide(asked.facts).word
+    for evidence in EVIDENCE:
+        found = evidence.look(asked) if evidence.due(word, asked) else None
+        if isinstance(found, Limit):
+            asked.limits.append(found)
+            word = worse(word, found.at_best)
+        elif found is not None:
+            asked.contact = found
+    return replace(case, limits=tuple(asked.limits), contact=asked.contact)

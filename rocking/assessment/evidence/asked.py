@@ -1,0 +1,64 @@
+"""What is asked of a case: the inputs that every kind of evidence may look at, and what was found so far."""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from rocking.assessment.case import CaseResult
+from rocking.assessment.contacts import MOST_RUNS, RUNS, ContactShare, contact_share
+from rocking.assessment.cracks import counting_cracks, cracks, sliding_first
+from rocking.assessment.decide import Facts, Limit, Verdict
+from rocking.assessment.motions import GroundMotions
+from rocking.assessment.settings import AssessmentSettings
+from rocking.structures import Structure
+from rocking.structures.structure import Candidate
+
+
+@dataclass(eq=False)
+class Asked:
+    """A case whose members were followed, and what evidence has found of it so far.
+
+    bounces: whether a contact opens in a run as recorded; None where that is not known.
+    """
+
+    case: CaseResult
+    structure: Structure
+    motions: GroundMotions
+    settings: AssessmentSettings
+    bounces: bool | None = None
+    facts: Facts = field(default_factory=Facts)
+    limits: list[Limit] = field(default_factory=list)
+    contact: ContactShare | None = None
+
+    @cached_property
+    def counting(self) -> tuple[Candidate, ...]:
+        """The mechanisms that count."""
+        return counting_cracks(self.structure)
+
+    @cached_property
+    def sliding(self) -> list[Candidate]:
+        """Those that slide before they lift."""
+        return sliding_first(cracks(self.structure), self.motions)
+
+    @cached_property
+    def slides_throughout(self) -> bool:
+        """Whether every mechanism that counts does."""
+        return all(candidate in self.sliding for candidate in self.counting)
+
+    @property
+    def is_settled(self) -> bool:
+        """Whether nothing cheaper than contact dynamics is asked: it slides throughout, or its stones were followed."""
+        return self.slides_throughout or bool(self.contact and self.contact.runs)
+
+    def may_be_untold(self, word: Verdict) -> bool:
+        """Whether something may show that nothing can be told of it, and nothing did so far."""
+        falls = word.badness >= Verdict.PROBABLY_OVERTURNS.badness
+        return not (falls or self.slides_throughout or self.limits)
+
+    def moves(self, word: Verdict) -> bool:
+        """Whether it lifts, and its mechanisms leave open what becomes of it."""
+        return not self.facts.rests and word not in (Verdict.OVERTURNS, Verdict.CANNOT_OVERTURN)
+
+    def contacts(self) -> ContactShare:
+        """Return how many runs of contact dynamics fall."""
+        runs = MOST_RUNS if self.settings.fidelity == "contact" else RUNS
+        return contact_share(self.structure, self.motions, self.settings, runs)

@@ -1,0 +1,51 @@
+"""Evidence of contact dynamics: stones, stacks, and stones that nobody followed."""
+
+from rocking.assessment.contacts import ContactShare
+from rocking.assessment.decide import Limit, Verdict
+from rocking.assessment.evidence.asked import Asked
+from rocking.assessment.kinds import AssessmentKind
+from rocking.remarks import Remark
+
+
+class Stones:
+    """An arch or a portal that does not stand as a mechanism, or that only its stones may say to stand: no better than
+    its runs as stones; with `fidelity: contact` always, unless it rests or overturns as a mechanism.
+    """
+
+    def due(self, word: Verdict, asked: Asked) -> bool:
+        fidelity = asked.settings.fidelity
+        if fidelity == "quick" or not asked.structure.as_stones or not asked.moves(word):
+            return False
+        return fidelity == "contact" or asked.structure.needs_stones or word is not Verdict.STANDS
+
+    def look(self, asked: Asked) -> ContactShare:
+        return asked.contacts()
+
+
+class StonesMissing:
+    """An arch on piers that was not followed as stones, as which it may fall where its mechanism stands: at best
+    *probably stands*.
+    """
+
+    def due(self, word: Verdict, asked: Asked) -> bool:
+        return asked.structure.needs_stones and asked.moves(word) and not asked.is_settled
+
+    def look(self, asked: Asked) -> Limit:
+        return Limit(doubt=Remark(AssessmentKind.STONES_TELL), lifted_by=1)
+
+
+class Stacks:
+    """What contact dynamics would settle where nothing else can tell, or contacts lack friction: no better than 24 runs
+    of it; with `fidelity: contact` 64 runs, and also of what *probably stands* for a limit above.
+    """
+
+    def due(self, word: Verdict, asked: Asked) -> bool:
+        fidelity = asked.settings.fidelity
+        would_settle = [limit for limit in asked.limits if limit.by_contacts]
+        if fidelity == "quick" or asked.is_settled or asked.contact or not asked.facts.stackable:
+            return False
+        open_ = (Verdict.CANNOT_BE_TOLD, Verdict.PROBABLY_STANDS)[: 2 if fidelity == "contact" else 1]
+        return any(word in open_ or limit.value > 0 for limit in would_settle)
+
+    def look(self, asked: Asked) -> ContactShare:
+        return asked.contacts()

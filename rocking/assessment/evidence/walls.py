@@ -1,0 +1,119 @@
+"""Evidence against walls that are held: they turn far, an anchor slides out, their ties give."""
+
+import math
+
+from rocking.assessment.contacts import directions
+from rocking.assessment.cracks import weakest_not_followed
+from rocking.assessment.decide import Limit, Verdict
+from rocking.assessment.evidence.asked import Asked
+from rocking.assessment.kinds import AssessmentKind
+from rocking.assessment.motions import GroundMotions
+from rocking.assessment.settings import AssessmentSettings
+from rocking.errors import RockingError
+from rocking.floors.place import swinging
+from rocking.motion.integration import Members, integrate_members, strict
+from rocking.remarks import Remark
+from rocking.structures import Structure
+from rocking.structures.leaves import parts_of
+from rocking.structures.tied import Tied
+
+BEYOND = 0.4
+"""Share of the critical rotation beyond which a chain of a held wall may fall though its mechanism stands (theory:
+section on ties)."""
+
+
+class NotFollowed:
+    """A mechanism of least λ that cannot be followed, and that the motion reaches: it *cannot be told* until contact
+    dynamics follows it.
+    """
+
+    def due(self, word: Verdict, asked: Asked) -> bool:
+        return asked.may_be_untold(word)
+
+    def look(self, asked: Asked) -> Limit | None:
+        weakest = [weakest_not_followed(part) for _, part in parts_of(asked.structure)]
+        reached = asked.motions.excitation * (1 + asked.settings.ensemble.amplitude_range)
+        if not any(unknown and reached > unknown.uplift_multiplier for unknown in weakest):
+            return None
+        return Limit.untold(Remark(AssessmentKind.NOT_FOLLOWED))
+
+
+class Held:
+    """A held wall some member of which goes beyond 0.4 of its critical rotation, so that its mechanism may predict too
+    little: at best *probably stands*, until 64 stacks say otherwise.
+    """
+
+    def due(self, word: Verdict, asked: Asked) -> bool:
+        return asked.moves(word) and not asked.slides_throughout and asked.case.ensembles is not None
+
+    def look(self, asked: Asked) -> Limit | None:
+        held = {
+            name
+            for name, part in parts_of(asked.structure)
+            if isinstance(part, Tied) and part.held_wall.holds
+        }
+        assert asked.case.ensembles is not None
+        far = any(
+            crack.counts and crack.facts.farthest > BEYOND and crack.part in held
+            for crack in asked.case.ensembles.followed
+        )
+        return Limit(doubt=Remark(AssessmentKind.HELD_BEYOND)) if far else None
+
+
+class Anchors:
+    """The anchor of a tie that slides out with the course that it grips, also before anything lifts: at best *probably
+    stands*, whatever the stacks say.
+    """
+
+    def due(self, word: Verdict, asked: Asked) -> bool:
+        return word.stays_up and not asked.is_settled
+
+    def look(self, asked: Asked) -> Limit | None:
+        level = min(part.anchors_slide_at for _, part in parts_of(asked.structure))
+        if not (math.isfinite(level) and asked.motions.excitation > level):
+            return None
+        settles = (Remark(AssessmentKind.ANCHORS),)
+        return Limit(
+            doubt=Remark(AssessmentKind.ANCHOR_GIVES), settles=settles, lifted_by=math.inf, at_rest=True
+        )
+
+
+class Ties:
+    """Ties that stretch so far that, under the motion that they let through, the wall between them turns beyond 0.4 of
+    its critical rotation, also where the ground lifts nothing: at best *probably stands*, until 64 stacks say
+    otherwise.
+    """
+
+    def due(self, word: Verdict, asked: Asked) -> bool:
+        return word is Verdict.STANDS and not asked.is_settled
+
+    def look(self, asked: Asked) -> Limit | None:
+        gives = any(ties_give(part, asked.motions, asked.settings) for _, part in parts_of(asked.structure))
+        return Limit(doubt=Remark(AssessmentKind.TIES_GIVE), at_rest=True) if gives else None
+
+
+def ties_give(structure: Structure, motions: GroundMotions, settings: AssessmentSettings) -> bool:
+    """Whether one part turns beyond BEYOND under the motion that its ties let through.
+
+    Its mechanisms stand on ties and lean on them as if these did not stretch. Until it cracks, such a wall swings on
+    them as one body, and its bulge is shaken by the absolute acceleration of that oscillator: the bulge of least λ that
+    a tie holds or bears is followed under it, with both signs of every direction. What cannot be followed counts.
+    """
+    if not isinstance(structure, Tied) or not structure.tie_period:
+        return False
+    hanging = (each.structure for each in structure.mechanisms() if structure.hangs_on_ties(each))
+    bulge = next(hanging, None)
+    if bulge is None:
+        return False
+    both = Members(1 + settings.ensemble.amplitude_range, polarity=[1.0, -1.0])
+    for motion in (motions.horizontal[direction] for direction in directions(motions)):
+        # Below two samples of the record it cannot be distinguished from one that moves with the ground.
+        period = structure.tie_period if structure.tie_period >= 2 * motion.time_step else 0.0
+        through_ties = swinging(period).motion(motion)
+        try:
+            followed = integrate_members(bulge, through_ties, both, strict(settings.tolerance))
+        except RockingError:
+            return True
+        if not (followed.rotation_ratio <= BEYOND).all():
+            return True
+    return False

@@ -1,0 +1,179 @@
+"""The decision as one walk through its table, as it was before evidence became limits, to compare `decide` with."""
+
+import math
+from dataclasses import dataclass
+
+from rocking.assessment.decide import (
+    FAR,
+    UNANIMOUS,
+    Decision,
+    Facts,
+    Verdict,
+    _counted,
+    _envelope,
+    _worse_than_known,
+    step,
+    worse,
+)
+from rocking.assessment.kinds import AssessmentKind
+from rocking.remarks import Kind, Remark
+
+
+@dataclass(frozen=True, kw_only=True)
+class AllFacts(Facts):
+    """Facts of mechanisms and evidence together."""
+
+    friction_needed: float = math.nan
+    doubts: tuple[Remark, ...] = ()
+    held: bool = False
+    beyond: Kind | None = None
+    anchors_slide: bool = False
+    needs_stones: bool = False
+
+
+def decide(facts: AllFacts) -> Decision:
+    """Return the decision, row after row."""
+    risk = facts.risk
+    followed = facts.followed
+    governing = facts.governing
+    unsettled = facts.doubts if facts.stacks is None else ()
+    missing = (Remark(AssessmentKind.COMPONENT_MISSING),) if facts.failures else ()
+    worse_other = _worse_than_known(facts)
+    doubts = (*unsettled, *missing, *([Remark(AssessmentKind.OTHER_CRACK_WORSE)] if worse_other else []))
+    sliding = _slides_throughout(facts)
+    none_left = sliding and not facts.rests
+    left_out = () if none_left or math.isnan(facts.slides_at) else (Remark(AssessmentKind.SLIDES_FIRST),)
+    asks_for_stacks = facts.stackable and facts.stacks is None
+    contact_dynamics = (Remark(AssessmentKind.CONTACT_DYNAMICS),) if asks_for_stacks else ()
+    if unsettled and not facts.stackable:
+        doubts = (*doubts, Remark(AssessmentKind.NO_STACK))
+    would_settle: tuple[Remark, ...]
+
+    # 1, 2, 3: what follows without any member.
+    if facts.never_overturns_because and not facts.doubts and not facts.anchors_slide:
+        would_settle = (Remark(AssessmentKind.TIE_STRENGTH),)
+        return Decision(
+            Verdict.CANNOT_OVERTURN,
+            0.0,
+            (0.0, 0.0),
+            facts.never_overturns_because,
+            (*doubts, *left_out),
+            would_settle,
+        )
+    # What swings on ties that give may fall though its mechanism, which takes them as rigid, rests: rows 8b and 9.
+    if facts.rests and facts.beyond is not AssessmentKind.TIES_GIVE:
+        why = "the ground never reaches the uplift acceleration"
+        if facts.anchors_slide:
+            doubts = (*doubts, Remark(AssessmentKind.ANCHOR_GIVES))
+        word = Verdict.PROBABLY_STANDS if facts.anchors_slide else Verdict.STANDS
+        would_settle = (Remark(AssessmentKind.ANCHORS),) if facts.anchors_slide else ()
+        return Decision(word, 0.0, (0.0, 0.0), why, (*doubts, *left_out), would_settle)
+    if sliding and not (facts.as_stones and facts.stacks):
+        would_settle = (Remark(AssessmentKind.FRICTION), *(contact_dynamics if facts.as_stones else ()))
+        return Decision(Verdict.CANNOT_BE_TOLD, math.nan, (math.nan, math.nan), sliding, doubts, would_settle)
+
+    # 4
+    if governing is None and math.isnan(facts.run_ratio):
+        why = "; ".join(facts.failures) or "no component gave a result"
+        would_settle = (Remark(AssessmentKind.INPUT),)
+        return Decision(Verdict.CANNOT_BE_TOLD, math.nan, (math.nan, math.nan), why, doubts, would_settle)
+
+    if governing is None:
+        # 5: one run, whose scatter nobody knows.
+        word = Verdict.PROBABLY_STANDS if facts.run_ratio <= FAR else Verdict.UNCERTAIN
+        why = "one run as recorded, without an ensemble"
+        would_settle = (Remark(AssessmentKind.ENSEMBLE),)
+        share = float(facts.run_ratio == math.inf)
+        interval = share, share
+    else:
+        # 6: the worst crack; statics' own keeps a word in it.
+        word = _envelope((crack, crack.step(risk)) for crack in followed)
+        would_settle = facts.remarks
+        # Not that of the worst step: by their error fewer members may have the worse word and the smaller share.
+        share = max(crack.share for crack in followed)
+        why = _counted(facts, worse_other)
+        if left_out:
+            why = f"{why}; another crack slides first, at {facts.slides_at:.2g} g"
+        if facts.top is not None:
+            why = f"{why}; {facts.top.brief}"
+            would_settle = (*would_settle, Remark(AssessmentKind.TIE_THE_TOP))
+        of_part = [crack for crack in followed if crack.part == governing.part]
+        first = next((crack for crack in of_part if not crack.bulges), governing)
+        disagree = not governing.bulges and governing.step(risk) is not first.step(risk)
+        ends = {governing, first} if disagree else {governing}
+        interval = min(crack.falls / crack.members for crack in ends), share
+        # 7: failed members count as falling, but alone they make nothing fall.
+        falls_without = _envelope((crack, crack.step_of_followed(risk)) for crack in followed)
+        open_ = word.badness >= Verdict.PROBABLY_OVERTURNS.badness or not all(
+            crack.followed for crack in followed
+        )
+        if open_ and falls_without.badness < Verdict.PROBABLY_OVERTURNS.badness:
+            word = Verdict.CANNOT_BE_TOLD
+            would_settle = (Remark(AssessmentKind.TOLERANCE),)
+        if any(crack.failed for crack in followed):
+            doubts = (*doubts, Remark(AssessmentKind.MEMBERS_FAILED))
+
+    if sliding:
+        why = f"{sliding}; {why}"
+    if facts.stacks is not None:
+        fallen, runs = facts.stacks
+        followed_as = f"runs {facts.as_stones}" if facts.as_stones else "stacks of courses"
+        why = f"{why}; {fallen} of {runs} {followed_as} fall in contact dynamics"
+        share = max(share, fallen / runs)
+        interval = interval[0], share
+
+    # 8
+    if word is Verdict.OVERTURNS:
+        return Decision(word, share, interval, why, doubts)
+    # 8b, 9: what bounds the step of the mechanism.
+    limits = [Remark(facts.beyond)] if facts.held and facts.beyond else []
+    slides = not math.isnan(facts.friction_needed)
+    if slides:
+        limits.append(Remark(AssessmentKind.FRICTION_SHORT))
+    if facts.needs_stones and facts.stacks is None:
+        limits.append(Remark(AssessmentKind.STONES_TELL))
+    if limits and (facts.stacks is None or facts.stacks[1] < UNANIMOUS):
+        word = worse(word, Verdict.PROBABLY_STANDS)
+        doubts = (*doubts, *limits)
+        would_settle = (
+            *would_settle,
+            *contact_dynamics,
+            *([Remark(AssessmentKind.FRICTION)] if slides else []),
+        )
+    if facts.anchors_slide:
+        word = worse(word, Verdict.PROBABLY_STANDS)
+        doubts = (*doubts, Remark(AssessmentKind.ANCHOR_GIVES))
+        would_settle = (*would_settle, Remark(AssessmentKind.ANCHORS))
+    if facts.stacks is not None:
+        of_stacks = step(falls=fallen, members=runs, risk=risk)
+        if of_stacks.badness > word.badness and runs < UNANIMOUS and not fallen:
+            would_settle = (
+                *would_settle,
+                Remark(AssessmentKind.CONTACT_DYNAMICS),
+            )  # more runs of which none falls would say more
+        if of_stacks is not word:
+            interval = min(interval[0], fallen / runs), interval[1]
+        word = worse(word, of_stacks)
+    if word.badness < Verdict.PROBABLY_OVERTURNS.badness:
+        doubts = (*doubts, *left_out)
+    # 10: a mechanism that stands says nothing of what it does not follow.
+    if (unsettled or missing) and word.badness < Verdict.PROBABLY_OVERTURNS.badness:
+        reasons = [*map(str, unsettled), *facts.failures]
+        would_settle = contact_dynamics if unsettled else ()
+        would_settle += (Remark(AssessmentKind.COMPONENT),) if missing else ()
+        at_least = interval[0], 1.0
+        return Decision(
+            Verdict.CANNOT_BE_TOLD, math.nan, at_least, "; ".join([*reasons, why]), doubts, would_settle
+        )
+    # 11
+    printed = math.nan if word is Verdict.CANNOT_BE_TOLD else share
+    return Decision(word, printed, interval, why, doubts, would_settle)
+
+
+def _slides_throughout(facts: AllFacts) -> str:
+    """Where every crack that counts slides before it lifts, and the motion reaches so far, in words; else ""."""
+    if math.isnan(facts.slides_at) or not all(crack.slides for crack in facts.counting):
+        return ""
+    return (
+        f"slides before it lifts, at {facts.slides_at:.2g} g" if facts.slides_at else "slides apart at rest"
+    )
