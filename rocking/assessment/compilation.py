@@ -98,7 +98,7 @@ def _compile(say: Callable[[str, bool], None]) -> None:
         if worker.returncode:
             raise RockingError(f"the numerical parts do not compile: {errors.strip().splitlines()[-1:]}")
     if next_word > _PATIENCE:
-        say(f"Compiled in {time.monotonic() - started:.0f} s; it is kept for every later run.", True)
+        say(f"Compiled in {time.monotonic() - started:.0f} s; it is cached for every later run.", True)
 
 
 def compile_mechanisms() -> None:

@@ -479,11 +479,11 @@ def decided_by(ensembles: CrackEnsembles) -> str:
     largest = deciding(ensembles)
     if not largest:
         unanimous = ensembles.governing.ensemble.overturning_share in (0.0, 1.0)
-        return "" if unanimous else "nothing decides by itself"
+        return "" if unanimous else "nothing decides on its own"
     first = largest[0]
     if first.share >= DECIDES:
         return f"decided by {first.words}"
-    return f"nothing decides by itself, most {first.words}"
+    return f"nothing decides on its own, most {first.words}"
 
 
 _WORTH_MEASURING = 0.2

@@ -61,7 +61,7 @@ class AssessmentKind(Kind):
         fall""", "contact dynamics: {falls} of {runs} fall"
     STRENGTHEN = auto(), "strengthen or tie it", "strengthen"
     TIE_THE_TOP = auto(), "tie its top, or say by top_friction what holds it", "tie its top"
-    NOTHING_DECIDES = auto(), "no input decides by itself", "no input decides"
+    NOTHING_DECIDES = auto(), "no input decides on its own", "no input decides"
     NOTHING_TO_DO = auto(), "nothing needs to be done", "nothing"
 
     # A structure, and where it stands.

@@ -328,7 +328,7 @@ def read_structures(path: str | Path) -> dict[str, Structure]:
     scenes = load_scenes(path)
     if carried := [name for name, scene in scenes.items() if scene.place != GROUND]:
         warnings.warn(
-            f"{path}: left out is what stands on a support, {listed(carried)}: a structure alone does not hold the "
+            f"{path}: structures on a support are left out, {listed(carried)}: a structure alone does not hold the "
             "motion there, which rocking.Support gives.",
             StructureWarning,
             stacklevel=2,

@@ -18,7 +18,7 @@ class Heading(StrEnum):
     PROCESSING = "Processing, stated in every report"
     METHOD = "Method"
     ENSEMBLE = "Ensemble: the uncertain inputs of a case vary within these ranges"
-    DESIGN = "Design level, drawn beside the spectra of the records"
+    DESIGN = "Design level, drawn with the spectra of the records"
     CHECKS = (
         "Checks of the Italian code at the design level, and the sets of records for them: rocking checks"
     )
@@ -50,7 +50,10 @@ class EnsembleSettings:
     processing: bool = described(True, "whether the processing of a raw record varies")
     risk: float = described(0.05, "largest probability of the outcome opposite to a verdict", gt=0, le=0.45)
     reserve: float = described(
-        3.0, "largest factor on the record up to which the reserve is sought; 0: no reserve", ge=0, le=30
+        3.0,
+        "largest factor on the record up to which the reserve is searched for; 0: no reserve",
+        ge=0,
+        le=30,
     )
 
     def __post_init__(self) -> None:

@@ -65,7 +65,9 @@ class RecordStore:
             try:
                 self._before = _opened(path)
             except (RockingError, ValueError, KeyError, TypeError, AttributeError) as error:
-                tell(f"{path}: what was kept is ignored and recomputed, because {error or 'it is damaged'}.")
+                tell(
+                    f"{path}: the cached results are ignored and recomputed, because {error or 'it is damaged'}."
+                )
 
     def find(self, kind: type[T], fingerprint: str) -> T | None:
         """Return the `kind` that was kept by this fingerprint; None where there is none that can be read."""

@@ -61,7 +61,7 @@ class CatalogueRecord:
     )
     file: str = described(
         MISSING,
-        "path beside the catalogue or in the mirror, `archive.zip/member` for a file in a zip or tar archive, or "
+        "path relative to the catalogue or in the mirror, `archive.zip/member` for a file in a zip or tar archive, or "
         "`obspy:NAME` for one that obspy installs; the files of one station, the vertical component among them, are "
         "separated by `;`",
     )
@@ -195,7 +195,7 @@ def _checks_of_files(record: CatalogueRecord) -> Iterator[_Check]:
     )
     names = _parts(record.file)
     hashes = _parts(record.sha256)
-    yield names, "file is missing; give a path beside the catalogue or obspy:NAME."
+    yield names, "file is missing; give a path relative to the catalogue or obspy:NAME."
     paths = [("file", name) for name in names if not stays_inside(name.removeprefix(_OBSPY))]
     if record.inventory and not stays_inside(record.inventory):
         paths.append(("inventory", record.inventory))

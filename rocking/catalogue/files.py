@@ -49,7 +49,7 @@ def path_of(record: CatalogueRecord, file: RecordFile, mirror: str | Path | None
         return download(file.name, *source, sha256=file.sha256)
     places = " or ".join(str(folder) for folder in (mirror, record.folder) if folder)
     raise RecordError(
-        f"file {file.name!r} is not in {places}; mend the catalogue or add the file.", file=file.name
+        f"file {file.name!r} is not in {places}; correct the catalogue or add the file.", file=file.name
     )
 
 

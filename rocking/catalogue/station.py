@@ -51,7 +51,7 @@ def open_station(record: CatalogueRecord, mirror: str | Path | None = None) -> S
         inventory = in_catalogue_folder(record, record.inventory, mirror) if record.inventory else None
         if record.inventory and inventory is None:
             raise RecordError(
-                f"inventory {record.inventory!r} is missing; mend the row or add the file.",
+                f"inventory {record.inventory!r} is missing; correct the row or add the file.",
                 inventory=record.inventory,
             )
         channels: list[Accelerogram] = []

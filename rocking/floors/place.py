@@ -208,7 +208,7 @@ def _complete(mode: dict[str, Any], participation: float | None) -> dict[str, An
         raise ConfigurationError("a support needs period_s, a number of seconds or a range; give it.")
     if participation is not None and "participation" in mode:
         raise ConfigurationError(
-            "a support is given participation beside storeys and heights, which give it; give one of the two."
+            "a support is given participation together with storeys and heights, which give it; give one of the two."
         )
     if participation is None and "participation" not in mode:
         raise ConfigurationError(

@@ -180,7 +180,7 @@ def _plain(path: Path, text: str) -> tuple[np.ndarray, np.ndarray, str, str]:
         return levels, rates, "", ours  # a word such as "level"
     if not is_of_unit:
         raise ConfigurationError(
-            f"{path} has the column {head!r}, but {stem} is in {_unit_of(stem)}; mend the unit.", unit=head
+            f"{path} has the column {head!r}, but {stem} is in {_unit_of(stem)}; correct the unit.", unit=head
         )
     return levels, rates, measure, ours
 

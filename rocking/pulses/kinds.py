@@ -17,7 +17,7 @@ class PulseKind(Kind):
         well."""
     PULSE_AT_BAND_LIMIT = auto(), """The period lies at a limit of the band that was searched, so the true
         pulse may lie outside it."""
-    PULSE_RECORD_SHORT = auto(), """The record is shorter than the longest period sought, so that period was
+    PULSE_RECORD_SHORT = auto(), """The record is shorter than the longest period searched for, so that period was
         left out."""
     PULSE_SAMPLING_COARSE = auto(), """The sampling is too coarse for the upper frequency; shorter periods
         were left out."""

@@ -106,7 +106,7 @@ def _searched(accelerations: np.ndarray, step: float) -> tuple[np.ndarray, np.nd
     """The velocities of components (c, n), m/s, and the scales that are searched in them; raises PulseError."""
     if accelerations.shape[1] > MOST_SAMPLES:
         raise PulseError(
-            f"The motion holds {accelerations.shape[1]} samples, but a velocity pulse is sought in at most "
+            f"The motion holds {accelerations.shape[1]} samples, but a velocity pulse is searched for in at most "
             f"{MOST_SAMPLES}; cut the record to its earthquake.",
             samples=accelerations.shape[1],
         )

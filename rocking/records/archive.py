@@ -122,7 +122,7 @@ def member_bytes(path: Path, archive: Path, largest: int) -> bytes:
     place, rest = _place_in(archive, name)
     packed = _packed(archive, place)
     if rest not in packed.names:
-        raise RecordError(f"{called}: the archive holds no such file; mend the name.", file=name)
+        raise RecordError(f"{called}: the archive holds no such file; correct the name.", file=name)
     content = packed.whole(rest, largest, called)
     ending = ending_of(rest)
     if (ending and _is_marked(ending, content[:512])) or (content.startswith(ZIPPED) and ending == ".zip"):

@@ -118,7 +118,7 @@ def agreed(what: What, claims: Collection[Claim]) -> Any:
     )
 
 
-_MEND = ("omit it, or mend the file", "type that, or rename the file")
+_MEND = ("omit it, or correct the file", "type that, or rename the file")
 
 
 def point_apart(first: str, second: str) -> bool:

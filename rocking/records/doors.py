@@ -20,12 +20,12 @@ _ADVICE: dict[Door, dict[Wanted, str]] = {
     "command": {
         "unit": "give --unit",
         "time_step": "give --time-step",
-        "inventory": "give its StationXML among the files, or put it beside this one",
+        "inventory": "give its StationXML among the files, or put it in the same folder",
     },
     "catalogue": {
         "unit": "fill in the column unit of the catalogue",
         "time_step": "fill in the column time_step_s of the catalogue",
-        "inventory": "put its StationXML beside the file, or name it in the column inventory of the catalogue",
+        "inventory": "put its StationXML in the folder of the file, or name it in the catalogue's column inventory",
     },
 }
 

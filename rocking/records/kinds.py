@@ -124,7 +124,7 @@ class RecordKind(Kind):
 
     # The files of a folder, each compared with the others.
     COUNTS_WITHOUT_UNIT = auto(), """Without a unit its samples are taken as counts of the recorder: put the
-        StationXML of the station beside it, or name it in the column inventory."""
+        StationXML of the station in its folder, or name it in the column inventory."""
     VERTICAL_IN_NAME = auto(), "The file's name says {word}, but {about} is taken as horizontal."
     STATIONS_UNLIKE = auto(), """The stream holds channels of {number} stations ({stations}): they are not a
         record of one place; read each station separately."""

@@ -243,7 +243,7 @@ def failure_page(record: str, message: str) -> PlainPage:
     """Return the page that says why `record` gave no result."""
     text = (
         "Nothing was computed for this record, so no structure was assessed under it. The other records of the run are "
-        "not affected. The sentence above also stands in summary/failures.csv."
+        "not affected. The sentence above is also in summary/failures.csv."
     )
     return PlainPage(
         title=f"Rocking assessment: {record}",
@@ -304,8 +304,8 @@ def _assumed(report: RecordReport) -> Iterator[Topic]:
     files = _unique(f"{words(row.file)}, SHA-256 {row.record_sha256}" for row in record)
     hashes = _unique(f"{row.settings_sha256[:16]}…" for row in record)
     sources = [
-        "The numbers of this report are rounded from the tables beside it, whose rows give the hashes of file and "
-        "settings.",
+        "The numbers of this report are rounded from the tables in the same folder, whose rows give the hashes of "
+        "file and settings.",
         f"First sample at {times}." if times else "",
         f"File: {files}. rocking {version('rocking')}, settings and structures {hashes}",
     ]
@@ -746,7 +746,7 @@ def _notices(report: RecordReport) -> list[Notice]:
     if not tables.comparison:
         notices.append(Notice("No structure could be assessed under this record."))
     if not tables.pulses:
-        text = "No pulse could be sought in this record, so there is no closed-form prediction."
+        text = "No pulse could be searched for in this record, so there is no closed-form prediction."
         notices.append(Notice(text))
     of_failures = [f"{row.structure or row.component}: {row.message}" for row in tables.failures]
     failed = list(dict.fromkeys(of_failures))

@@ -308,7 +308,7 @@ def _design(design: Design | None) -> Part:
     if design is None:
         return Part()
     level, spectra = design
-    alt = "Spectra of all components and their mean beside the design spectrum."
+    alt = "Spectra of all components and their mean with the design spectrum."
     caption = (
         "The spectra of the records as they acted, for the damping of the design level, each component on its own, and "
         f"their mean beside that of the design level: {level.words}."
@@ -538,7 +538,7 @@ UNSAFE_COLUMNS: list[Column] = [
     ("Structure", "1.4", "l", lambda row: placed(row.structure, row.support_period_s)),
     *columns_of(ComparisonRow, "predicted_rotation_ratio integrated_rotation_ratio regime"),
     (
-        "Closed form beside integration",
+        "Closed form and integration",
         "1.6",
         "l",
         lambda row: ratio_in_words(

@@ -40,7 +40,7 @@ class Leaved(Structure):
 
     leaves: the thickness of each from outside in, m, two or three; () for one leaf. bonders: the heights above the
     ground at which through-stones hold each leaf, m, or their spacing, counted down from the top, so that the uppermost
-    part stands free over all of it. thrown_back: the restitution of the impact of a leaf on the one beside it; None:
+    part stands free over all of it. thrown_back: the restitution of the impact of a leaf on the one next to it; None:
     each rocks both ways, with the restitution of its own geometry.
     """
 
@@ -69,8 +69,8 @@ class Leaved(Structure):
     thrown_back: Annotated[
         float | None,
         Value(
-            "Restitution of the impact of a leaf on the one beside it, which throws it back; left out: each leaf rocks "
-            "both ways",
+            "Restitution of the impact of a leaf on the one next to it, which throws it back; left out: each leaf "
+            "rocks both ways",
             0.5,
             usual=(0.1, 1),
             bounds={"ge": 0, "le": 1},
@@ -151,7 +151,7 @@ class Leaved(Structure):
             except DoesNotStandError as wrong:
                 raise DoesNotStandError(
                     f"leaves is {list(self.leaves)!r} m, but the {name} alone does not stand under its loads at rest; "
-                    "mend its loads or its sizes.",
+                    "correct its loads or its sizes.",
                     leaves=self.leaves,
                 ) from wrong
         return tuple(alone)

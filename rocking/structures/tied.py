@@ -455,7 +455,7 @@ class Tied(CrackedAtHeight, Leaved):
         for opening, multiplier in wall.family():
             if not multiplier > 0:
                 raise DoesNotStandError(
-                    f"the structure does not stand: at rest it {wall.name(opening)}; mend its loads or its sizes."
+                    f"the structure does not stand: at rest it {wall.name(opening)}; correct its loads or its sizes."
                 )
             place = opening.foot if opening.hinge is None else opening.hinge
             what = "crack" if opening.hinge is None else "hinge"

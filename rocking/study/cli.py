@@ -200,7 +200,7 @@ def _parser() -> argparse.ArgumentParser:
     add(
         "--output",
         type=Path,
-        help="CSV file to write (default: selected.csv beside the catalogue of the pool)",
+        help="CSV file to write (default: selected.csv next to the catalogue of the pool)",
     )
     add = verb(
         _strengthen,

@@ -94,7 +94,7 @@ def _entries(folder: Path) -> Iterator[os.DirEntry[str]]:
             continue  # not made yet, or removed by a job that is under way
         except OSError as error:
             raise ConfigurationError(
-                f"{place}: it cannot be looked into, {error.strerror}; mend that."
+                f"{place}: it cannot be looked into, {error.strerror}; correct that."
             ) from None
         yield from entries
         waiting += [entry.path for entry in entries if entry.is_dir(follow_symlinks=False)]

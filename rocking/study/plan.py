@@ -290,7 +290,7 @@ def _check_results(settings: Settings) -> None:
         raise ConfigurationError(f"setting results: {folder} is a file, but must be a folder.")
     if not os.access(folder, os.W_OK | os.X_OK):
         raise ConfigurationError(
-            f"setting results: nothing can be written in {folder}; mend its permissions or name another folder."
+            f"setting results: nothing can be written in {folder}; correct its permissions or name another folder."
         )
     check_own(results)
 

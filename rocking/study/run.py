@@ -122,7 +122,7 @@ def run(folder: Path, options: Sequence[str]) -> int:
     if forgotten:
         print(
             f"{folder / REMEMBERED} was removed, and with it what the results were made from: those that were not made "
-            f"again may be older than an edit. To compute all anew: rocking run {folder} -- --forceall"
+            f"again may be older than an edit. To compute everything again: rocking run {folder} -- --forceall"
         )
     if options and not options[0].startswith("-"):
         print(f"Finished: {options[0]}; what it wrote lies in {results}")

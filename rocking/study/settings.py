@@ -292,7 +292,7 @@ class Settings(AssessmentSettings):
     trade: StudyTrade = StudyTrade()
     reports: bool = described(
         True,
-        "whether PDF reports are written beside the tables",
+        "whether PDF reports are written in addition to the tables",
         heading=Heading.OUTPUT,
         changes_numbers=False,
     )
@@ -304,7 +304,7 @@ class Settings(AssessmentSettings):
     )
     figures: Literal["none", "svg", "png", "svg and png"] = described(
         "none",
-        "figures of each PDF in an archive beside it (report_figures.zip): none, svg, png (200 dpi) or svg and png",
+        "figures of each PDF in an archive next to it (report_figures.zip): none, svg, png (200 dpi) or svg and png",
         heading=Heading.OUTPUT,
         changes_numbers=False,
     )

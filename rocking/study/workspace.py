@@ -84,7 +84,7 @@ def write_catalogue(folder: Path, target: Path, unit: str | None, time_step: flo
     asked = (
         []
         if found.layouts is None
-        else [f"Answer what stands in {target.with_name(NAME)}, and run this again."]
+        else [f"Answer the questions in {target.with_name(NAME)}, and run this again."]
     )
     if found.layouts is not None:
         write_whole(target.with_name(NAME), found.layouts.encode())

@@ -181,5 +181,5 @@ def _sync(path: Path) -> None:
 
 def _unwritten(path: Path, error: OSError) -> RockingError:
     reason = error.strerror or str(error)
-    sentence = f"{path} cannot be written: {reason}; mend that, then start again."
+    sentence = f"{path} cannot be written: {reason}; correct that, then start again."
     return RockingError(sentence, file=path.name)

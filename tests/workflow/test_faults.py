@@ -145,7 +145,7 @@ def test_a_full_disk_is_said_and_leaves_nothing_half_written(finished, start, tm
     study.write_catalogue(study.rows()[:1])
     study.results.mkdir()
     with _small_disk(study.results) as enlarge:
-        assert "No space left on device; mend that, then start again." in study.run(status=1)
+        assert "No space left on device; correct that, then start again." in study.run(status=1)
         assert not study.unfinished()
         expected = finished.rows_of("good_1")
         subprocess.run(enlarge, check=True, capture_output=True)
@@ -159,7 +159,7 @@ def test_a_limit_on_the_size_of_files_is_said_and_harms_nothing(finished, start,
     study = start.copy_to(tmp_path / "study")
     limit = ("sh", "-c", 'ulimit -f 12; exec "$@"', "sh")
     done = study.rocking("run", str(study.folder), before=limit, status=1)
-    assert "File too large; mend that, then start again." in done.stdout
+    assert "File too large; correct that, then start again." in done.stdout
     assert not study.unfinished()
     study.rocking("run", str(study.folder))
     assert study.tables() == finished.tables()

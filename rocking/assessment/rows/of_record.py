@@ -339,7 +339,7 @@ class VerdictRow(DecidedRow[OfStructure]):
         lambda of: of.period_result.crack,
     )
     statics_crack: str = of_statics(
-        "Crack of statics where another governs; beside a crack that is known, the worst other",
+        "Crack of statics where another governs; of a known crack, the worst other",
         lambda crack: crack.description,
     )
     statics_overturning_members: int | None = of_statics(
@@ -388,8 +388,8 @@ class VerdictRow(DecidedRow[OfStructure]):
         lambda reserve: reserve.high,
     )
     reserve_limit: float = of_reserve(
-        "Largest factor on the record that was tried; empty without a reserve (on a support it is sought on the ground "
-        "and at the worst period)",
+        "Largest factor on the record that was tried; empty without a reserve (on a support it is searched for on the "
+        "ground and at the worst period)",
         lambda reserve: reserve.limit,
     )
     reserve_doubts: tuple[Kind, ...] = of_structure(

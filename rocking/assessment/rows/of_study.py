@@ -136,7 +136,7 @@ class AgreementRow(RowOf[CountedCases]):
         "Name of the structure in the structure list; empty for all together", lambda of: of.structure
     )
     made: bool = of_cases(
-        "Whether of the made records alone, which no other row counts beside recorded ones",
+        "Whether of the made records alone, which no other row counts together with recorded ones",
         lambda of: of.made,
     )
     records: int = of_cases("Number of records", lambda of: len({row.record for row in of.cases}))
@@ -304,7 +304,8 @@ class ExpectedFallsRow(RowOf[CountedFalls]):
         "Number of earthquakes of these; what names none counts as of one", lambda of: of.earthquakes
     )
     still: int = of_falls(
-        "Number of these stations at which nothing lifts any structure, so that they tell nothing of stronger shaking",
+        "Number of these stations at which nothing lifts any structure, so that they say nothing about stronger "
+        "shaking",
         lambda of: of.still,
     )
 

@@ -299,7 +299,7 @@ class FragilitySummaryRow(CurveRow[SummarisedCurve]):
         "Level at which the empirical curve crosses one half; INF: it does not", lambda of: of.curve.median
     )
     median_low: float = of_summary(
-        "Lower end of the 90 % interval of the median, by earthquakes; 0: none can be told",
+        "Lower end of the 90 % interval of the median, by earthquakes; 0: there is none",
         lambda of: of.median_low,
     )
     median_high: float = of_summary(

@@ -174,7 +174,7 @@ class TradeRow(RowOf[TriedMethod]):
         "Name of the structure; empty: all structures together", lambda of: of.structure
     )
     cases: int = of_tried(
-        "Records in which the method has an answer, and it or the reference does not rest",
+        "Records in which the method has a result, and it or the reference does not rest",
         lambda of: of.cases,
     )
     error: float = of_tried(

@@ -146,7 +146,7 @@ def whole(values: np.ndarray, declared: int, per_line: int) -> tuple[np.ndarray,
         )
     if values.size > declared + per_line:
         raise RecordError(
-            f"{stated}: more than one line too many; mend the header or cut the file.", samples=declared
+            f"{stated}: more than one line too many; correct the header or cut the file.", samples=declared
         )
     return values, (Remark.of(RecordKind.SAMPLES_SURPLUS, declared=declared, held=values.size),)
 

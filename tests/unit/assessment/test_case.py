@@ -44,7 +44,7 @@ def test_the_ensemble_over_all_directions_decides_before_those_of_the_components
     result = station(*alone, falls_in_directions=32)
     assert (result.verdict, result.component) == ("uncertain", "both")
     assert result.decision.why == "32 of 64 members overturn"
-    assert result.decided_by == "nothing decides by itself"
+    assert result.decided_by == "nothing decides on its own"
     assert math.isinf(result.rotation_ratio), "of the worst component as recorded"
 
 
@@ -118,7 +118,7 @@ def test_the_worst_crack_gives_every_number_and_statics_stands_beside_it():
     assert (beside.description, beside.ensemble.overturning_members) == ("crack at 3.0 m", 0)
     why = "40 of 64 members overturn with the crack at 8.5 m, 0 of 64 with the crack at 3.0 m of statics"
     assert result.decision.why == why
-    assert result.decided_by.startswith("nothing decides by itself, most which crack opens (")
+    assert result.decided_by.startswith("nothing decides on its own, most which crack opens (")
     (row,) = verdicts([result])
     assert (row.crack, row.overturning_members, row.statics_members) == ("crack at 8.5 m", 40, 64)
 

@@ -37,7 +37,7 @@ def test_it_is_told_after_three_seconds_and_every_second_how_long_it_has_taken(
 ) -> None:
     *moving, last = compiled_within(10.0, tmp_path, monkeypatch)
     assert [line.rpartition(": ")[2] for line in moving] == [f"{second} s" for second in range(3, 10)]
-    assert last == "Compiled in 10 s; it is kept for every later run."
+    assert last == "Compiled in 10 s; it is cached for every later run."
     assert compiled_within(10.0, tmp_path, monkeypatch) == [], "it is kept"
 
 

@@ -31,7 +31,7 @@ def test_what_is_known_from_one_cause_is_decided_by_it_and_what_is_not_by_none()
     by_restitution = _ensembles(_ensemble(OFFSET > 0, polarity=SIGN, restitution=OFFSET))
     assert decided_by(by_restitution) == "decided by the restitution (100 %)"
     together = _ensembles(_ensemble((SIGN > 0) == (OFFSET > 0), polarity=SIGN, restitution=OFFSET))
-    assert decided_by(together) == "nothing decides by itself", "either alone says nothing"
+    assert decided_by(together) == "nothing decides on its own", "either alone says nothing"
 
 
 def test_what_is_alike_whatever_the_cause_explains_nothing_in_the_mean():

@@ -108,7 +108,7 @@ STOREYS = {"name": "roof", "period_s": 0.3, "storeys": 3, "height_m": 6.0, "buil
         ({"name": "roof", "modes": []}, "modes is [], but must be a list of at least one mode"),
         (STOREYS | {"height_m": 9.5}, "height_m is 9.5 m, but must lie between 0 and building_height_m, 9 m"),
         (STOREYS | {"storeys": 2.5}, "storeys is 2.5, but must be a whole number from 1 on"),
-        (STOREYS | {"participation": 1.0}, "a support is given participation beside storeys"),
+        (STOREYS | {"participation": 1.0}, "a support is given participation together with storeys"),
         (ROOF | {"storeys": 3}, "a support with storeys needs building_height_m and height_m"),
         (ROOF | {"yielding_masonry": "yes"}, "yielding_masonry is 'yes', but must be true or false"),
     ],

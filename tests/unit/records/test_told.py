@@ -76,7 +76,7 @@ def test_a_motion_made_to_a_spectrum_is_told_what_is_wrong_with_it(tmp_path: Pat
 DOORS: dict[Door, str] = {
     "python": "inventory=",
     "command": "among the files",
-    "catalogue": "beside the file",
+    "catalogue": "in the folder of the file",
 }
 
 

@@ -231,7 +231,7 @@ def test_nothing_that_lifts_no_structure_and_no_pulse_are_told_first():
     cases = {
         "No structure uplifts": ([shaken()], {"squat": Block.of_size(2.0, 2.0)}),
         "No structure could be assessed": ([shaken()], {}),
-        "No pulse could be sought": (flat, {"block": Block.of_size(1.0, 4.0)}),
+        "No pulse could be searched for": (flat, {"block": Block.of_size(1.0, 4.0)}),
     }
     for notice, (records, structures) in cases.items():
         report = assessed("one", records, structures)
