@@ -57,6 +57,13 @@ def near(changed: Iterable[Path]) -> set[Path]:
             if more == wanted:
                 break
             wanted = more
+        if wanted and not nearest:  # what a registry loads by its name
+            part = path.relative_to(PACKAGE).parts[0]
+            nearest = {
+                test
+                for test, names in tests.items()
+                if any(name.startswith(f"rocking.{part}.") for name in names)
+            }
         found |= nearest
     return found
 
