@@ -13,7 +13,7 @@ from typing import Any
 from rocking.catalogue.catalogue import is_safe_id, read_rows
 from rocking.catalogue.grouping import named_channel, rsn_of, stations, without_direction
 from rocking.catalogue.joining import SQUARE
-from rocking.catalogue.listing import CELLS, ListedChannel, ListedFile, doubts_of, listed_file, unlike_motions
+from rocking.catalogue.listing import CELLS, ListedChannel, ListedFile, doubts_of, listed_file, trials
 from rocking.catalogue.readings import Readings
 from rocking.errors import CatalogueError, RecordError
 from rocking.quantities import acceleration_factor, is_number
@@ -93,16 +93,20 @@ def catalogue_of_folder(
     readings = Readings(folder, layouts, is_kept=keeps_readings)
     listed = []
     signatures = []
+    lines: dict[str, int] = {}
     for path in watched(list(files_in(folder))):
         own = _declared_in(rows_of.get(path.relative_to(folder).as_posix()), declared)
         reading = readings.of(path, own)
         listed.append(listed_file(reading, path, folder, own))
         signatures += [reading.signature] if reading.signature else []
+        if (line := layouts.line_of(reading.signature)) is not None:
+            lines[listed[-1].file] = line
     readings.save()
-    refused = unlike_motions(listed)
+    tried = trials(listed, lines, layouts)
     for file in listed:
-        if file.channels and (why := refused.get(file.channels[0].answer)):
-            file.refusal, file.channels = why, ()
+        trial = tried.get(lines.get(file.file, 0))
+        if file.channels and trial and not trial.may_hold:
+            file.refusal, file.channels = f"{file.channels[0].answer}: {trial.words}", ()
     renamed = tuple(_follow_renamed(rows, rows_of, listed))
     for file in listed:
         if file.file in rows_of:
@@ -124,7 +128,7 @@ def catalogue_of_folder(
         Remark.of(RecordKind.ANSWER_IDLE, NAME, line=answer.line, answer=answer.text)
         for answer in layouts.idle(signatures)
     ]
-    asked = layouts.text((file.file, file.question) for file in listed if file.question)
+    asked = layouts.text(((file.file, file.question) for file in listed if file.question), tried)
     return FolderCatalogue(listed, rows, new, (*of_store, *renamed, *apart, *idle), asked)
 
 

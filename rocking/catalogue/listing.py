@@ -10,10 +10,10 @@ from typing import Any
 
 from rocking.catalogue.catalogue import few, stays_inside
 from rocking.errors import RecordError, UndeclaredError
-from rocking.quantities import GRAVITY
+from rocking.quantities import GRAVITY, counted
 from rocking.records.doors import through
 from rocking.records.formats import Options
-from rocking.records.formats.layouts import NAME, AskedError, Layouts, Question, Signature, families
+from rocking.records.formats.layouts import NAME, AskedError, Layouts, Question, Signature, Trial, families
 from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import OF_COUNTS
 from rocking.records.read import printable, read_raw
@@ -247,27 +247,30 @@ _STRONG_SHARE = 1 / 3
 """The share of files above 1 g that no folder of records has: of NGA-West2 less than one in a hundred is."""
 
 
-def unlike_motions(listed: Sequence[ListedFile]) -> dict[str, str]:
-    """Return why an answer cannot hold, by the answer: read by it, its files together are unlike records."""
-    of_answer: dict[str, list[ListedChannel]] = {}
+def trials(listed: Sequence[ListedFile], lines: Mapping[str, int], layouts: Layouts) -> dict[int, Trial]:
+    """Return what comes of each answer of layouts.csv on all its files, by its line; lines: of each file.
+
+    Read by an answer whose unit is too large, its files together are stronger than any folder of records.
+    """
+    peaks: dict[int, list[float]] = {}
     for file in listed:
-        if (
-            not file.refusal
-            and file.channels
-            and file.channels[0].answer
-            and file.channels[0].peak_acceleration
-        ):
-            strongest = max(file.channels, key=lambda channel: float(channel.peak_acceleration))
-            of_answer.setdefault(strongest.answer, []).append(strongest)
-    refused = {}
-    for answer, channels in of_answer.items():
-        strong = sum(float(channel.peak_acceleration) > 1.0 for channel in channels)
-        if len(channels) >= _FEWEST_TRIED and strong > _STRONG_SHARE * len(channels):
-            refused[answer] = (
-                f"{answer}: so {strong} of its {len(channels)} files would be above 1 g, as no folder of records "
-                "is; leave the unit out of the answer, and fill in the column unit of the catalogue for each."
-            )
-    return refused
+        known = [float(each.peak_acceleration) for each in file.channels if each.peak_acceleration]
+        if known and not file.refusal and file.file in lines:
+            peaks.setdefault(lines[file.file], []).append(max(known))
+    found = {}
+    for line, of_line in peaks.items():
+        strong = sum(peak > 1.0 for peak in of_line)
+        words = f"{counted(len(of_line), 'file')}, {min(of_line):.3g}–{max(of_line):.3g} g"
+        if len(of_line) < _FEWEST_TRIED or strong <= _STRONG_SHARE * len(of_line):
+            found[line] = Trial(words, may_hold=True)
+            continue
+        why = (
+            f"so {strong} of its {len(of_line)} files would be above 1 g, as no folder of records is; leave the unit "
+            "out of the answer, and fill in the column unit of the catalogue for each, or take the ? away again to "
+            "insist."
+        )
+        found[line] = Trial(why, may_hold=layouts.insists(line, why))
+    return found
 
 
 _HEAD = ("file", "component", "format", "step s", "samples", "PGA g", "PGV m/s")

@@ -7,6 +7,7 @@ from copy import copy
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from pathlib import Path
+from types import MappingProxyType
 from typing import Literal, get_args
 
 from rocking.errors import CatalogueError, RecordError, UndeclaredError
@@ -17,8 +18,9 @@ from rocking.tables import edited_text, read_edited
 NAME = "layouts.csv"
 COLUMNS = (
     "answer", "holds", "file", "names", "numbers_a_line", "text_above", "folder", "ending", "time_step_s", "peaks",
+    "tried",
 )  # fmt: skip
-_OF_SIGNATURE = COLUMNS[3:]
+_OF_SIGNATURE = COLUMNS[3:-1]
 _SHIPPED = Path(__file__).with_name(NAME)
 
 
@@ -425,15 +427,27 @@ class Layouts:
         """
         return "; ".join(answer.text for answer in self._matching(signature)) if signature else ""
 
+    def line_of(self, signature: Signature | None) -> int | None:
+        """Return the line of layouts.csv that alone answers for tables of a signature, None where there is none."""
+        own = [] if signature is None else [each for each in self._matching(signature) if each.whose == NAME]
+        return own[0].line if len(own) == 1 else None
+
+    def insists(self, line: int, why: str) -> bool:
+        """Whether a person left an answer although its row says why it cannot hold: then it counts."""
+        return any(at == line and why in (row.get("tried") or "") for at, row in self.rows)
+
     def idle(self, signatures: Iterable[Signature]) -> list[LayoutAnswer]:
         """Return the answers in layouts.csv that hold for no table of these signatures."""
         used = {answer.line for signature in signatures for answer in self._matching(signature)}
         return [answer for _, answer in self._answers if answer.line not in used]
 
-    def text(self, questions: Iterable[tuple[str, Question]]) -> str | None:
+    def text(
+        self, questions: Iterable[tuple[str, Question]], tried: Mapping[int, "Trial"] = MappingProxyType({})
+    ) -> str | None:
         """Return the text of layouts.csv with a row for each question that it does not hold yet; None if none is new.
 
-        questions: with the file that each is drawn from.
+        questions: with the file that each is drawn from. tried: what came of each answer on its files, by its line; one
+        that cannot hold is open again.
         """
         present = [Signature.of_row(row) for _, row in self.rows]
         new = [
@@ -449,9 +463,23 @@ class Layouts:
                 if all(row.distance(question.signature) is None for row in present)
             )
         ]
-        if not new:
+        old = [tried[line].in_row(row) if line in tried else dict(row) for line, row in self.rows]
+        if not new and old == [dict(row) for _, row in self.rows]:
             return None
-        return edited_text([*(row for _, row in self.rows), *new], COLUMNS, self._path)
+        return edited_text([*old, *new], COLUMNS, self._path)
+
+
+@dataclass(frozen=True)
+class Trial:
+    """What came of an answer on all files that it is for, in words, and whether it may hold."""
+
+    words: str
+    may_hold: bool
+
+    def in_row(self, row: Mapping[str, str]) -> dict[str, str]:
+        """Return the row of the answer with the words, and open again where it cannot hold."""
+        answer = row["answer"] if self.may_hold else f"{OPEN} {row['answer']}"
+        return {**row, "answer": answer, "tried": self.words}
 
 
 def _answers(

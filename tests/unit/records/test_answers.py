@@ -308,3 +308,32 @@ def test_two_rates_in_a_head_are_asked(tmp_path: Path, head: str) -> None:
     answered(tmp_path, asked.value.question, "one series m/s2, dt 0.02")
     with refused(RecordError, "answer", "one series m/s2, dt 0.02"):
         read(path)
+
+
+def test_an_answer_is_tried_on_all_its_files_before_it_counts(tmp_path: Path) -> None:
+    """Files of 1.1 to 2 m/s² are no records in g; the one of .35 g next to them is of a line of its own."""
+    for place, peak in enumerate((0.35, *np.geomspace(1.1, 2.0, 7))):
+        (tmp_path / f"{place}.txt").write_text(pairs(peak))
+    write_asked(tmp_path)
+    answer_all(tmp_path, {"0.txt": "t, a g", "1.txt": "t, a g"})
+    catalogue = catalogue_of_folder(tmp_path)
+    assert [bool(file.refusal) for file in catalogue.files] == [False] + 7 * [True]
+    assert "7 of its 7 files would be above 1 g" in catalogue.files[1].refusal
+    assert catalogue.layouts is not None
+    (tmp_path / NAME).write_text(catalogue.layouts)
+    rows = {row["file"]: row for row in csv.DictReader(catalogue.layouts.splitlines())}
+    assert (rows["0.txt"]["answer"], rows["0.txt"]["tried"]) == ("t, a g", "1 file, 0.35–0.35 g")
+    assert rows["1.txt"]["answer"] == "? t, a g" and "would be above 1 g" in rows["1.txt"]["tried"]
+    assert read(tmp_path / "0.txt")  # and at every other door the answer is open again
+    with pytest.raises(AskedError):
+        read(tmp_path / "1.txt")
+    answer_all(tmp_path, {"1.txt": "t, a g"})  # a person insists
+    again = catalogue_of_folder(tmp_path)
+    assert not any(file.refusal for file in again.files) and again.layouts is None
+    rows["1.txt"]["answer"] = "t, a m/s2"
+    with (tmp_path / NAME).open("w") as stream:
+        writer = csv.DictWriter(stream, list(rows["1.txt"]))
+        writer.writeheader()
+        writer.writerows(rows.values())
+    assert read(tmp_path / "7.txt")[0].peak_acceleration == pytest.approx(2.0, rel=1e-4)
+    assert "7 files, 0.112–0.204 g" in (catalogue_of_folder(tmp_path).layouts or "")
