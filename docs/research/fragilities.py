@@ -68,7 +68,7 @@ def method_scores(
     name: str, structure: Structure, records: Sequence[Accelerogram], sines: Sequence[Sequence[Pulse]]
 ) -> Iterator[scores.Score]:
     """Yield the scores of every method for one structure, against the mechanism at TIGHT. sines: best first."""
-    follow = partial(fragility, records, structure, intensity_measure="pgv", **ALL_LEVELS)
+    follow = partial(fragility, records, structure, intensity_measure="pgv", contacts=False, **ALL_LEVELS)
     with_ensemble = partial(follow, ensemble=EnsembleSettings())
     reference = responses_behind(follow(tolerance=TIGHT))
     levels, exact = reference.levels, np.isinf(reference.rotation_ratios).mean(axis=2)
@@ -169,7 +169,9 @@ def real_sites(target: Target) -> Iterator[tuple[str, RealSites]]:
     motions = [component.accelerogram for component in components]
     tried = {name: structure for name, structure in sites.structures_tried().items() if name in TRIED}
     for name, structure in {"stone pier, 2 by 9 m": Block.of_size(2.0, 9.0), **tried}.items():
-        analysis = responses_behind(fragility(motions, structure, stations=labels, **ALL_LEVELS))
+        analysis = responses_behind(
+            fragility(motions, structure, stations=labels, contacts=False, **ALL_LEVELS)
+        )
         shares = np.isinf(analysis.rotation_ratios).mean(axis=2)
         reached = analysis.factors <= LARGEST_FACTOR
         sample = analysis.sample

@@ -115,7 +115,9 @@ def scatter_scores(
 
 def scatter_of(structure: Structure, motions: Sequence[Accelerogram], stations: Sequence[str]) -> Scatter:
     """Return the outcomes of every record at 40 levels of FIRST, and what they are in every measure."""
-    curve = fragility(motions, structure, intensity_measure=FIRST, stations=stations, **ALL_LEVELS)
+    curve = fragility(
+        motions, structure, intensity_measure=FIRST, stations=stations, contacts=False, **ALL_LEVELS
+    )
     analysis = responses_behind(curve)
     mechanism = structure.mechanism()
     factors = np.log(analysis.levels) - np.log(analysis.intensities)[:, None]

@@ -121,17 +121,23 @@ def _parts(structure: Laid) -> list[Laid]:
 
 
 def contact_share(
-    structure: Laid, motions: GroundMotions, settings: AssessmentSettings | None = None, runs: int = RUNS
+    structure: Laid,
+    motions: GroundMotions,
+    settings: AssessmentSettings | None = None,
+    runs: int = RUNS,
+    *,
+    until_sure: bool = True,
 ) -> ContactShare:
     """Return how many stacks of the structure fall, of a wall whose leaves may part those of the part that falls most.
 
-    Of a part that is one body its mechanism says more.
+    Of a part that is one body its mechanism says more. until_sure: whether runs end once the rest cannot change the
+    word, which the strongest come first for; the share of all is asked else.
     """
     parts = _parts(structure)
     laid = [part for part in parts if len(parts) == 1 or _courses_of(part) != 1]
     worst = ContactShare(reason="one rigid body moves as its mechanism does, whose members say more")
     for part in laid:
-        share = _share_of(part, motions, settings or AssessmentSettings(), runs)
+        share = _share_of(part, motions, settings or AssessmentSettings(), runs, until_sure)
         if not share.runs:
             return share
         if not worst.runs or share.falls * worst.runs > worst.falls * share.runs:
@@ -140,15 +146,16 @@ def contact_share(
 
 
 def _share_of(
-    structure: Laid, motions: GroundMotions, settings: AssessmentSettings, runs: int
+    structure: Laid, motions: GroundMotions, settings: AssessmentSettings, runs: int, until_sure: bool
 ) -> ContactShare:
     """Return how many stacks of one part fall, between AMPLITUDES and at STEPS.
 
     Every direction of a pair, of unlike sides every other one with both signs of the motion, is followed at as many
-    amplitudes, at which steps and stacks take turns: so that there are `runs` in all. The strongest come first, and no
-    more are followed once the rest cannot change the word. The bodies are those of the mechanism where the crack is
-    known and nothing holds it, else the courses that `Structure.stack` gives; a tapering member that does not state its
-    courses is followed with COURSES and MANY_COURSES in turn. An arch or a portal is followed as its stones.
+    amplitudes, at which steps and stacks take turns: so that there are `runs` in all. The strongest come first, and
+    until_sure no more are followed once the rest cannot change the word. The bodies are those of the mechanism where
+    the crack is known and nothing holds it, else the courses that `Structure.stack` gives; a tapering member that does
+    not state its courses is followed with COURSES and MANY_COURSES in turn. An arch or a portal is followed as its
+    stones.
     """
     both = signs(structure, settings)
     every = [motions.horizontal[direction] for direction in directions(motions)[:: len(both)]]
@@ -181,7 +188,7 @@ def _share_of(
                     step_of(falls=count, members=len(cases), risk=settings.ensemble.risk)
                     for count in (falls, falls + left)
                 ]
-                if words[0] is words[1]:
+                if until_sure and words[0] is words[1]:
                     break
     except RockingError as error:
         return ContactShare(reason=str(error))

@@ -19,8 +19,9 @@ from scipy.special import erfcx, ndtr, stdtr, stdtrit
 
 from rocking.assessment.cracks import counting_cracks, never_overturns_because
 from rocking.assessment.ensemble import drawn, lattice
+from rocking.assessment.falls import Falls, Model, falls_under
 from rocking.assessment.motions import GroundMotions
-from rocking.assessment.settings import EnsembleSettings
+from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.drawn import Drawn
 from rocking.earthquakes.sample import Sample
 from rocking.errors import ConfigurationError, StructureError
@@ -106,6 +107,11 @@ class Fragility(Drawn):
         Responses behind the curve; None of outcomes alone.
     unreached : tuple of float, default ()
         Levels that were asked for and left out, because no two stations reach them.
+    upper : Fragility or None, optional
+        The curve in which what cannot be told falls, where that is another one: the truth lies between both.
+    by : str, default 'mechanism'
+        What the curve is of: the mechanism, contact dynamics where that was asked, or the mechanism alone, which is
+        the lower end.
 
     Examples
     --------
@@ -134,6 +140,8 @@ class Fragility(Drawn):
     threshold: float = np.inf
     analysis: "IncrementalDynamicAnalysis | None" = None
     unreached: tuple[float, ...] = ()
+    upper: "Fragility | None" = None
+    by: str = "mechanism"
 
     def __repr__(self) -> str:
         low, high = self.interval
@@ -142,8 +150,11 @@ class Fragility(Drawn):
         unreached = listed([f"{level:g}" for level in self.unreached])
         if (gap := self.gap) is not None:
             interval = f"between levels {gap[0]:.3g} and {gap[1]:.3g}, too far apart for an interval"
+        median = f"{self.median:.3g}"
+        if self.upper is not None and self.upper.median < self.median:
+            median = f"from {self.upper.median:.3g} to {median}"
         return (
-            f"<Fragility: median {self.measure} {self.median:.3g}{unit} ({interval}), "
+            f"<Fragility by {self.by}: median {self.measure} {median}{unit} ({interval}), "
             f"{counted(len(self.stations), 'record')} of {self.sample.words}"
             f"{f'; no two stations reach {unreached}' if unreached else ''}>"
         )
@@ -171,7 +182,18 @@ class Fragility(Drawn):
         """
         if self.measure:
             hazard.check_measure(self.measure)
-        return annual_rate(self.levels, self.probability, self.exceedance, self.sample, hazard)
+        rate = annual_rate(self.levels, self.probability, self.exceedance, self.sample, hazard)
+        if self.upper is None:
+            return rate
+        # What cannot be told falls, or does not: the rate lies between both ends, and is neither.
+        most = self.upper.annual_rate(hazard)
+        return replace(
+            rate,
+            value=math.nan,
+            high=most.high,
+            remainder=max(rate.remainder, most.remainder),
+            of_quantiles=dict.fromkeys(rate.of_quantiles, math.nan),
+        )
 
     def to_nrml(self, path: str | Path, *, name: str = "structure", lognormal: bool = False) -> None:
         """Write the curve as a fragility model of OpenQuake, NRML 0.5: discrete, or with two parameters of a lognormal.
@@ -368,7 +390,8 @@ class IncrementalDynamicAnalysis:
     measure: of the levels. levels: (k,) ascending. rotation_ratios: (r, k, m) of every record, level and member, with
     the crack that statics chooses where some may form; inf overturns or cannot be followed, nan where a cloud holds no
     such case. governing_ratios: the same with the worst of all cracks, member by member; None where they were not
-    followed. intensities: (r,) of the records as they are. sample: their stations and earthquakes.
+    followed. intensities: (r,) of the records as they are. sample: their stations and earthquakes. falls: of each
+    record (r) at each level (k), with the crack that governs; None where no level was tried.
     """
 
     measure: IntensityMeasure
@@ -377,6 +400,7 @@ class IncrementalDynamicAnalysis:
     intensities: np.ndarray
     sample: Sample
     governing_ratios: np.ndarray | None = None
+    falls: Sequence[Sequence[Falls | None]] = ()
 
     def __repr__(self) -> str:
         records, levels, members = self.rotation_ratios.shape
@@ -399,6 +423,35 @@ class IncrementalDynamicAnalysis:
         ratios = self.rotation_ratios if worst is None else worst
         above = np.isinf(ratios) | (ratios > threshold)
         exceedance = np.where(np.isnan(ratios), np.nan, above).mean(axis=2)
+        upper = None
+        by = "mechanism"
+        if math.isinf(threshold) and self.falls and (governing or self.governing_ratios is None):
+            ends = np.array(
+                [
+                    [(np.nan, np.nan) if one is None else (one.low, one.high) for one in of_record]
+                    for of_record in self.falls
+                ]
+            )
+            exceedance = ends[:, :, 0]
+            upper = self._curve(ends[:, :, 1], threshold) if (ends[:, :, 1] > exceedance).any() else None
+            models = {one.by for of_record in self.falls for one in of_record if one is not None}
+            if upper is not None:
+                by = "mechanism alone, the lower end"
+            elif Model.CONTACTS in models:
+                by = "mechanism and contact dynamics"
+        curve = self._curve(exceedance, threshold)
+        if upper is None:
+            return replace(curve, by=by)
+        # A lognormal curve of one end is none of both, and the median lies between the outer ends.
+        unknown = np.full(self.levels.size, np.nan)
+        if upper.median < curve.median:
+            curve = replace(
+                curve, lognormal=unknown, lognormal_median=math.nan, dispersion=math.nan, misfit=math.nan
+            )
+        return replace(curve, upper=upper, by=by, interval=(upper.interval[0], curve.interval[1]))
+
+    def _curve(self, exceedance: np.ndarray, threshold: float) -> Fragility:
+        """The curve of shares (r, k) of the members of each record."""
         curve = fragility_of(self.levels, exceedance, self.sample)
         name = self.measure.name
         unit = self.measure.unit
@@ -420,10 +473,13 @@ def fragility(
     largest_factor: float = LARGEST_FACTOR,
     tolerance: float = 1e-6,
     support: Support | None = None,
+    contacts: bool = True,
 ) -> Fragility:
     """Return the fragility of `structure` under `records`.
 
-    It is that of what governs. What cannot be followed counts as overturning.
+    It is that of what governs, and says of overturning what the decision would: where that asks for contact dynamics,
+    some stacks are followed; what cannot be told falls in its `upper` alone. What cannot be followed counts as
+    overturning.
 
     Parameters
     ----------
@@ -458,6 +514,8 @@ def fragility(
     support : Support or None, optional
         Support on which the structure stands and whose motion it meets; the intensity stays that of the
         ground.
+    contacts : bool, default True
+        Whether contact dynamics follows what the decision would not leave to mechanisms; False: it cannot be told.
 
     Returns
     -------
@@ -518,9 +576,34 @@ def fragility(
     worst = ratios if over_cracks and others else None
     for other in others if over_cracks else ():
         worst = follow(other.mechanism, factors, worst)
-    analysis = IncrementalDynamicAnalysis(measure, chosen, ratios, intensities, sample, worst)
+    varied = AssessmentSettings(ensemble=ensemble or EnsembleSettings(), tolerance=tolerance)
+    told = partial(_falls_of, body, varied, contacts)
+    falls: list[list[Falls | None]] = []
+    if over_cracks:
+        with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+            falls = list(pool.map(told, carried, factors, ratios if worst is None else worst))
+    analysis = IncrementalDynamicAnalysis(measure, chosen, ratios, intensities, sample, worst, falls)
     beyond = () if levels is None else tuple(float(level) for level in levels if level > chosen[-1])
     return replace(analysis.fragility(threshold, governing=True), unreached=beyond)
+
+
+def _falls_of(
+    structure: Structure,
+    settings: AssessmentSettings,
+    contacts: bool,
+    record: Accelerogram,
+    factors: np.ndarray,
+    ratios: np.ndarray,
+) -> list[Falls | None]:
+    """What falls at each factor (k,) on a record, of rotation ratios (k, m); None where it was not tried."""
+    return [
+        None
+        if math.isnan(factor)
+        else falls_under(
+            structure, GroundMotions.of(record.scaled(factor)), members, settings, contacts=contacts
+        )
+        for factor, members in zip(factors.tolist(), ratios, strict=True)
+    ]
 
 
 def checked_sample(sample: Sample) -> Sample:

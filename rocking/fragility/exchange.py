@@ -43,23 +43,30 @@ class FragilityCurve(Protocol):
     def lognormal_median(self) -> float: ...
     @property
     def dispersion(self) -> float: ...
+    @property
+    def upper(self) -> "FragilityCurve | None": ...
 
 
 def nrml(curves: Mapping[str, FragilityCurve], lognormal: bool) -> bytes:
     """Return the fragility model of curves of one threshold, by the names of their classes, NRML 0.5.
 
     Levels where nothing was tried are left out. A lognormal of median m and dispersion β has the mean m exp(β²/2) and
-    the standard deviation mean √(exp(β²) − 1), which are what OpenQuake asks for.
+    the standard deviation mean √(exp(β²) − 1), which are what OpenQuake asks for. Of a curve with an upper end that one
+    is written, on the safe side, and the description says so.
     """
     threshold = next(iter(curves.values())).threshold
     state = "overturning" if math.isinf(threshold) else f"rotation_{threshold:g}"
     root = ElementTree.Element("nrml", xmlns=_NRML)
     model = ElementTree.SubElement(root, "fragilityModel", _MODEL)
     over = dict.fromkeys(f"{curve.measure}, {curve.sample.words}" for curve in curves.values())
-    ElementTree.SubElement(model, "description").text = f"{state} over {'; '.join(over)}"
+    ends = [name for name, curve in curves.items() if curve.upper is not None]
+    safe = f"; upper ends, in which what cannot be told falls (it slides first, or contacts open): {', '.join(ends)}"
+    ElementTree.SubElement(
+        model, "description"
+    ).text = f"{state} over {'; '.join(over)}{safe if ends else ''}"
     ElementTree.SubElement(model, "limitStates").text = state
     for name, curve in curves.items():
-        _add_function(model, curve, name, state, lognormal)
+        _add_function(model, curve.upper or curve, name, state, lognormal)
     return _written(root)
 
 

@@ -246,7 +246,8 @@ def _untold(rows: Sequence[FragilitySummaryRow]) -> str:
     return (
         " A rate is given by both ends alone where fewer than nine in ten stations reach the level at which half of it "
         "is made: the lower one if the others never overturn there, the upper one if they do at once; a larger factor "
-        "or stronger records tell it."
+        "or stronger records tell it. So it is where the mechanism alone is the lower end of the curve, since what "
+        "slides first, or whose contacts open, may fall."
     )
 
 
@@ -259,7 +260,10 @@ def _rate_with_interval(row: FragilitySummaryRow) -> str:
 def _with_interval(row: FragilitySummaryRow, measure: str = "") -> str:
     """Return the median with its interval, and with name and unit of its intensity measure if that is named."""
     ends = f"{number(row.median_low, 2)}–{number(row.median_high, 2)}" if row.median_low > 0 else "–"
-    text = f"{number(row.median, 2)} ({ends})"
+    median = number(row.median, 2)
+    if row.median_upper < row.median:
+        median = f"{number(row.median_upper, 2)} to {median}, by the {row.by}"
+    text = f"{median} ({ends})"
     return f"{measure} {text} {_unit(measure)}" if measure else text
 
 

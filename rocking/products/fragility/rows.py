@@ -298,6 +298,11 @@ class FragilitySummaryRow(CurveRow[SummarisedCurve]):
     median: float = of_summary(
         "Level at which the empirical curve crosses one half; INF: it does not", lambda of: of.curve.median
     )
+    by: str = of_summary("What the curve is of", lambda of: of.curve.by)
+    median_upper: float = of_summary(
+        "The median of the curve in which what cannot be told falls; the median where all can be told",
+        lambda of: of.curve.upper.median if of.curve.upper else of.curve.median,
+    )
     median_low: float = of_summary(
         "Lower end of the 90 % interval of the median, by earthquakes; 0: there is none",
         lambda of: of.median_low,

@@ -149,6 +149,7 @@ def _curves_of(
                 ensemble=study.settings.ensemble if settings.members else None,
                 tolerance=study.settings.tolerance,
                 support=support,
+                contacts=study.settings.fidelity != "quick",
             )
         # Periods of one structure may be such that few records have the measure.
         except RockingError as error:
