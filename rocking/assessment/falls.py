@@ -9,12 +9,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rocking.assessment.contacts import contact_share, doubt, stackable
-from rocking.assessment.cracks import counting_cracks, sliding_first
+from rocking.assessment.contacts import contact_share, stackable
+from rocking.assessment.cracks import counting_cracks, sliding_first, weakest_not_followed
 from rocking.assessment.decide import FAR
+from rocking.assessment.evidence.bodies import why_open
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.structures import Structure
+from rocking.structures.leaves import parts_of
 
 DRAWS = 6
 """Runs of contact dynamics of one motion: of many records, whose spread is larger than that of draws."""
@@ -62,7 +64,7 @@ def falls_under(
     if structure.as_stones:
         asks = structure.needs_stones or largest > FAR
         return Falls(share, 1.0, Model.NONE) if asks else told
-    if doubt(structure, motions, largest, settings) is None:
+    if not _is_in_doubt(structure, motions, largest, settings):
         return told
     if contacts and stackable(structure):
         runs = contact_share(structure, motions, settings, DRAWS, until_sure=False)
@@ -70,3 +72,20 @@ def falls_under(
             worse = max(share, runs.falls / runs.runs)
             return Falls(worse, worse, Model.CONTACTS)
     return Falls(share, 1.0, Model.NONE)
+
+
+def _is_in_doubt(
+    structure: Structure, motions: GroundMotions, largest: float, settings: AssessmentSettings
+) -> bool:
+    """Whether the decision would not leave what lifts to its members: evidence that only contact dynamics settles.
+
+    A mechanism that cannot be followed, courses that may be thrown, contacts that open. largest: rotation ratio of all.
+    """
+    reached = motions.excitation * (1 + settings.ensemble.amplitude_range)
+    for _, part in parts_of(structure):
+        unknown = weakest_not_followed(part)
+        if unknown is not None and reached > unknown.uplift_multiplier:
+            return True
+        if part.tapers or why_open(part, motions, largest, settings) is not None:
+            return True
+    return False
