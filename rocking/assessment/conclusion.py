@@ -1,12 +1,12 @@
 """The conclusion on each structure: made once of the rows of the tables, and the same wherever a person reads it."""
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from rocking.assessment.decide import Severity, Verdict
+from rocking.assessment.decide import ONE_RUN, Severity, Verdict
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.rows import (
     ComparisonRow,
@@ -147,10 +147,20 @@ def worst_of_each(made: Iterable[Conclusion]) -> list[Conclusion]:
     return list(worst.values())
 
 
-def conclusion_in_words(words: Mapping[str, Verdict], records: int = 1) -> str:
+def fallen_in_one_run(made: Iterable[Conclusion]) -> frozenset[str]:
+    """Return the structures that fall in the one run that was made of them, where no ensemble was followed."""
+    decided = ((conclusion.verdict.structure, conclusion.verdict.decision) for conclusion in made)
+    return frozenset(
+        name for name, decision in decided if decision.share_in_words == ONE_RUN and decision.share == 1
+    )
+
+
+def conclusion_in_words(
+    words: Mapping[str, Verdict], records: int = 1, fallen: Collection[str] = frozenset()
+) -> str:
     """Return the sentence on all structures, by name the worst word of each: "4 of 12 structures overturn …".
 
-    records: under which that is.
+    records: under which that is. fallen: those of them that fall in one run and are uncertain for want of an ensemble.
 
     >>> from rocking.assessment.conclusion import conclusion_in_words
     >>> from rocking.assessment.decide import Verdict
@@ -160,6 +170,8 @@ def conclusion_in_words(words: Mapping[str, Verdict], records: int = 1) -> str:
     'All 2 structures stand under every record.'
     >>> conclusion_in_words({"pier": Verdict.UNCERTAIN})
     'pier is uncertain.'
+    >>> conclusion_in_words({"pier": Verdict.UNCERTAIN, "wall": Verdict.UNCERTAIN}, fallen={"pier"})
+    '1 of 2 structures falls in its one run, without an ensemble; 1 is uncertain.'
     """
     every = len(words)
     some = " under some record" if records > 1 else ""
@@ -178,7 +190,15 @@ def conclusion_in_words(words: Mapping[str, Verdict], records: int = 1) -> str:
     of_them = f"All {every}" if falling == every else f"{falling or 'None'} of {every}"
     does = "overturns or probably does" if falling <= 1 else "overturn or probably do"
     under = some.replace("some", "any") if not falling else some
+    # Nothing overturns for sure in one run: the word alone would read as if nothing fell.
+    counted_fallen = [name for name in fallen if words.get(name) is Verdict.UNCERTAIN]
+    if counted_fallen and not falling:
+        of_them = f"{len(counted_fallen)} of {every}"
+        does = "falls in its one run" if len(counted_fallen) == 1 else "fall in their one run"
+        does += ", without an ensemble"
+        under = some
     uncertain = sum(word is Verdict.UNCERTAIN for word in words.values())
+    uncertain -= 0 if falling else len(counted_fallen)
     verb = "is" if uncertain == 1 else "are"
     # Unsaid, a structure of which half the members fall would be read as one that stands.
     open_ = [f"{uncertain} {verb} uncertain"] if uncertain else []

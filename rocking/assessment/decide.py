@@ -18,6 +18,8 @@ UNANIMOUS = 64
 """Members of which none overturns, or none stands, that settle a verdict."""
 FAR = 0.3
 """Rotation ratio that fewer members must all stay below to settle that the structure stands."""
+ONE_RUN = "one run"
+"""The share, in words, of what was followed once, without an ensemble."""
 LATTICE_ERROR = 4.0
 """Members times the error of a probability that all but few cases stay below; `calibrate_ensemble` counts them."""
 
@@ -363,10 +365,17 @@ class Decision:
             return ""
         one_run = any(remark.kind is AssessmentKind.ENSEMBLE for remark in self.would_settle)
         if one_run and low == high and self.word.badness <= Verdict.UNCERTAIN.badness:
-            return "one run"  # but not where stacks add to it, or say worse
+            return ONE_RUN  # but not where stacks add to it, or say worse
         if self._is_a_least_share:
             return f"at least {percents(low)}" if low else ""
         return percents(low, high)
+
+    @property
+    def odds(self) -> str:
+        """The share in tenths, where it is neither about 0 nor about 1 nor a range: "3 in 10 fall"; else ""."""
+        low, high = self.interval
+        tenths = 0 if math.isnan(low) or low != high or self.share_in_words == ONE_RUN else round(10 * low)
+        return f"{tenths} in 10 fall" if 0 < tenths < 10 else ""
 
     @property
     def share_in_a_cell(self) -> str:

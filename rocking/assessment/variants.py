@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from rocking.assessment.conclusion import Conclusion
-from rocking.assessment.decide import Verdict
+from rocking.assessment.decide import Verdict, share_error
 from rocking.tables import Columns, RowOf, row
 
 
@@ -42,6 +42,13 @@ class Variant:
     def share_difference(self) -> float:
         """Its share minus that of the first; nan of the first itself."""
         return self.share - self.first.share if self.first else math.nan
+
+    @property
+    def shows_difference(self) -> bool:
+        """Whether its share differs from that of the first by more than both err for their number of members."""
+        both = [each.conclusion.verdict for each in (self, self.first) if each and each.conclusion]
+        error = sum(share_error(falls=row.overturning_members, members=row.members) for row in both)
+        return abs(self.share_difference) > error
 
     @property
     def reserve_ratio(self) -> float:

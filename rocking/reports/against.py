@@ -285,6 +285,7 @@ def compared_in_words(moving: Moving, structure: Structure, several: bool) -> Co
         f"under {case.component}" if several and case.component else "",
         f"T_b {period:.3g} s" if period else "on the ground" if period == 0 else "",
         crack,
+        least_uplift(case, structure),
     ]
     return ComparedWords(
         name=case.structure,
@@ -301,6 +302,13 @@ def compared_in_words(moving: Moving, structure: Structure, several: bool) -> Co
         form="falls later" if both_fall and not case.sees_fall else in_words(case.predicted_rotation_ratio),
         whole=in_words(case.integrated_rotation_ratio),
     )
+
+
+def least_uplift(case: ComparisonRow, structure: Structure) -> str:
+    """Return the least λ of all cracks where that of the row is another one: "least λ 0.195"."""
+    least = structure.mechanism().uplift_multiplier
+    is_another = number(least) != number(case.uplift_multiplier) and least < case.uplift_multiplier
+    return f"least λ\u00a0{number(least)}" if is_another else ""
 
 
 def sizes_of(name: str, structure: Structure) -> str:

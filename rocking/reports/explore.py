@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 
 from rocking.assessment.case import PeriodResult, RecordResult
 from rocking.assessment.conclusion import conclusion_in_words, conclusions, worst_cases
-from rocking.assessment.decide import Verdict, worse, worst_first
+from rocking.assessment.decide import ONE_RUN, Verdict, worse, worst_first
 from rocking.assessment.rows import ComparisonRow, RecordRow, RecordRows, RemarkRow
 from rocking.assessment.scene import placed
 from rocking.errors import FaultError, one_structure
@@ -242,12 +242,15 @@ def explore_page(
 def _conclusion(records: Sequence[Content]) -> str:
     """The sentence on all structures, each by its worst verdict under a record that gave one."""
     words: dict[str, Verdict] = {}
+    fallen = set()
     judged = _judged(records)
     for record in judged:
         for name, case in record["cases"].items():
             if case["severity"] != _NONE:
                 words[name] = worse(Verdict(case["verdict"]), words.get(name, Verdict.CANNOT_OVERTURN))
-    return conclusion_in_words(words, len(judged))
+                if case["severity"][1] == 1 and case.get("cell", "").endswith(ONE_RUN):
+                    fallen.add(name)
+    return conclusion_in_words(words, len(judged), fallen)
 
 
 def _judged(records: Sequence[Content]) -> list[Content]:

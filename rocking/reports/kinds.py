@@ -23,7 +23,7 @@ class ReportKind(Kind):
     # What a strip of variants says of each against the first.
     THE_FIRST = auto(), "the first"
     SHARE_DIFFERS = auto(), "{points} points of share"
-    SAME_SHARE = auto(), "same share"
+    SAME_SHARE = auto(), "no difference of share shown"
     RESERVE_DIFFERS = auto(), "reserve × {ratio}"
     NO_DIFFERENCE = auto(), "not comparable"
     RESERVE_OF_VARIANT = auto(), "5–50 % fall at {reserve} × the record"

@@ -8,7 +8,7 @@ from rocking.assessment.conclusion import UNSAID, Conclusion, worst_of_each
 from rocking.assessment.decide import ORDER, Verdict, worst_first
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.rows import PulseRow, RecordRow
-from rocking.quantities import GRAVITY, percents
+from rocking.quantities import GRAVITY, listed, percents
 from rocking.reports.pages import Chip, Matrix, MatrixHead, MatrixRow
 from rocking.reports.printing import NOTHING, chip, number
 
@@ -32,11 +32,14 @@ def matrix(made: Sequence[Conclusion], records: Sequence[RecordRow], pulses: Seq
     Without rows where there are more records than stand next to each other. made: the conclusions on all. The legend is
     empty where the cells hold their words.
     """
-    columns = worst_first((conclusion.verdict.record, conclusion.severity) for conclusion in made)
+    every = worst_first((conclusion.verdict.record, conclusion.severity) for conclusion in made)
+    turned = {conclusion.verdict.record for conclusion in made if conclusion.verdict.rotation_ratio != 0}
+    columns = [record for record in every if record in turned] or every
+    still = [record for record in every if record not in columns]
     by_pair = {(conclusion.verdict.record, conclusion.verdict.structure): conclusion for conclusion in made}
     worst = {conclusion.verdict.structure: conclusion for conclusion in worst_of_each(made)}
     names = worst_first((conclusion.verdict.structure, conclusion.severity) for conclusion in made)
-    if not 0 < len(columns) <= MOST_RECORDS:
+    if not 0 < len(every) <= MOST_RECORDS:
         return Matrix()
     shown = names[:MOST_STRUCTURES]
     has_room = len(columns) <= MOST_WITH_ALL
@@ -57,17 +60,18 @@ def matrix(made: Sequence[Conclusion], records: Sequence[RecordRow], pulses: Seq
             )
             for name in shown
         ),
-        note=" ".join(filter(None, _note(in_words, len(names) - len(shown)))),
+        note=" ".join(filter(None, _note(in_words, len(names) - len(shown), still))),
     )
 
 
-def _note(in_words: bool, more: int) -> tuple[str, ...]:
-    """What the cells mean, and how many structures have no row."""
+def _note(in_words: bool, more: int, still: Sequence[str]) -> tuple[str, ...]:
+    """What the cells mean, how many structures have no row, and which records no column, for nothing lifts there."""
     share = "Share: the largest that overturns, of members or stacks." if in_words else ""
     return (
         share,
         "Range: cracks or models disagree.",
         f"Another {more} in verdicts.csv." if more > 0 else "",
+        f"Nothing lifts under {listed(still)}." if still else "",
     )
 
 

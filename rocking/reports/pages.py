@@ -221,13 +221,14 @@ class Marks:
 
 @dataclass(frozen=True, kw_only=True)
 class Row:
-    """The row of a structure on page one. below: its sizes, and λ with where it stands. alone: its reserve is that of
-    the mechanism alone."""
+    """The row of a structure on page one. below: its sizes, and λ with its crack and the least one. odds: the share in
+    tenths. alone: its reserve is that of the mechanism alone."""
 
     name: str
     below: str
     drawing: tuple[Picture, ...]
     chip: Chip
+    odds: str
     marks: Marks
     reserve: str
     alone: bool

@@ -17,6 +17,7 @@ from rocking.assessment.conclusion import (
     Conclusion,
     conclusion_in_words,
     conclusions,
+    fallen_in_one_run,
     to_check,
 )
 from rocking.assessment.cracks import cracked, crushing_factor, part_cracked
@@ -38,7 +39,7 @@ from rocking.quantities import GRAVITY, counted, listed, percent, percents
 from rocking.records.formats.text import day_of
 from rocking.remarks import Kind, Remark
 from rocking.reports import printing
-from rocking.reports.against import against, comparison_of, sizes_of, traces_of
+from rocking.reports.against import against, comparison_of, least_uplift, sizes_of, traces_of
 from rocking.reports.drawings import Trace, drawn_by_hand, sine_lines, sketch, svg_path, thinned
 from rocking.reports.kinds import ReportKind
 from rocking.reports.pages import (
@@ -150,7 +151,8 @@ class RecordReport:
                     {
                         conclusion.verdict.structure: conclusion.verdict.decision.word
                         for conclusion in self.conclusions
-                    }
+                    },
+                    fallen=fallen_in_one_run(self.conclusions),
                 ),
                 at_design_level=_NO_DEMAND if self.level else "",
                 notices=tuple(_notices(self)),
@@ -438,12 +440,16 @@ def structure_row(conclusion: Conclusion, structure: Structure | None) -> Row:
     period = verdict.support_period_s
     place = "" if period is None else f"T_b {period:.3g}\u00a0s" if period else "on the ground"
     sizes = sizes_of(verdict.structure, structure) if structure is not None else ""
-    of_uplift = f"λ\u00a0{number(conclusion.case.uplift_multiplier)}" if conclusion.case else ""
+    case = conclusion.case
+    of_uplift = [f"λ\u00a0{number(case.uplift_multiplier)}", case.crack] if case else []
+    of_uplift += [least_uplift(case, structure)] if case and structure else []
+    uplift = ", ".join(filter(None, of_uplift))
     return Row(
         name=verdict.structure,
-        below="; ".join(filter(None, (sizes, of_uplift, place, _known_crack(structure, verdict)))),
+        below="; ".join(filter(None, (sizes, uplift, place, _known_crack(structure, verdict)))),
         drawing=drawing,
         chip=chip(decision.word, decision.share_in_words),
+        odds=decision.odds,
         marks=Marks(
             form=_place(closed_form),
             block=_place(block),

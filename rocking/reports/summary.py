@@ -13,6 +13,7 @@ from matplotlib.ticker import MaxNLocator
 from rocking.assessment.conclusion import (
     conclusion_in_words,
     conclusions,
+    fallen_in_one_run,
     falls_in_words,
     to_check,
     worst_of_each,
@@ -167,7 +168,9 @@ def _page(
         strips=tuple(strips),
         subtitle=f"{counted(len(judged), 'record')}, "
         f"{counted(len(rows_of(StructureRow, rows)), 'structure')}",
-        conclusion=conclusion_in_words(words_of_all, len(judged)),
+        conclusion=conclusion_in_words(
+            words_of_all, len(judged), fallen_in_one_run(worst_of_each(concluded))
+        ),
         falls=falls_in_words(rows_of(ExpectedFallsRow, rows)),
         conclusions=tuple(other_conclusions),
         matrix=matrix(concluded, records, pulses),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from html import escape
 from types import MappingProxyType
@@ -70,7 +70,10 @@ def _cells(
             turned[variant.name],
             min(scales),
             words,
-            notes.get(variant.name, ()),
+            [
+                *notes.get(variant.name, ()),
+                *_changes(structures.get(variant.structure), structures[variant.name]),
+            ],
         )
         for variant in row
         if variant.name in turned
@@ -110,20 +113,33 @@ def _cell(
     )
 
 
+def _changes(first: Structure | None, own: Structure) -> Iterator[str]:
+    """Yield what a variant changes of the first, as it was typed; nothing of the first itself."""
+    if first is None or first is own:
+        return
+    before = {given.field.key: given.text for given in first.described.values}
+    now = {given.field.key: given for given in own.described.values}
+    changed = [given.field.phrased(given.text) for key, given in now.items() if before.get(key) != given.text]
+    left = [f"no {key}" for key in before if key not in now]
+    if changed or left:
+        yield ", ".join([*changed, *left])
+
+
 def _difference(variant: Variant, words: Sentences) -> str:
     """By how much the share and the reserve differ from those of the first, where both are known."""
     if variant.first is None:
         return words.of(Remark(ReportKind.THE_FIRST))
     differences = []
-    if not math.isnan(variant.share_difference):
-        points = round(100 * variant.share_difference)
-        signed = f"{points:+d}".replace("-", "−")
-        differences.append(
-            Remark.of(ReportKind.SHARE_DIFFERS, points=signed) if points else Remark(ReportKind.SAME_SHARE)
-        )
     if not math.isnan(variant.reserve_ratio):
         ratio = words.number(variant.reserve_ratio, 2)
         differences.append(Remark.of(ReportKind.RESERVE_DIFFERS, ratio=ratio))
+    if not math.isnan(variant.share_difference):
+        points = round(100 * variant.share_difference)
+        signed = f"{points:+d}".replace("-", "−")
+        is_shown = points and variant.shows_difference
+        differences.append(
+            Remark.of(ReportKind.SHARE_DIFFERS, points=signed) if is_shown else Remark(ReportKind.SAME_SHARE)
+        )
     return ", ".join(map(words.of, differences or [Remark(ReportKind.NO_DIFFERENCE)]))
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from rocking.assessment.conclusion import (
     conclusion_in_words,
     conclusions,
+    fallen_in_one_run,
     falls_in_words,
     to_check,
     worst_of_each,
@@ -106,7 +107,8 @@ def closing_lines(
     if worst:
         count = f"{counted(records, 'record')}, {counted(len(worst), 'structure')}. "
         words = {conclusion.verdict.structure: conclusion.verdict.decision.word for conclusion in worst}
-        for said in (count + conclusion_in_words(words, records), falls_in_words(expected)):
+        said_of_all = conclusion_in_words(words, records, fallen_in_one_run(worst))
+        for said in (count + said_of_all, falls_in_words(expected)):
             yield from wrap(said, WIDTH)
         yield "Rotation over critical rotation of the worst structures, each under its worst record; the first by"
         yield "verdict, share, then reserve (5 and 50 % overturn at × the record):"

@@ -154,3 +154,13 @@ def test_a_reserve_never_contradicts_the_share_at_the_record_itself(share):
         ):
             assert factor <= 1 if share >= reached else not factor < 1
             assert factor in (1.0, before) or math.isnan(before)
+
+
+def test_without_an_ensemble_what_falls_in_its_one_run_is_counted():
+    words = dict.fromkeys("abcd", Verdict.UNCERTAIN) | {"e": Verdict.STANDS}
+    assert conclusion_in_words(words, fallen={"a", "b"}) == (
+        "2 of 5 structures fall in their one run, without an ensemble; 2 are uncertain."
+    )
+    assert conclusion_in_words(words | {"a": Verdict.OVERTURNS}, fallen={"b"}).startswith(
+        "1 of 5 structures overturns"
+    )

@@ -4,6 +4,7 @@ import itertools
 import json
 import math
 import re
+from dataclasses import replace
 
 import pytest
 from matplotlib.figure import Figure
@@ -209,3 +210,12 @@ def test_the_scatter_counts_the_cases_of_the_table_and_says_which(monkeypatch):
     alone = [row for row in comparison if row.support_period_s is None]
     page = summary_data(summarised(RecordRows(comparison=alone, verdicts=verdicts), {}), SETTINGS)
     assert page.scatter[0].counted == ""
+
+
+def test_records_under_which_nothing_lifts_share_a_line():
+    rows = [replace(row, rotation_ratio=0.5) for row in made_rows()]
+    still = [replace(row, record="still", rotation_ratio=0.0) for row in rows if row.record == rows[0].record]
+    shown = matrix(conclusions([*rows, *still], []), [], [])
+    assert sorted(head.name for head in shown.heads) == sorted({row.record for row in rows})
+    assert "Nothing lifts under still." in shown.note
+    assert [head.name for head in matrix(conclusions(still, []), [], []).heads] == ["still"], "the only ones"

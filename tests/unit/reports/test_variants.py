@@ -66,10 +66,10 @@ def test_the_strip_says_it_in_words(made):
     (strip,) = strips(made, STRUCTURES, notes={"wall: thicker": ("It is checked.",)})
     first, thicker = strip.cells
     assert [first.chip.word, first.difference] == ["probably overturns", "the first"]
-    assert thicker.difference == "−50 points of share, reserve × 1.8"
-    assert (first.notes, thicker.notes) == ((), ("It is checked.",))
+    assert thicker.difference == "reserve × 1.8, −50 points of share"
+    assert (first.notes, thicker.notes) == ((), ("It is checked.", "breadth 0.6 m"))
     (italian,) = strips(made, STRUCTURES, Sentences("it"))
-    assert italian.cells[1].difference == "−50 punti percentuali, margine × 1,8"
+    assert italian.cells[1].difference == "margine × 1,8, −50 punti percentuali"
     assert italian.cells[0].chip.word == "probab. ribalta"
 
 
@@ -108,3 +108,19 @@ def test_summary_page_to_explore_and_page_to_sign_hold_the_strip(made):
                 getattr(check(THICK, SPECTRUM), kind).ratio_in_words for kind in ("linear", "nonlinear")
             ]
             assert strip.cells[1].notes[0] == "linear {}, nonlinear {}".format(*ratios)
+
+
+def test_a_difference_within_the_error_of_the_members_is_not_shown(made):
+    """64 members err by 4 of 64 at most, 1 024 by 4 of 1 024: .05 is within both errors, .5 is not."""
+    first, own = made["wall"]
+    few = {"members": 64, "overturning_members": 48}
+
+    def with_share(variant, share, **counts):
+        verdict = replace(variant.conclusion.verdict, **counts)
+        verdict = replace(verdict, decision=replace(verdict.decision, share=share))
+        return replace(variant, conclusion=replace(variant.conclusion, verdict=verdict))
+
+    base = with_share(first, 0.75, **few)
+    near = replace(with_share(own, 0.70, members=1024, overturning_members=677), first=base)
+    far = replace(with_share(own, 0.25, members=1024, overturning_members=256), first=base)
+    assert not near.shows_difference and far.shows_difference
