@@ -504,17 +504,17 @@ class Structure(ABC):
             return None
         try:
             own = min(self._momentum_balance(mirrored) for mirrored in (False, True))
-        except StructureError:
+            if own - typed <= TYPED_LOWER:
+                return None
+            # None is the balance of each side; a type that asks for a number gets the least of both
+            balanced: dict[str, Any] = {
+                own_field.name: None if own_field.default is None else own
+                for own_field in fields(self)
+                if own_field.name in ("restitution", "inward_restitution")
+            }
+            return own, replace(self, **balanced)
+        except StructureError:  # a bulge of it may have none
             return None
-        if own - typed <= TYPED_LOWER:
-            return None
-        # None is the balance of each side; a type that asks for a number gets the least of both
-        balanced: dict[str, Any] = {
-            own_field.name: None if own_field.default is None else own
-            for own_field in fields(self)
-            if own_field.name in ("restitution", "inward_restitution")
-        }
-        return own, replace(self, **balanced)
 
     def _impact(self, mirrored: bool) -> float:
         """η of the impact that ends rocking on one side: the number, or that of a balance where it is a name."""

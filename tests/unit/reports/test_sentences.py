@@ -154,7 +154,7 @@ HELD = (
     Facade(**FRONT, leaves=(0.2, 0.3), restitution=0.6),
     Facade(**{**FRONT, "thicknesses": (0.6,)}, leaves=(0.2, 0.2, 0.2), bonders=(1.0, 2.0)),
     LoadedWall.of_size(**LOADED, top_slab="flat", restitution=0.5),
-    LoadedWall.of_size(**LOADED, **TIES, tie_spacing=4.0, unit_length=0.3),
+    LoadedWall.of_size(**LOADED, **TIES, tie_spacing=4.0, unit_length=0.3, restitution=0.5),
     LoadedWall.of_size(**LOADED, top_friction=0.05),
     Wall.of_size(3.2, 0.25, 1.6, crack="known"),
 )
@@ -174,7 +174,9 @@ def every_structure():
                 words |= {(key.name, word) for word in key.options}
     for entry in entries:
         with suppress(RockingError):  # what another key goes with, or a file holds
-            yield structure_from_config(entry)
+            structure = structure_from_config(entry)
+            structure.mechanism()
+            yield structure
     yield from HELD
 
 

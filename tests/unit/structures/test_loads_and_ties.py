@@ -176,3 +176,9 @@ def test_the_lower_block_is_in_balance_under_the_force_at_the_hinge(case):
             force = wall.tie_pretension + wall.tie_stiffness * (point.real - wall.thickness / 2)
             total += moment(point, complex(-force * GRAVITY / wall.linkages[0].unit))
     assert abs(total) < 1e-10 * GRAVITY * radius
+
+
+def test_a_wall_a_bulge_of_which_has_no_balance_relies_on_what_is_typed():
+    ties = {"tie_heights": (2.9,), "tie_stiffness": 1e6, "tie_strength": 20e3}
+    wall = LoadedWall.of_size(6.0, 0.35, 18e3, top_load=40e3, restitution=0.5, **ties)
+    assert wall.restitution_of_geometry is None

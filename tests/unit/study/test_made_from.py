@@ -133,7 +133,7 @@ def test_every_input_is_a_file_that_stands_and_the_pool_is_among_those_of_the_ch
 
 
 def test_every_library_that_counts_is_named() -> None:
-    """But for those that load modules, fetch files and count them, and those of the process that schedules.
+    """But for those that load modules, fetch files, count them or read messages, and those of the scheduling process.
 
     The readers of ASDF count where they are installed, and llvmlite, by which numba compiles.
     """
@@ -141,7 +141,7 @@ def test_every_library_that_counts_is_named() -> None:
     extras = project["optional-dependencies"]
     named = [*project["dependencies"], *extras["workflow"], *extras["asdf"], "llvmlite"]
     declared = {re.match(r"[\w-]+", each)[0].lower() for each in named}
-    others = {"lazy_loader", "pooch", "tqdm", "psutil", "pygments"}
+    others = {"lazy_loader", "polib", "pooch", "tqdm", "psutil", "pygments"}
     absent = {"h5py"} if find_spec("h5py") is None else set()
     assert set(versions()) == {"python", "rocking", *declared - others - absent}
 
