@@ -27,12 +27,12 @@ class Fact:
 class PageSettings:
     """What the settings of a study say of its pages. about: what every report says of the study."""
 
-    about: tuple[Fact, ...] = ()
-    language: Language = "en"
-    date: str | None = None
-    display_units: str = "SI"
-    tolerance: float = 1e-6
-    acceleration_scale: str = "exact_at_rest"
+    about: tuple[Fact, ...]
+    language: Language
+    date: str | None
+    display_units: str
+    tolerance: float
+    acceleration_scale: str
 
 
 # What several pages hold ---------------------------------------------------------------------------------

@@ -5,7 +5,7 @@ written, with its JSON schema, from these. After a change: make schema. Every ro
 """
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import asdict, dataclass, fields, is_dataclass
+from dataclasses import asdict, dataclass, fields, is_dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
@@ -400,15 +400,25 @@ class Settings(AssessmentSettings):
         labels = {
             name: setting.more.get("printed_as", "") for name, setting in described_values(Settings).items()
         }
-        printed = ((label, vars(self).get(name)) for name, label in labels.items() if label)
+        printed = ((label, getattr(self, name)) for name, label in labels.items() if label)
         return tuple(Fact(label=label, text=str(value)) for label, value in printed if value)
 
     @property
     def for_pages(self) -> PageSettings:
-        """What documents print of them."""
-        values = vars(self)
-        own = {field.name: values[field.name] for field in fields(PageSettings) if field.name in values}
-        return PageSettings(about=self.facts, **own)
+        """What documents print of them: in English, but for the pages to sign."""
+        return PageSettings(
+            about=self.facts,
+            language="en",
+            date=self.date,
+            display_units=self.display_units,
+            tolerance=self.tolerance,
+            acceleration_scale=self.acceleration_scale,
+        )
+
+    @property
+    def for_pages_to_sign(self) -> PageSettings:
+        """What the pages to sign print of them."""
+        return replace(self.for_pages, language=self.language)
 
 
 class _Restricted(Settings):

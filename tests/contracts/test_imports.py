@@ -192,8 +192,8 @@ from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import AssessmentSettings
 from rocking.reports.record import RecordReport
 result = Assessor(AssessmentSettings()).assess("a", [record], on_the_ground(structures))
-from rocking.reports.pages import PageSettings
-RecordReport(result, rows_of_record(result), structures, PageSettings()).pdf()
+from rocking.study.settings import Settings
+RecordReport(result, rows_of_record(result), structures, Settings().for_pages).pdf()
 print(sorted(heavy & set(sys.modules)))
 """
     done = subprocess.run(

@@ -190,7 +190,7 @@ def write_checks(
 
     def write() -> None:
         terms = CodeTerms(limit_state=asked.limit_state, confidence_factor=asked.confidence_factor)
-        settings = study.settings.for_pages
+        settings = study.settings.for_pages_to_sign
         page = structures_data(pages, spectrum, settings, terms, selection, without_sets, unread, of_pages)
         write_document(pdf, page, figures)
 

@@ -31,11 +31,14 @@ from rocking.reports.record import RecordReport
 from rocking.reports.summary import summary_data
 from rocking.signal.accelerogram import Accelerogram, Source
 from rocking.structures import Arch, Block, Wall
+from rocking.study.settings import Settings
 from rocking.tables import Row
 from tests.unit.assessment.made_rows import case, station
 
 ASSESSMENT = AssessmentSettings()
-SETTINGS = PageSettings(tolerance=ASSESSMENT.tolerance, acceleration_scale=ASSESSMENT.acceleration_scale)
+SETTINGS = Settings(
+    tolerance=ASSESSMENT.tolerance, acceleration_scale=ASSESSMENT.acceleration_scale
+).for_pages
 HOSTILE = ("$x^$", "#panic(1)", "<b>bold</b>", "W" * 80, "Жёлтый Ω 中文")
 """Names that a template or a figure might take for markup, that no column holds, or that not every font has."""
 

@@ -126,7 +126,7 @@ def test_an_italian_page_has_no_english_sentence():
         r"\b(the|of|and|is|are|not|met|by|under|which|with|its|height|thickness|crack|outwards|inwards|falls)\b"
     )
     for page in pages:
-        data = structures_data([page], SPECTRUM, Settings(language="it").for_pages)
+        data = structures_data([page], SPECTRUM, Settings(language="it").for_pages_to_sign)
         said = [text for text in texts_of(data) if english.search(text)]
         assert said == []
         drawings = [
@@ -200,7 +200,7 @@ def printed(structure, words):
         mechanisms=mechanisms_of(structure),
         remarks=(*structure.described.remarks, *structure.cautions),
     )
-    return texts_of(structures_data([page], SPECTRUM, Settings(language=words).for_pages))
+    return texts_of(structures_data([page], SPECTRUM, Settings(language=words).for_pages_to_sign))
 
 
 @pytest.mark.process

@@ -12,10 +12,10 @@ from rocking.assessment.scene import Scene, on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.floors.place import place_from_config
 from rocking.records import Accelerogram
-from rocking.reports.pages import PageSettings
 from rocking.reports.record import RecordReport
 from rocking.reports.supports import shares_by_period_figure
 from rocking.structures import Block
+from rocking.study.settings import Settings
 
 STEP = 0.01
 
@@ -33,7 +33,7 @@ def report():
     structures = {"parapet": body, "pier": pier}
     settings = AssessmentSettings(fidelity="standard", ensemble=EnsembleSettings(members=16))
     result = Assessor(settings).assess("made", [record], scenes)
-    settings = PageSettings(acceleration_scale="linearised")
+    settings = Settings(acceleration_scale="linearised").for_pages
     return RecordReport(result, rows_of_record(result), structures, settings)
 
 
@@ -78,7 +78,7 @@ def test_a_support_without_damping_has_no_spectrum_of_the_code():
     rows = rows_of_record(result)
     assert np.isnan(rows.supports[-1].code_spectral_acceleration_m_s2)
     assert rows.supports[-1].floor_spectral_acceleration_m_s2 > 0
-    assert RecordReport(result, rows, structures, PageSettings()).page().known.topics
+    assert RecordReport(result, rows, structures, Settings().for_pages).page().known.topics
 
 
 def test_the_mean_share_over_the_records_stands_over_the_period_from_zero_on(report):

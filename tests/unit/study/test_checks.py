@@ -313,7 +313,7 @@ def test_the_same_conclusion_stands_in_terminal_summary_workbook_and_page_to_exp
 def page_of(checked=FORMULAS, language="en", name="wall", **facts):
     """What the template is given for one page."""
     page = CheckedStructure(name=name, structure=Block.of_size(0.6, 2.0), checked=checked, **facts)
-    settings = Settings(language=language).for_pages
+    settings = Settings(language=language).for_pages_to_sign
     (data,) = structures_data([page], DesignSpectrum.ntc(1.0, 2.5, 0.3), settings).sheets
     return data
 
@@ -372,7 +372,9 @@ def test_a_page_says_that_a_crack_is_known_and_what_the_check_would_be_were_it_n
     told = {}
     for case in (wall, replace(wall, crack=None)):
         page = CheckedStructure(name="wall", structure=case, checked=check(case, spectrum))
-        (told[case.crack],) = structures_data([page], spectrum, Settings(language=language).for_pages).sheets
+        (told[case.crack],) = structures_data(
+            [page], spectrum, Settings(language=language).for_pages_to_sign
+        ).sheets
     known = words.of(Remark.of(StructureKind.CRACK_KNOWN_AT, height_m=1.6))
     assert f"{known[:1].upper()}{known[1:]}." in told["known"].answers[0].assumptions
     assert not any(known in line.lower() for line in told[None].answers[0].assumptions)
