@@ -427,7 +427,8 @@ class StructureRow(StructureNameRow[ListedStructure]):
         "Uplift acceleration in g", lambda of: of.body.mechanism().uplift_multiplier, equation="Eq. 7"
     )
     static_multiplier: float = of_listed(
-        "Least uplift acceleration in g over all cracks that count", lambda of: of.body.static_multiplier
+        "Least acceleration in g at which limit analysis lets a mechanism that counts start",
+        lambda of: of.body.static_multiplier,
     )
     static_multiplier_crushing: float = of_crushing(
         "The same if the edges of its joints crush at 2 MPa; empty where it states a strength or would not stand",

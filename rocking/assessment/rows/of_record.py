@@ -594,8 +594,8 @@ class MechanismRow(CaseRow[CandidateCase]):
     governs: bool = of_candidate_case(
         "Whether it governs, so that the numbers of verdicts.csv are its own", lambda of: of.governs
     )
-    uplift_multiplier: float = of_candidate(
-        "Acceleration in g at which it starts, with ties at the force at which they yield",
+    static_multiplier: float = of_candidate(
+        "Acceleration in g at which limit analysis lets it start, with ties at the force at which they yield",
         lambda candidate: candidate.uplift_multiplier,
     )
     frequency_parameter_rad_s: float = of_side(

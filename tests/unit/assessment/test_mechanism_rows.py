@@ -33,7 +33,7 @@ def test_every_mechanism_stands_in_the_table_with_its_members_and_one_of_them_go
     assert [one_part.governs for one_part in of_wall].count(True) == 1
     assert of_wall[0].governs and of_wall[0].members >= 16  # its top slips first
     # what statics alone lists has no members
-    assert of_wall[-1].members is None and of_wall[-1].uplift_multiplier > of_wall[0].uplift_multiplier
+    assert of_wall[-1].members is None and of_wall[-1].static_multiplier > of_wall[0].static_multiplier
     assert {part.hold for part in of_wall} == {"top"}
     (pier,) = [one_row for one_row in rows if one_row.structure == "pier"]
     assert (pier.hold, pier.governs) == ("", True)
