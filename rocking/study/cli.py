@@ -64,7 +64,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     plain = _Escaped(sys.stdout), _Escaped(sys.stderr)
     with contextlib.redirect_stdout(plain[0]), contextlib.redirect_stderr(plain[1]):
-        options = _parser().parse_args(arguments)
+        options = _parsed(arguments)
         try:
             with warnings.catch_warnings():
                 warnings.showwarning = _show
@@ -168,8 +168,8 @@ def _parser() -> argparse.ArgumentParser:
     add("folder", type=Path, nargs="?", default=Path(), help="folder of the study (default: this one)")
     add(
         "snakemake",
-        nargs="*",
-        help="a target such as summary; what follows -- goes to snakemake: -- --dry-run",
+        nargs=argparse.REMAINDER,
+        help="a target such as summary, and options of snakemake such as -n or -j 2",
     )
     for product in PRODUCTS:
         made = verbs.add_parser(product.name, help=product.does, description=product.does)
@@ -217,6 +217,17 @@ def _parser() -> argparse.ArgumentParser:
         help="folder for the table and the figure (default: strengthening in the results)",
     )
     return parser
+
+
+def _parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
+    """Parse the command line; options of `run` that are none of ours are snakemake's, with -- before them or not."""
+    parser = _parser()
+    options, others = parser.parse_known_args(arguments)
+    if options.run is not _run and others:
+        parser.error(f"unrecognized arguments: {' '.join(others)}")
+    if options.run is _run:
+        options.snakemake = [option for option in (*others, *options.snakemake) if option != "--"]
+    return options
 
 
 def _list_of_structures(text: str) -> str:

@@ -95,6 +95,8 @@ class Product:
         Whether it is made from the outcomes of the records.
     is_measured : bool
         Whether its files hold measured times.
+    refusal : Callable[[Settings], str]
+        Why these settings cannot make it, in a sentence; "" where they can.
     memory_mb, minutes : int
         What its job takes at most.
     """
@@ -111,6 +113,7 @@ class Product:
     opened: Mapping[str, str] = field(default_factory=dict)
     after_records: bool = False
     is_measured: bool = False
+    refusal: Callable[["Settings"], str] = lambda _settings: ""
     memory_mb: int = 2000
     minutes: int = 120
 

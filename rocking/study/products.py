@@ -16,6 +16,11 @@ CHECKS = Product(
         terms=True,
     ),
     in_every_run=lambda settings: settings.design_spectrum.is_given,
+    refusal=lambda settings: (
+        ""
+        if settings.design_spectrum.is_given
+        else "setting design_spectrum.ag_g is null, and so is points, but checks need a design level; give one."
+    ),
     opened={"structures.pdf": "a page of each structure, to sign"},
     after_records=True,
 )

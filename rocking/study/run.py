@@ -131,7 +131,12 @@ def run(folder: Path, options: Sequence[str]) -> int:
 
 
 def run_product(folder: Path, product: Product) -> int:
-    """Make a product over all records of the study in `folder`, print its lines, and return the status of `run`."""
+    """Make a product over all records of the study in `folder`, print its lines, and return the status of `run`.
+
+    Raises ConfigurationError, before a record is computed, for settings that cannot make it.
+    """
+    if refusal := product.refusal(_plan(folder).settings):
+        raise ConfigurationError(refusal, setting=product.name)
     status = run(folder, [product.name])
     if not status:
         from rocking.study.work import work_of  # what draws takes a second to import

@@ -35,6 +35,7 @@ from rocking.study.documents import made_or_failed
 from rocking.study.job import Job, Study
 from rocking.study.kept import Rows
 from rocking.study.outcomes import read_outcomes
+from rocking.study.products import CHECKS
 from rocking.study.selection import pool_of, select_for
 from rocking.study.work import Made, Work
 from rocking.tables import rows_of, write_tables
@@ -125,10 +126,7 @@ def write_checks(
     asked = study.settings.checks
     spectrum = design.spectrum()
     if spectrum is None:
-        raise ConfigurationError(
-            "setting design_spectrum.ag_g is null, and so is points, but checks need a design level; give one.",
-            design_spectrum=None,
-        )
+        raise ConfigurationError(CHECKS.refusal(study.settings), design_spectrum=None)
     worst = {
         conclusion.verdict.structure: conclusion for conclusion in worst_of_each(conclusions(verdicts, []))
     }

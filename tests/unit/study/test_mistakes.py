@@ -188,6 +188,35 @@ def test_a_size_that_a_structure_lacks_is_said_of_its_type_as_listed(
     )
 
 
+@pytest.mark.parametrize(
+    "options",
+    [["-n"], ["-j", "2"], ["--forceall"], ["summary", "-n"], ["--", "--dry-run"], ["summary", "--", "-n"]],
+)
+def test_options_of_snakemake_are_taken_with_and_without_dashes_before_them(
+    monkeypatch: pytest.MonkeyPatch, options: list[str]
+) -> None:
+    given: list[object] = []
+    monkeypatch.setattr("rocking.study.run.run", lambda folder, taken: given.append((folder, taken)) or 0)
+    assert main(["run", "study", *options]) == 0
+    assert given == [(Path("study"), [option for option in options if option != "--"])]
+
+
+def test_an_option_that_no_other_command_has_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["read", "file", "-n"])
+    assert "unrecognized arguments: -n" in capsys.readouterr().err
+
+
+def test_checks_without_a_design_level_are_refused_before_a_record_is_computed(
+    study: Path, counts: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    counts.rename(study / "records" / counts.name)
+    assert main(["catalogue", str(study), "--unit", f"{COUNT} m/s2"]) == 0
+    (study / "config.yaml").write_text("structures: structures.yaml\n")
+    assert "checks need a design level" in refusal(["checks", str(study)], capsys)
+    assert not (study / "results").exists()
+
+
 @pytest.mark.parametrize("name", ["structures.yaml", "records/catalogue.csv"])
 def test_a_link_to_itself_is_no_file(study: Path, name: str, capsys: pytest.CaptureFixture[str]) -> None:
     (study / "records" / "catalogue.csv").write_text("id,file\na,a.smc\n")
