@@ -320,12 +320,15 @@ def sizes_of(name: str, structure: Structure) -> str:
 
 
 def in_words(rotation_ratio: float) -> str:
-    """Return a rotation over the critical one in two digits: "0.69", "falls", "rests", or a dash without one."""
-    if math.isnan(rotation_ratio):
+    """Return a rotation over the critical one in two digits: "0.69", "falls", "rests", or a dash without one.
+
+    Below 0 is none: what a formula gives outside of where it holds.
+    """
+    if not rotation_ratio >= 0:
         return NOTHING
     if rotation_ratio == math.inf:
         return "falls"
-    return "rests" if 0 <= rotation_ratio <= NEGLIGIBLE else number(rotation_ratio, 2)
+    return "rests" if rotation_ratio <= NEGLIGIBLE else number(rotation_ratio, 2)
 
 
 def _up(ratios: np.ndarray | float) -> np.ndarray:

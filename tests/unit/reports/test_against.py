@@ -213,3 +213,8 @@ def test_without_a_sine_the_closed_forms_are_dashes(example):
     bare = replace(example, tables=replace(example.tables, comparison=rows, pulses=()))
     assert {(one_row.printed, one_row.form) for one_row in against_of(bare).compared} == {("–", "–")}
     assert [ground.facts for ground in against_of(bare).grounds] == [()]
+
+
+def test_a_rotation_below_zero_is_none():
+    """Eq. 15 gives one where it does not hold."""
+    assert in_words(-3.7) == in_words(math.nan) != in_words(0.0) == "rests"
