@@ -26,7 +26,6 @@ from rocking.structures import Structure
 from rocking.structures.crackable import WEAK_MASONRY
 from rocking.structures.leaves import of_leaf
 from rocking.structures.structure import CRACKS, Candidate
-from rocking.structures.tied import Tied
 
 IN_DOUBT = 0.3
 """Rotation ratio of a member beyond which it is in doubt that a mechanism other than that of statics stands."""
@@ -218,8 +217,8 @@ def weakest_not_followed(structure: Structure) -> Candidate | None:
 def never_overturns_because(structure: Structure) -> str:
     """Return why no mechanism that counts can overturn, in words; "" where one can, or where that is not known."""
     reasons = [candidate.mechanism.never_overturns_because for candidate in counting_cracks(structure)]
-    if not all(reasons) or not isinstance(structure, Tied):
-        return reasons[0] if all(reasons) else ""
+    if not all(reasons):
+        return ""
     one_can = any(
         candidate.refusal or candidate.mechanism.can_overturn for candidate in structure.mechanisms()
     )

@@ -26,7 +26,6 @@ from rocking.structures.crackable import Crackable
 from rocking.structures.joints import USUAL
 from rocking.structures.leaves import of_leaf, parts_of
 from rocking.structures.structure import AS_DESCRIBED, Candidate
-from rocking.structures.tied import Tied
 
 _SAME = 1e-9
 """Relative difference below which two levels are one but for rounding: the mechanism that is named first decides."""
@@ -180,7 +179,7 @@ def _opening(structure: Structure) -> Iterator[Candidate]:
     for candidate in cracked:
         body = candidate.structure
         opens_elsewhere = bulges and not structure.crack_is_known
-        shut = opens_elsewhere and isinstance(body, Tied) and not body.lets_go
+        shut = opens_elsewhere and candidate.stays_shut
         for sign, side in _sides(body):
             if shut and sign > 0:
                 continue
@@ -189,9 +188,11 @@ def _opening(structure: Structure) -> Iterator[Candidate]:
                 opens = side if opens == AS_DESCRIBED else Phrase("{opens}, {side}", opens=opens, side=side)
             yield replace(candidate, description=opens, sign=sign)
     for candidate in bulges:
-        wall = candidate.structure
-        assert isinstance(wall, Tied)
-        yield replace(candidate, description=wall.way_in_words(candidate.sign))
+        opens = candidate.name
+        if candidate.opening is not None and candidate.opening.hinge is not None:
+            hinge = Phrase("hinge at {height:.4g} m", height=candidate.opening.hinge)
+            opens = Phrase("{does}, {opens}", does=opens, opens=hinge)
+        yield replace(candidate, description=opens)
     for name, leaf in structure.leaves_alone:
         yield from (of_leaf(name, candidate) for candidate in _opening(leaf))
 

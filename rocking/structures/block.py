@@ -10,6 +10,7 @@ from rocking.errors import SizeError, StructureError
 from rocking.structures.crackable import CrackedAtHeight, Crushable, unplaced
 from rocking.structures.drawing import Path, rectangle, span, swept
 from rocking.structures.fields import (
+    Lean,
     OneSided,
     OptionalUnitWeight,
     Value,
@@ -17,6 +18,7 @@ from rocking.structures.fields import (
     form_made_by,
     length,
     restitution_value,
+    stated,
 )
 from rocking.structures.linkage import PRESSED, STILL, Parts, Restitution, Turning, check_pressed, inset
 from rocking.structures.stack import MOST_COURSES, Course, Stack, counted_courses, courses_between
@@ -24,28 +26,13 @@ from rocking.structures.stack import MOST_COURSES, Course, Stack, counted_course
 Balanced = Annotated[Restitution, restitution_value("momentum", "housner")]
 
 
+@stated
 @dataclass(frozen=True, repr=False)
 class Block(Crushable):
     """A homogeneous rectangular block that rocks about its two bottom corners.
 
-    Parameters
-    ----------
-    semi_diagonal : float
-        Half of the diagonal R, m.
-    slenderness : float
-        α in (0, π/2), rad; tan α = breadth/height.
-    restitution : float, str or None, optional
-        η in [0, 1]; "momentum" or "housner" (the same balance, 1 − 1.5 sin²α, the default). A one-sided block
-        leans on something that no balance of the block alone describes, so it needs a number.
-    one_sided : bool, default False
-        Whether it rocks away from what it leans on only, and is thrown back at every impact.
-    restitution_range : float or None, optional
-        η is known to plus or minus this much; None: as the settings of the ensemble say.
-    compressive_strength : float or None, optional
-        Compressive strength of the masonry, Pa, at which the edges of joints crush, so that hinges move in;
-        None: they do not crush. Needs `unit_weight`.
-    unit_weight : float or None, optional
-        Weight of the masonry per volume, N/m³.
+    Its "momentum" and "housner" are the same balance, 1 − 1.5 sin²α, the default. A one-sided block leans on something
+    that no balance of the block alone describes, so it needs a number.
 
     Raises
     ------
@@ -76,9 +63,12 @@ class Block(Crushable):
     restitution: Balanced = None
     one_sided: OneSided = False
     unit_weight: OptionalUnitWeight = field(default=None, kw_only=True)
+    lean: Lean = field(default=0.0, kw_only=True)
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        if self.lean:
+            self.mechanism()  # one that leans beyond its foot is refused at birth
         self._stand_crushed()
 
     @classmethod
@@ -92,6 +82,7 @@ class Block(Crushable):
         restitution_range: float | None = None,
         compressive_strength: float | None = None,
         unit_weight: float | None = None,
+        lean: float = 0.0,
     ) -> "Block":
         """Return the block of that breadth and height [m]; the others as for the class."""
         form_made_by(cls, "of_size").check(breadth=breadth, height=height)
@@ -105,7 +96,13 @@ class Block(Crushable):
             restitution_range=restitution_range,
             compressive_strength=compressive_strength,
             unit_weight=unit_weight,
+            lean=lean,
         )
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether it stands in plumb."""
+        return not self.lean
 
     @property
     def breadth(self) -> float:
@@ -123,22 +120,28 @@ class Block(Crushable):
         inertia = (self.breadth**2 + self.height**2) / 12
         weight = (self.unit_weight or 0.0) * self.breadth * self.height
         aside = inset(pressing=weight, strength=self.compressive_strength, breadth=self.breadth)
+        centre = (1j + np.tan(-self.lean if mirrored else self.lean)) * self.height / 2
         return Turning(
             self.breadth / 2 - aside,
-            Parts([1.0], [0.5j * self.height], [inertia]),
-            slenderness=None if aside else self.slenderness,
+            Parts([1.0], [centre], [inertia]),
+            slenderness=None if aside or self.lean else self.slenderness,
         )
+
+    def _edges(self, level: float) -> tuple[float, float]:
+        """The faces at a level, m."""
+        aside = float(np.tan(self.lean)) * level
+        return aside - self.breadth / 2, aside + self.breadth / 2
 
     def stack(self, courses: int | None = None) -> Stack:
         """Return it as one body, or as so many drums."""
         number = 1 if courses is None else counted_courses(courses)
         levels = np.linspace(0.0, self.height, number + 1).tolist()
-        faces = [(-self.breadth / 2, self.breadth / 2)] * (number + 1)
-        drums = courses_between(levels, faces, 1.0, [1.0] * number)
+        drums = courses_between(levels, [self._edges(level) for level in levels], 1.0, [1.0] * number)
         return Stack(drums, self._behind(drums))
 
     def _parts(self) -> list[tuple[int, np.ndarray]]:
-        return [(0, rectangle(-self.breadth / 2, self.breadth / 2, 0.0, self.height))]
+        outline = rectangle(-self.breadth / 2, self.breadth / 2, 0.0, self.height)
+        return [(0, outline + np.tan(self.lean) * outline.imag)]
 
     def _dimensions(self) -> dict[str, Path | list[Path]]:
         half = self.breadth / 2
@@ -153,38 +156,13 @@ class Block(Crushable):
         }
 
 
+@stated
 @dataclass(frozen=True, repr=False)
 class RigidBody(Crushable):
     """A body known by its centre of mass and inertia; it rocks about the right corner on the positive side.
 
-    Its outline is not known, so each side is followed until the centre of mass is level with the corner.
-
-    Parameters
-    ----------
-    left : float
-        Horizontal distance of the left corner from the centre of mass, m.
-    right : float
-        Horizontal distance of the right corner from the centre of mass, m.
-    centre_height : float
-        Height of the centre of mass above the corners, m.
-    inertia : float
-        Moment of inertia about the centre of mass, per mass, m².
-    restitution : float, str or None, optional
-        η in [0, 1] on both sides, or "momentum" or "housner" (the same balance, the default): angular
-        momentum about the corner to come, which differs from side to side. A one-sided body needs a number.
-    one_sided : bool, default False
-        Whether it rocks about the right corner only, and is thrown back at every impact.
-    restitution_range : float or None, optional
-        η is known to plus or minus this much; None: as the settings of the ensemble say.
-    compressive_strength : float or None, optional
-        Compressive strength of the masonry, Pa, at which the edges of joints crush, so that hinges move in;
-        None: they do not crush. Needs `unit_weight`.
-    height : float or None, optional
-        Height of its outline, for drawings and what they measure, m; None: twice `centre_height`.
-    unit_weight : float or None, optional
-        Weight of the masonry per volume, N/m³.
-    section : float or None, optional
-        Volume per metre of the edge about which it turns, m²; needed with a compressive strength.
+    Its outline is not known, so each side is followed until the centre of mass is level with the corner. "momentum" and
+    "housner" are one balance, of angular momentum about the corner to come, which differs from side to side.
 
     Raises
     ------
@@ -325,39 +303,10 @@ def _strip(plan: str, half_width: float, depth: float) -> np.ndarray:
     return np.array([area, half_width * area - about_centre])
 
 
+@stated
 @dataclass(frozen=True, repr=False)
 class Spire(CrackedAtHeight):
     """A cone (plan "circular") or a square pyramid ("square") that rocks about the edge of a horizontal crack.
-
-    Parameters
-    ----------
-    width : float
-        Diameter or side at the base, m.
-    height : float
-        Height of the whole spire, m.
-    wall_thickness : float or None, optional
-        Horizontal thickness of a hollow spire, m, the inner surface parallel to the outer; None: solid.
-    plan : {'circular', 'square'}, default 'circular'
-        "circular" for a cone, "square" for a pyramid.
-    crack_height : float or None, optional
-        Height of the crack above the base, m; None: nobody says where it cracks, and the mechanism is that of
-        its foot.
-    restitution : float, str or None, optional
-        η in [0, 1], "momentum" or "housner" (the same balance, the default).
-    one_sided : bool, default False
-        Whether it rocks about one edge only, and is thrown back at every impact.
-    courses : int or None, optional
-        Number of courses over the whole height, for contact dynamics.
-    restitution_range : float or None, optional
-        η is known to plus or minus this much; None: as the settings of the ensemble say.
-    compressive_strength : float or None, optional
-        Compressive strength of the masonry, Pa, at which the edges of joints crush, so that hinges move in;
-        None: they do not crush. Needs `unit_weight`.
-    crack : {'known'} or None, optional
-        "known" where a survey or a joint says that it is cracked at the place above, which then decides;
-        None: it may crack there or elsewhere, and each place counts.
-    unit_weight : float or None, optional
-        Weight of the masonry per volume, N/m³.
 
     Raises
     ------

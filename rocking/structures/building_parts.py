@@ -5,7 +5,7 @@ Each is a height and the thickness over which it rocks; its breadth across shows
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal, Self, Unpack
+from typing import Any, Literal, Self, TypedDict, Unpack
 
 import numpy as np
 
@@ -18,11 +18,22 @@ from rocking.structures.fields import Field, Form, constructor, field_of, length
 from rocking.structures.leaves import Leaf, Leaved
 from rocking.structures.linkage import Restitution
 from rocking.structures.structure import Structure
-from rocking.structures.wall import WallOptions
 
 Sizes = Mapping[str, Any]
 """Sizes in SI by name: height, thickness, breadth and, of a chimney, wall_thickness; None where left out."""
 _SIZES = ("height", "thickness", "breadth", "wall_thickness")
+
+
+class LeafOptions(TypedDict, total=False):
+    """The options of a free wall besides its sizes."""
+
+    restitution_range: float | None
+    compressive_strength: float | None
+    unit_weight: float | None
+    lean: float
+    leaves: tuple[float, ...]
+    bonders: float | tuple[float, ...] | None
+    thrown_back: float | None
 
 
 @dataclass(frozen=True, repr=False)
@@ -40,7 +51,7 @@ class FreeWall(Block, Leaved):
         height: float,
         restitution: Restitution = None,
         one_sided: bool = False,
-        **options: Unpack[WallOptions],
+        **options: Unpack[LeafOptions],
     ) -> Self:
         """Return the wall of that thickness and height [m]; options as for a block and for leaves."""
         size = Block.of_size(breadth, height)
@@ -86,8 +97,8 @@ class Gable(RigidBody, Leaved):
 
 def _of_leaf(wall: Block | RigidBody) -> dict[str, Any]:
     """The options of a wall that each of its leaves has."""
-    names = ("restitution_range", "compressive_strength", "unit_weight")
-    return {name: getattr(wall, name) for name in names}
+    names = ("restitution_range", "compressive_strength", "unit_weight", "lean")
+    return {name: getattr(wall, name) for name in names if hasattr(wall, name)}
 
 
 def _bonded(height: float, leaf: Leaf, heights: tuple[float, ...], options: dict[str, Any]) -> Facade:

@@ -192,6 +192,8 @@ def _are_levels(heights: Sequence[float]) -> bool:
     return len(heights) > 1 and all(low <= above - below <= high for below, above in pairwise(heights))
 
 
+_LONGEST_LIST = 400
+"""Letters of all keys of a type up to which a refusal lists them."""
 _USUAL_STOREY = (2.2, 4.8)
 
 
@@ -205,6 +207,9 @@ def _form(of_type: Sequence[Form], keys_typed: Iterable[str], values: Mapping[st
     for key in keys_typed:
         if key not in allowed:
             keys = ", ".join(sorted(allowed))
+            if len(keys) > _LONGEST_LIST:
+                required = sorted({key for form in of_type for key in form.required})
+                keys = f"{', '.join(required)} or another of those in docs/pages/structures.md"
             if str(key).isdigit() and key not in values:
                 raise ConfigurationError(
                     f"{key} is not a key of {kind}: a comma parts the entries within braces; write a number "

@@ -16,12 +16,12 @@ from rocking.errors import SizeError, StructureError
 from rocking.quantities import GRAVITY, counted, whole
 from rocking.remarks import Remark
 from rocking.structures.crackable import unplaced
-from rocking.structures.drawing import Path, rectangle, span
-from rocking.structures.fields import Value, restitution_value
+from rocking.structures.drawing import Path, span
+from rocking.structures.fields import Lean, Value, restitution_value, stated
 from rocking.structures.held_wall import HeldWall, Hold, Load, Opening, Storey
 from rocking.structures.kinds import StructureKind
 from rocking.structures.leaves import Leaf
-from rocking.structures.linkage import STILL, Hung, Linkage, Parts, Restitution, Turning, inset
+from rocking.structures.linkage import Restitution, inset
 from rocking.structures.stack import (
     MOST_COURSES,
     Course,
@@ -43,102 +43,12 @@ _MOST_STOREYS = 50
 _SIZES = {"ge": 1e-4, "le": 1000}
 
 
+@stated
 @dataclass(frozen=True, repr=False)
 class Facade(Tied):
     """Storeys stacked as one rigid body, flush outside, that rocks above the crack at the foot of one storey.
 
     All forces are per metre of façade. It may crack at any joint unless a crack is known.
-
-    Parameters
-    ----------
-    storey_heights : tuple of float
-        Heights of the storeys from the ground up, m.
-    thicknesses : tuple of float
-        Thicknesses of the storeys from the ground up, m.
-    unit_weight : float
-        Weight of the masonry per volume, N/m³.
-    floor_loads : tuple of float, optional
-        Load on top of each storey, N/m; () for none.
-    eccentricity : float, default 0.0
-        Distance of the bearings of the loads from the middle of the wall on which they rest, inwards
-        positive, m.
-    loads_held : bool, default False
-        Whether the rest of the building holds the mass of the loads, so that only their weight acts.
-    top_slab : {'hinged', 'flat'}, default 'hinged'
-        Whether the uppermost load rests on a "hinged" bearing, or is a slab that stays "flat" and so rests on
-        the corner that rises.
-    thrust : float, default 0.0
-        Outward thrust of a vault or a roof, N/m.
-    thrust_height : float or None, optional
-        Height of the thrust above the ground, m; None: the top.
-    crack_storey : int or None, optional
-        Storey at whose foot it cracks, 1 being the ground floor.
-    restitution : float, str or None, optional
-        η in [0, 1] or "momentum" (the default), for both sides.
-    inward_restitution : float or None, optional
-        η of the inward side instead, in [0, 1]; None: the same. Where something stands behind it must be a
-        number, that of the impact on it.
-    restitution_range : float or None, optional
-        η is known to plus or minus this much; None: as the settings of the ensemble say.
-    leaves : tuple of float, optional
-        Thickness of each leaf from outside in, m, two or three, which may part; () for one leaf.
-    bonders : float, tuple of float or None, optional
-        Heights above the ground at which through-stones hold each leaf, m, or one spacing, counted down from
-        the top; None: nothing does.
-    thrown_back : float or None, optional
-        η of the impact of a leaf on the one beside it, in [0, 1]; None: each leaf rocks both ways.
-    compressive_strength : float or None, optional
-        Compressive strength of the masonry, Pa, at which the edges of joints crush, so that hinges move in;
-        None: they do not crush. Needs `unit_weight`.
-    crack : {'known'} or None, optional
-        "known" where a survey or a joint says that it is cracked at the place above, which then decides;
-        None: it may crack there or elsewhere, and each place counts.
-    tie_heights : tuple of float, optional
-        Heights of the ties above the ground, m.
-    tie_stiffness : float, default 0.0
-        Stiffness of each tie per metre of wall, N/m².
-    tie_pretension : float, default 0.0
-        Force of each tie at rest per metre of wall, N/m; needs `behind` "cross_walls".
-    tie_strength : float or None, optional
-        Force per metre of wall at which each tie yields, or breaks where no plastic elongation is given, N/m;
-        None: elastic.
-    tie_plastic_elongation : float, default 0.0
-        Elongation by which each tie yields at its strength before it breaks, m; 0 is brittle.
-    tie_spacing : float or None, optional
-        Distance between the ties of a row along the wall, m; None: they are taken to hold it all along.
-        Beyond three times `unit_length` it may fall between them.
-    unit_length : float or None, optional
-        Length of the units of the masonry along the wall, m; needed with `tie_spacing`.
-    held_between : {'floor'} or None, optional
-        "floor" where a stiff floor or a ring beam holds the wall all along between its ties; None: nothing
-        does.
-    rod_diameter : float or None, optional
-        Diameter of a steel rod, m, in place of stiffness, strength and pretension per metre; needs
-        `rod_length` and `tie_spacing`.
-    rod_length : float or None, optional
-        Free length of a rod between its anchors, m.
-    rod_yield_stress : float or None, optional
-        Stress at which a rod yields, Pa; None: elastic.
-    rod_modulus : float, default 200000000000.0
-        Modulus of elasticity of a rod, Pa.
-    rod_pretension : float, default 0.0
-        Force of a rod at rest, N; needs `behind` "cross_walls".
-    anchor_height : float, default 0.2
-        Height of the masonry that the anchor of each tie grips, by whose friction it holds, m.
-    loaded_leaf : {'inner', 'outer'} or None, optional
-        The leaf on which loads bear; None: the inner one.
-    opening : Opening or None, optional
-        Which of its mechanisms this is alone; None of a structure as it is listed.
-    held_at : tuple of float, optional
-        Heights at which the rest of a wall holds this leaf of it, m; () of a structure as it is listed.
-    crack_height : float or None, optional
-        Height above the ground of a crack at another joint than the foot of a storey, m.
-    behind : {'nothing', 'floors', 'cross_walls'} or None, optional
-        What stands behind it: "nothing" (the default); "floors" at the top of every storey that bears one (of
-        every storey where no load is given), which hold it inwards there; or "cross_walls", which hold it
-        inwards everywhere.
-    narrows : bool, default False
-        Whether its breadth goes down to nothing at its top; only of a leaf of a gable.
 
     Raises
     ------
@@ -216,6 +126,7 @@ class Facade(Tied):
         ),
     ] = None
 
+    lean: Lean = field(default=0.0, kw_only=True)
     narrows: bool = field(default=False, kw_only=True)
 
     def __post_init__(self) -> None:
@@ -351,11 +262,6 @@ class Facade(Tied):
         return self.height
 
     @cached_property
-    def _lowest_storey(self) -> int:
-        """The storey, from 0, in which it cracks or at whose foot: the lowest one of which something moves."""
-        return int(np.searchsorted(self.levels[1:], self.crack_position, side="right"))
-
-    @cached_property
     def levels(self) -> np.ndarray:
         """The foot of each storey and the top, (n + 1,) m above the ground."""
         return np.concatenate([[0.0], np.cumsum(self.storey_heights)])
@@ -386,10 +292,10 @@ class Facade(Tied):
             rides = not self.loads_held
             if storey == last and self.top_slab == "flat":
                 loads.append(
-                    Load(middle, levels[storey + 1], load, rides, slab=self._slab_edge(storey, load))
+                    Load(middle, levels[storey + 1], load, rides, self._slab_edge(storey, load), rides)
                 )
             elif load:
-                loads.append(Load(middle - self.eccentricity, levels[storey + 1], load, rides))
+                loads.append(Load(middle - self.eccentricity, levels[storey + 1], load, rides, moves=rides))
         bears = self.floor_loads if any(self.floor_loads) else [1.0] * len(storeys)
         floors = [level for level, load in zip(levels[1:], bears, strict=True) if load]
         if self.behind != "floors":
@@ -408,10 +314,17 @@ class Facade(Tied):
             ((thrust_height, self.thrust),) if self.thrust else (),
             backed=self._leans,
             strength=self.compressive_strength,
+            lean=self._aside,
+            ties=self._tie_levels,
             ties_apart=self.ties_apart,
             gripped=self.anchor_height,
             joints=self.joints,
         )
+
+    @property
+    def _aside(self) -> float:
+        """How far it stands out of plumb outwards, per height."""
+        return float(np.tan(self.lean))
 
     def _slab_edge(self, storey: int, load: float) -> float:
         """Distance of the edge on which a slab lies from the middle of its wall, m."""
@@ -433,36 +346,6 @@ class Facade(Tied):
         as_one_body = opening.hinge is None and not opening.between
         return cracked if as_one_body else replace(cracked, opening=opening)
 
-    def _part_at(self, height: float) -> int:
-        """The part, from 0, to which what acts at `height` [m] belongs, or STILL."""
-        if self.opening is not None:
-            return self.held_wall.part_at(self.opening, height)
-        return 0 if height > self.crack_position else STILL
-
-    def _linkage(self, mirrored: bool) -> Linkage:
-        """The storeys above the crack about their outer toe, or in the mirror about the inner one."""
-        opened = self._opened_linkage(mirrored)
-        if opened is not None:
-            return opened
-        if self.compressive_strength is not None or self.narrows:
-            crack = Opening(foot=self.crack_position, outwards=not mirrored)
-            return self.held_wall.linkage(crack, crack, self._hung(mirrored))
-        base = self._lowest_storey
-        outwards = -1.0 if mirrored else 1.0
-        thicknesses = np.array(self.thicknesses)[base:]
-        feet = np.maximum(self.levels[base:-1], self.crack_position)
-        heights = self.levels[base + 1 :] - feet
-        weights = self.unit_weight * heights * thicknesses
-        return Turning(
-            complex(thicknesses[0] if mirrored else 0.0, self.crack_position),
-            Parts(
-                weights,
-                -outwards * thicknesses / 2 + 1j * (feet + heights / 2),
-                weights * (heights**2 + thicknesses**2) / 12,
-            ),
-            self._hung(mirrored),
-        )
-
     def _impact(self, mirrored: bool) -> float:
         if mirrored and self.inward_restitution is not None:
             return self.inward_restitution
@@ -473,32 +356,6 @@ class Facade(Tied):
         # Between and above its floors it hits nothing behind: the number is that of the floors.
         rocks_freely = self.behind == "floors" and not self.one_sided
         return None if rocks_freely else self.restitution
-
-    def _hung(self, mirrored: bool) -> list[Hung]:
-        outwards = -1.0 if mirrored else 1.0
-        way = self._way(mirrored)
-        lean = outwards if way is None else way.lean_of_top
-        hung = []
-        last = len(self.floor_loads) - 1
-        levels = self.levels.tolist()
-        for storey, load in enumerate(self.floor_loads):
-            level = levels[storey + 1]
-            part = self._part_at(level)
-            if part == STILL or not load:
-                continue
-            across = -self.thicknesses[storey] / 2 - self.eccentricity
-            if storey == last and self.top_slab == "flat":
-                # the edge that rises
-                across = -self.thicknesses[storey] / 2 - lean * self._slab_edge(storey, load)
-            hung.append(self._load(complex(outwards * across, level), part, load, self.loads_held))
-        if self.thrust:
-            height = self.height if self.thrust_height is None else self.thrust_height
-            force = complex(outwards * self.thrust)
-            hung.append(Hung("thrust", 1j * height, self._part_at(height), force))
-        for height in self._tie_levels:
-            tie = self._tie_on(height, mirrored)
-            hung.append(Hung("tie", 1j * height, self._part_at(height), tie=tie))
-        return hung
 
     def stack(self, courses: int | None = None) -> Stack:
         """Return all above the crack as one body where it is known and nothing holds the wall, else courses.
@@ -523,7 +380,7 @@ class Facade(Tied):
             thickness = self.thicknesses[storey]
             if not load or level <= foot:
                 continue
-            point = (-thickness / 2 - self.eccentricity, level)
+            point = (-thickness / 2 - self.eccentricity + self._aside * level, level)
             place = course_at(body, level)
             if storey == last and self.top_slab == "flat":
                 slabs = (self._flat_slab(thickness, load),)
@@ -534,10 +391,10 @@ class Facade(Tied):
         if self.thrust:
             height = self.height if self.thrust_height is None else self.thrust_height
             if height > foot:
-                held.append(Held(course_at(body, height), (0.0, height), force=(self.thrust, 0.0)))
+                held.append(Held(course_at(body, height), self._outer(height), force=(self.thrust, 0.0)))
         for height in self.tie_heights:
             if height > foot:
-                held.append(Held(course_at(body, height), (0.0, height), tie=self._tie))
+                held.append(Held(course_at(body, height), self._outer(height), tie=self._tie))
         held += self._behind(body)
         for hold in self.held_wall.holds:
             if hold.inwards and hold.height > foot and hold.kind != "bonder":
@@ -557,7 +414,12 @@ class Facade(Tied):
                 "out, or choose another fidelity than contact.",
                 loads_held=True,
             )
-        return slab(-thickness, 0.0, self.height, load, upright=True)
+        aside = self._aside * self.height
+        return slab(aside - thickness, aside, self.height, load, upright=True)
+
+    def _outer(self, height: float) -> tuple[float, float]:
+        """The point of the outer face at a height [m]."""
+        return self._aside * height, height
 
     def _storey_courses(self, courses: int, foot: float = 0.0) -> tuple[Course, ...]:
         """The courses above `foot` [m], each storey in as many as its share of the height asks, or one more."""
@@ -568,8 +430,7 @@ class Facade(Tied):
             stops = [hold.height for hold in self.held_wall.holds if max(low, foot) < hold.height < high]
             number_of_part = courses * (high - max(low, foot)) / self.height
             levels = joints_between([max(low, foot), *stops, high], number_of_part)
-            number = len(levels) - 1
-            faces = [(-thickness, 0.0)] * (number + 1)
+            faces = [(self._aside * level - thickness, self._aside * level) for level in levels]
             gable = Storey(0.0, self.height, -thickness, 0.0, 1.0, narrows=1.0 - self.narrows)
             breadths = [gable.cut(*ends).total / (ends[1] - ends[0]) for ends in pairwise(levels)]
             made += courses_between(levels, faces, self.unit_weight / GRAVITY, breadths)
@@ -580,17 +441,6 @@ class Facade(Tied):
         if foot.size:
             return {"crack_storey": int(foot[0]) + 1, "crack_height": None}
         return {"crack_storey": None, "crack_height": height}
-
-    def _parts(self) -> list[tuple[int, np.ndarray]]:
-        if self.opening is not None:
-            return self.held_wall.outlines(self.opening)
-        parts = []
-        for (low, high), thickness in zip(pairwise(self.levels), self.thicknesses, strict=True):
-            crack = min(max(self.crack_position, low), high)
-            for part, foot, top in ((STILL, low, crack), (0, crack, high)):
-                if foot < top:
-                    parts.append((part, rectangle(-thickness, 0.0, foot, top)))
-        return parts
 
     def _dimensions(self) -> dict[str, list[Path]]:
         levels = self.levels

@@ -10,7 +10,7 @@ from functools import cache, reduce
 from inspect import Parameter, Signature, signature
 from operator import or_
 from types import NoneType
-from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin, get_type_hints
 
 import numpy as np
 from annotated_types import Interval, MinLen
@@ -19,6 +19,7 @@ from rocking.described import Described
 from rocking.errors import SizeError, StructureError
 from rocking.quantities import LENGTHS, finite, shown
 
+Kind = TypeVar("Kind")
 _SI = {
     "°": np.pi / 180,
     "kN": 1e3,
@@ -99,6 +100,19 @@ RestitutionNumber = Annotated[float, restitution_value()]
 OneSided = Annotated[
     bool,
     Value("Rocks away from what it leans on only; needs a restitution number", False, phrase="one-sided"),
+]
+
+
+Lean = Annotated[
+    float,
+    Value(
+        "Angle by which it stands out of plumb, outwards (to the right) positive",
+        0.0,
+        "°",
+        (-2, 2),
+        phrase="{value} out of plumb",
+        bounds={"ge": -10, "le": 10},
+    ),
 ]
 
 
@@ -270,6 +284,39 @@ class Form:
     def required(self) -> tuple[str, ...]:
         """The keys that must be given."""
         return tuple(key.key for key in self.fields if key.required)
+
+
+_IN_SI = {"°": "rad", "mm": "m", "MPa": "Pa", "GPa": "Pa"}
+"""What a unit of the file is in SI; a k at its head goes."""
+
+
+def stated(kind: type[Kind]) -> type[Kind]:
+    """Let the docstring of a class state its parameters, in SI, as their types do, before what it raises."""
+    hints = get_type_hints(kind, include_extras=True)
+    entries = ["    Parameters\n    ----------\n"]
+    for name, parameter in signature(kind).parameters.items():
+        default = parameter.default
+        meaning = "Of what a structure makes of itself alone; no file gives it"
+        for value in getattr(hints[name], "__metadata__", ()):
+            unit = _IN_SI.get(value.unit, value.unit.removeprefix("k"))
+            meaning = ", ".join(filter(None, (value.meaning, value.letter, unit)))
+        known = "" if default is Parameter.empty else f", default {default!r}" if default else ", optional"
+        entries.append(f"    {name} : {_in_words(hints[name])}{known}\n        {meaning}.\n")
+    before, raises, after = (kind.__doc__ or "").partition("    Raises\n")
+    kind.__doc__ = "".join([before, *entries, "\n", raises, after])
+    return kind
+
+
+def _in_words(hint: Any) -> str:
+    """A type for a docstring: "tuple of float or None"."""
+    hint = hint.__origin__ if get_origin(hint) is Annotated else hint
+    if get_origin(hint) is Literal:
+        return f"{{{', '.join(map(repr, get_args(hint)))}}}"
+    if get_origin(hint) is tuple:
+        return f"tuple of {_in_words(get_args(hint)[0])}"
+    options = get_args(hint) or (hint,)
+    words = ("None" if option is NoneType else option.__name__ for option in options if not get_args(option))
+    return " or ".join([*(_in_words(option) for option in options if get_args(option)), *words])
 
 
 def _bounded(bounds: Mapping[str, float]) -> Mapping[str, float]:

@@ -34,6 +34,7 @@ from rocking.structures.linkage import (
     inset,
     keeps_last,
 )
+from rocking.structures.mechanism import Tie
 
 _MARGIN = 0.9
 """Share of the reach of either body that the motion may use: where one of them lies flat the linkage locks."""
@@ -69,7 +70,7 @@ class Chain(Linkage):
         self._guided = guided
         self._hang(parts, hung)
         self._bodies = np.array([*bodies, *(bodies[load.part] for load in self.loads)])
-        self.unit = float(self.masses.sum())
+        self.unit = float(np.sum(parts.masses))
 
         # Neither arm may come to lie flat; from the reach of the upper one follows how far the lower one may lean.
         reach = abs(self._upper)
@@ -84,6 +85,19 @@ class Chain(Linkage):
         # The lower one may start as flat as it likes: only where it ends it must not lie flat.
         lying = np.arccos(np.clip(lean, *((-1.0, _MARGIN) if forwards else (-_MARGIN, 1.0))))
         self.end_rotation = float(min(abs(lying - np.angle(self._lower)), np.pi / 2))
+        middles = self._foot + self._lower / 2, self._hinge + self._upper / 2
+        if self._are_halves(middles):
+            self.critical = float(abs(np.angle(self._lower) - np.pi / 2))
+
+    def _are_halves(self, middles: tuple[complex, complex]) -> bool:
+        """Whether it is two blocks alone that turn about their corners, from one edge to the other and back.
+
+        Both are then upright at once, at the slenderness of the lower one.
+        """
+        if self.hung or self.rest.shape != (2,) or not self._is_held:
+            return False
+        asides = [*(self.rest - middles), (self._lower + self._upper).real]
+        return bool(np.abs(asides).max() < _SAME * abs(self._lower))
 
     @keeps_last
     def motion(self, rotation: np.ndarray) -> Kinematics:
@@ -145,7 +159,7 @@ class Chain(Linkage):
         return replace(motion, centroids=centroids, velocities=velocities, accelerations=accelerations)
 
     def contacts(self, state: MotionState) -> Contacts:
-        """Return the contact forces at foot and hinge, per mass of all that moves."""
+        """Return the contact forces at foot and hinge, per mass of the masonry that moves."""
         motion, forces, _, above = self._balanced(state)
         at_hinge = -(forces[1] + above)
         thrusts = np.stack([at_hinge - forces[0], at_hinge]) / self.unit
@@ -196,6 +210,10 @@ class Chain(Linkage):
 
 _JOINTS = 12
 """Joints between two heights at which something changes; hinges move to where λ is least between them."""
+_GRIPS = 1e-3
+"""Movement back over which the friction at a top that has slipped comes to nothing, m."""
+LEAST_STIFFNESS = 1e-12
+"""The least stiffness of a tie, N/m²: below it the rotation at which it yields is no number any more."""
 _SAME = 1e-9
 """Share of the height below which a movement is none, and two heights are one."""
 
@@ -301,7 +319,8 @@ class Storey(NamedTuple):
 class Load(NamedTuple):
     """A weight [N/m] that bears at x, z [m]; it rides sideways, or something else holds its mass.
 
-    slab: half the distance of the edges on which it lies as a slab that stays flat, m; 0 on a bearing.
+    slab: half the distance of the edges on which it lies as a slab that stays flat, m; 0 on a bearing. moves: whether
+    its mass moves, at least up and down; otherwise only its weight acts.
     """
 
     x: float
@@ -309,6 +328,7 @@ class Load(NamedTuple):
     weight: float
     rides: bool
     slab: float = 0.0
+    moves: bool = True
 
 
 class Hold(NamedTuple):
@@ -335,7 +355,8 @@ class HeldWall:
     """Masonry, what bears and pushes on it, and what holds it.
 
     storeys: from the ground up. thrusts: height [m] and force outwards [N/m]. backed: cross walls stand behind it, so
-    that nothing moves inwards. strength: f_c at which the edges of joints crush, Pa; or None. ties_apart: whether its
+    that nothing moves inwards. strength: f_c at which the edges of joints crush, Pa; or None. lean: how far it stands
+    out of plumb outwards, per height, whereas x is given in plumb. ties: the height of each, m. ties_apart: whether its
     ties stand so far apart along the wall that it may fall between them. gripped: height of the masonry that each
     anchor grips, m.
     """
@@ -346,6 +367,8 @@ class HeldWall:
     thrusts: tuple[tuple[float, float], ...] = ()
     backed: bool = False
     strength: float | None = None
+    lean: float = 0.0
+    ties: tuple[float, ...] = ()
     ties_apart: bool = False
     gripped: float = GRIPPED
     joints: Joints = USUAL
@@ -366,7 +389,7 @@ class HeldWall:
         outer = min(storey.right for storey in meeting)
         breadth = next((storey.breadth(height) for storey in meeting if storey.high > height), 1.0)
         aside = inset(pressing=self.pressing(height) / breadth, strength=self.strength, breadth=outer - inner)
-        return inner + aside, outer - aside
+        return inner + aside + self.lean * height, outer - aside + self.lean * height
 
     def pressing(self, height: float) -> float:
         """Return what presses on the joint at `height` [m], N per metre."""
@@ -424,12 +447,12 @@ class HeldWall:
                     above = storey.cut(foot, storey.high)
                     own = above.total
                     weight += own
-                    moment += own * (storey.left + storey.right) / 2
+                    moment += own * ((storey.left + storey.right) / 2 + self.lean * above.middle)
                     push += own * (above.middle - height)
             for load in self.loads:
                 if load.z > height:
                     weight += load.weight
-                    moment += load.weight * load.x
+                    moment += load.weight * (load.x + self.lean * load.z)
                     push += load.weight * (load.z - height) * load.rides
             inner, outer = self.faces(height)
             known[height] = outer * weight - moment, moment - inner * weight, push
@@ -745,29 +768,75 @@ class HeldWall:
     def outlines(self, opening: Opening) -> list[tuple[int, np.ndarray]]:
         """Return the outlines of the pieces, each with its part of the linkage, or STILL."""
         return [
-            (self.part_at(opening, piece.high), rectangle(piece.left, piece.right, piece.low, piece.high))
+            (self.part_at(opening, piece.high), outline + self.lean * outline.imag)
             for piece in self.pieces(opening)
+            for outline in (rectangle(piece.left, piece.right, piece.low, piece.high),)
         ]
 
-    def linkage(
-        self, opening: Opening, cut: Opening, hung: Sequence[Hung], *, guided: bool = False
-    ) -> Linkage:
+    def _seen(self, x: float, z: float, outwards: bool = True) -> complex:
+        """A point of the wall in plumb as it stands, seen from the side to which it falls."""
+        stands = x + self.lean * z
+        return complex(stands if outwards else -stands, z)
+
+    def hung(self, way: Opening, cut: Opening, tie: Tie) -> list[Hung]:
+        """Return what hangs on the pieces of `cut` as they move in `way`, seen from the side to which that falls.
+
+        tie: each of its ties; inwards it goes slack, and a hold does not move.
+        """
+        outwards = 1.0 if way.outwards else -1.0
+        slip = self.slip(way)
+        hung = []
+        for load in self.loads:
+            part = self.part_at(cut, load.z)
+            if part != STILL and load.weight:
+                bearing = self._seen(load.x - way.lean_of_top * load.slab, load.z, way.outwards)
+                # What a top slips under stays behind: it is carried, and not moved.
+                weighs_only = bool(slip) or not load.moves
+                force = -1j * load.weight if weighs_only else 0j
+                mass = 0.0 if weighs_only else load.weight
+                hung.append(Hung("load", bearing, part, force, mass=mass))
+        for height, thrust in self.thrusts:
+            start = self._seen(0.0, height, way.outwards)
+            hung.append(Hung("thrust", start, self.part_at(cut, height), complex(outwards * thrust)))
+        friction = next((hold.inwards for hold in self.holds if hold.kind == "top"), 0.0)
+        if friction >= LEAST_STIFFNESS * _GRIPS and slip * outwards > 0:
+            # It resists from the first movement on, until the wall has left what lies on it.
+            breadth = self.storeys[-1].right - self.storeys[-1].left
+            slides = Tie(
+                stiffness=friction / _GRIPS,
+                pretension=friction,
+                strength=friction,
+                plastic_elongation=breadth,
+            )
+            start = outwards * self._face(self.height, True).real + 1j * self.height
+            hung.append(Hung("friction", start, self.part_at(cut, self.height), tie=slides))
+        for height in self.ties:
+            storey = next(storey for storey in self.storeys if storey.low < height <= storey.high)
+            stays = way.between or height == way.hold
+            stays |= way.upright and way.hold is not None and height > way.hold
+            pulls = tie if way.outwards and not stays else None
+            start = self._seen(storey.right, height, way.outwards)
+            hung.append(Hung("tie", start, self.part_at(cut, height), tie=pulls))
+        return hung
+
+    def linkage(self, opening: Opening, cut: Opening, hung: Sequence[Hung]) -> Linkage:
         """Return the pieces of `cut` as they move in `opening`, seen from the side to which that falls.
 
-        hung: what hangs on it, as seen from there. guided: loads with a mass move up and down only.
+        hung: what hangs on it, as seen from there.
         """
         moving = [piece for piece in self.pieces(cut) if piece.low >= cut.foot]
-        sign = 1.0 if opening.outwards else -1.0
         if opening.is_triangle:
             return self._triangle(opening, moving, hung)
         weights = np.array([piece.total for piece in moving])
-        centres = [complex(sign * (piece.left + piece.right) / 2, piece.middle) for piece in moving]
+        centres = [
+            self._seen((piece.left + piece.right) / 2, piece.middle, opening.outwards) for piece in moving
+        ]
         inertias = [piece.inertia for piece in moving]
         parts = Parts(weights, centres, inertias)
         points = [self._edge(height, turn) for height, turn in opening.kinks]
         if opening.hold is not None and not opening.upright:
             points.append(self._face(opening.hold, opening.outwards))
-        foot, *others = (complex(sign * point.real, point.imag) for point in points)
+        foot, *others = (point if opening.outwards else -point.conjugate() for point in points)
         if opening.hinge is None:
             return Turning(foot, parts, hung)
         hinge, *held = others
@@ -778,7 +847,7 @@ class HeldWall:
             hung,
             bodies=[opening.body_at(piece.high) for piece in moving],
             forwards=opening.forwards,
-            guided=guided,
+            guided=any(load.moves and not load.rides for load in self.loads),
         )
 
     def _triangle(self, opening: Opening, moving: Sequence[Storey], hung: Sequence[Hung]) -> Linkage:
@@ -795,7 +864,7 @@ class HeldWall:
             for place, piece in enumerate(moving):
                 low = max(piece.low, foot)
                 if low < piece.high:
-                    centre = complex(piece.left + piece.right, low + piece.high) / 2 + shift
+                    centre = self._seen((piece.left + piece.right) / 2, (low + piece.high) / 2) + shift
                     mass = share * piece.weight * (piece.high - low)
                     own = ((piece.high - low) ** 2 + (piece.right - piece.left) ** 2) / 12
                     moments[place] += mass, mass * centre, mass * (abs(centre - corner) ** 2 + own)
@@ -830,7 +899,7 @@ class HeldWall:
         if any(hold.height == height and hold.kind == "top" for hold in self.holds):
             return self._edge(height, 1.0 if outwards else -1.0)
         storey = next(storey for storey in self.storeys if storey.low < height <= storey.high)
-        return complex(storey.right if outwards else storey.left, height)
+        return self._seen(storey.right if outwards else storey.left, height)
 
 
 def _moved(kinks: Sequence[tuple[float, float]], height: float) -> float:

@@ -1,6 +1,6 @@
 """What things are called that are no `type`: the type that answers them and what that leaves out, or that none does.
 
-Letters say nothing of a meaning: "cavity wall" is near to "wall", which would take its leaves for one.
+Letters say nothing of a meaning: "retaining wall" is near to "wall", on which no earth presses.
 """
 
 from typing import NamedTuple
@@ -24,8 +24,7 @@ class OtherName(NamedTuple):
 
 _ROLLS = "a round one that rolls on its rim is not modelled"
 _LEAVES = (
-    "give the thickness of its leaves from outside in, leaves_m, and of a wall that bears or stands free those of a "
-    "loaded_wall, a facade or a free_wall"
+    "one that carries floors is a facade with leaves_m, and one whose top is free a free_wall with leaves_m"
 )
 _RUBBLE = "masonry that comes apart falls before it rocks as a body"
 _TOWER = "a tower bends and cracks before it rocks; what stands on it takes it as its support by stands_on"
@@ -61,7 +60,6 @@ OTHER_NAMES: dict[str, OtherName] = {
     ),
     **dict.fromkeys(
         (
-            "cavity wall",
             "double leaf wall",
             "two leaf wall",
             "three leaf wall",
@@ -69,7 +67,7 @@ OTHER_NAMES: dict[str, OtherName] = {
             "veneer",
             "cladding",
         ),
-        OtherName("wall", _LEAVES),
+        OtherName("cavity_wall", _LEAVES),
     ),
     **dict.fromkeys(("pushover curve", "pushover", "capacity curve"), OtherName("capacity_curve")),
     # What nothing here describes.

@@ -40,6 +40,8 @@ from rocking.structures.stones import Stones
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from rocking.structures.held_wall import Opening
+
 
 AS_DESCRIBED = "as described"
 """The description of the one mechanism of what does not crack."""
@@ -150,6 +152,20 @@ class Structure(ABC):
     @property
     def one_sided(self) -> bool:
         """Whether it rocks to the positive side only, as it leans on something; a key of types that may."""
+        return False
+
+    def without_ties(self) -> "Structure | None":
+        """Return the same structure with no tie, None of what has none; raises StructureError where it falls so."""
+        return None
+
+    @property
+    def tie_swing(self) -> "tuple[float, Structure] | None":
+        """The period [s] with which it swings on its ties, and the bulge of least λ that they hold; None without."""
+        return None
+
+    @property
+    def is_held(self) -> bool:
+        """Whether something holds it sideways above its foot."""
         return False
 
     @property
@@ -605,9 +621,20 @@ class Candidate:
         return self.structure.mechanism()
 
     @property
+    def opening(self) -> "Opening | None":
+        """How a held wall opens in it, where that is no crack of its description."""
+        own: Opening | None = getattr(self.structure, "opening", None)
+        return own
+
+    @property
     def bulges(self) -> bool:
         """Whether a held wall bulges in it, or slips below its top, which it may wherever it is cracked."""
-        return getattr(self.structure, "opening", None) is not None
+        return self.opening is not None
+
+    @property
+    def stays_shut(self) -> bool:
+        """Whether a tie without a strength would have to stretch for it to open outwards."""
+        return not getattr(self.structure, "lets_go", True)
 
     @property
     def multiplier(self) -> float:

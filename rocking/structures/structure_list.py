@@ -5,15 +5,17 @@ schema follows from the forms of the types.
 """
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pkgutil import resolve_name
 
 from rocking.errors import ConfigurationError
 from rocking.quantities import shown
 from rocking.structures.building_parts import PARTS
 from rocking.structures.description import Description, nearest
-from rocking.structures.fields import Form, forms
+from rocking.structures.fields import Form, form_made_by, forms
 from rocking.structures.other_names import answer
 from rocking.structures.structure import Structure
+from rocking.structures.wall import Wall
 
 _CLASSES = (
     "rocking.structures.block.Block",
@@ -29,8 +31,17 @@ _CLASSES = (
 )
 
 
+def _cavity_wall() -> Form:
+    """The form of a wall whose leaves have to be given."""
+    form = form_made_by(Wall, "of_size")
+    fields = tuple(replace(key, default=...) if key.name == "leaves" else key for key in form.fields)
+    meaning = "Wall of two or three leaves, held at floor and ceiling, each of which may fall alone"
+    return replace(form, type_name="cavity_wall", meaning=meaning, fields=fields)
+
+
 TYPES: dict[str, tuple[Form, ...]] = {
     **{kind.type_name: forms(kind) for kind in map(resolve_name, _CLASSES)},
+    "cavity_wall": (_cavity_wall(),),
     **{name: (part,) for name, part in PARTS.items()},
 }
 """The forms of each `type` of a structure list."""

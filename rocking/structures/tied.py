@@ -17,7 +17,7 @@ from rocking.remarks import Phrase, Remark
 from rocking.structures.crackable import CrackedAtHeight
 from rocking.structures.drawing import Bay, Mark, plane, rectangle
 from rocking.structures.fields import Value
-from rocking.structures.held_wall import Chain, HeldWall, Hold, Opening
+from rocking.structures.held_wall import LEAST_STIFFNESS, Chain, HeldWall, Hold, Opening
 from rocking.structures.kinds import StructureKind
 from rocking.structures.leaves import Leaf, Leaved, of_leaf
 from rocking.structures.linkage import (
@@ -32,7 +32,7 @@ from rocking.structures.linkage import (
 )
 from rocking.structures.mechanism import Tie
 from rocking.structures.stack import Course, Held, Stop, course_at
-from rocking.structures.structure import Candidate
+from rocking.structures.structure import Candidate, Structure
 
 UnitWeight = Annotated[float, Value("Weight of the masonry", 20.0, "kN/m³", (8, 30), bounds={"ge": 1e-6})]
 Eccentricity = Annotated[
@@ -51,8 +51,6 @@ TopSlab = Annotated[
 
 _SAME = 1e-6
 """Share of the height within which a joint is one at which something changes."""
-LEAST_STIFFNESS = 1e-12
-"""The least stiffness of a tie, N/m²: below it the rotation at which it yields is no number any more."""
 
 
 FAR_APART = 3.0
@@ -125,9 +123,6 @@ class Tied(CrackedAtHeight, Leaved):
     """
 
     _as_one_leaf: ClassVar[dict[str, Any]] = {**Leaved._as_one_leaf, "loaded_leaf": None}
-    loads_rise_only: ClassVar[bool] = False
-    """Whether loads with a mass move up and down only, as something holds them sideways."""
-
     tie_heights: Annotated[
         tuple[float, ...], Value("Heights of the ties above the ground", [1.6], "m", (0.2, 60), "z")
     ] = field(default=(), kw_only=True)
@@ -274,13 +269,22 @@ class Tied(CrackedAtHeight, Leaved):
     def height(self) -> float:
         """The height of the wall, m."""
 
-    @abstractmethod
+    def _moves(self, mirrored: bool) -> Opening:
+        """How it opens to one side."""
+        return self._way(mirrored) or replace(self._opens, outwards=not mirrored)
+
     def _hung(self, mirrored: bool) -> list[Hung]:
         """The loads and ties, as seen from one side."""
+        return self.held_wall.hung(self._moves(mirrored), self._opens, self._tie)
 
-    def without_ties(self) -> Self:
-        """Return the same structure with no tie. Raises StructureError where it does not stand so."""
-        return replace(self, **_NO_TIES)
+    def _linkage(self, mirrored: bool) -> Linkage:
+        return self.held_wall.linkage(self._moves(mirrored), self._opens, self._hung(mirrored))
+
+    def _parts(self) -> list[tuple[int, np.ndarray]]:
+        return self.held_wall.outlines(self._opens)
+
+    def without_ties(self) -> Self | None:
+        return replace(self, **_NO_TIES) if self.tie_heights else None
 
     @property
     def ties_apart(self) -> bool:
@@ -335,7 +339,7 @@ class Tied(CrackedAtHeight, Leaved):
     @cached_property
     def _mechanisms(self) -> tuple[Candidate, ...]:
         cracked = [candidate for candidate in self.candidates() if candidate.counts and not candidate.part]
-        others = self._bulges if self.crack_is_known else self._family
+        others = self._bulges if self.crack_is_known or self._is_one_bulge else self._family
         if self.symmetric:
             others = tuple(candidate for candidate in others if candidate.sign >= 0)
         further = [candidate for candidate in others if not any(_is_that(own, candidate) for own in cracked)]
@@ -352,12 +356,10 @@ class Tied(CrackedAtHeight, Leaved):
 
         A crack that is known says where the wall is cracked, not that what holds it keeps it from bulging.
         """
-        if not self.held_wall.holds:
+        if self._is_one_bulge or not self.held_wall.holds:
             return ()
         own = self._described_opening
         span = (own.foot, own.hold) if own else None
-        if span and not (self.tie_heights or self.held_at) and not self.held_wall.top_may_slip:
-            return ()  # it is that bulge itself
         bulges = []
         for candidate in self._family:
             opening = candidate.structure.opening if isinstance(candidate.structure, Tied) else None
@@ -367,6 +369,16 @@ class Tied(CrackedAtHeight, Leaved):
             if bulges_elsewhere or opening.between or self.held_wall.slip(opening):
                 bulges.append(candidate)
         return tuple(bulges)
+
+    @property
+    def is_held(self) -> bool:
+        return bool(self.held_wall.holds)
+
+    @property
+    def _is_one_bulge(self) -> bool:
+        """Whether it can do nothing but bulge between its foot and a top that stays where it is."""
+        held = self.tie_heights or self.held_at or self.held_wall.top_may_slip
+        return self._described_opening is not None and not held
 
     def _places(self, count: int) -> list[float]:
         """Joints over the height, and those at which something changes: feet of storeys, and what holds it."""
@@ -520,11 +532,15 @@ class Tied(CrackedAtHeight, Leaved):
         wall = self.held_wall
         found = []
         for place, hold in enumerate(wall.holds):
-            held = (candidate for candidate in self.mechanisms() if self._holds_back(hold.height, candidate))
-            weakest = next(held, None)
-            if weakest is None or hold.kind == "floor" or not isinstance(weakest.structure, Tied):
+            held = [candidate for candidate in self.mechanisms() if self._holds_back(hold.height, candidate)]
+            if not held or hold.kind == "floor":
                 continue
-            reaction = weakest.structure.reactions()[place]
+            # What is taken to hold has to bear the crack that is described, too, which may ask for more.
+            asked = held[:1]
+            if hold.kind == "top" and not hold.gives:
+                asked += [candidate for candidate in held if candidate.position == self.crack_position]
+            each = [(candidate.name, candidate.structure.reactions()[place]) for candidate in asked]
+            name, reaction = max(each, key=lambda asking: float(asking[1].force[0]))
             friction = hold.inwards if hold.kind == "top" else 0.0
             of_ties = hold.outwards - friction if np.isfinite(friction) else 0.0
             coefficient = friction / reaction.pressing if reaction.pressing else 0.0
@@ -532,7 +548,7 @@ class Tied(CrackedAtHeight, Leaved):
                 Restraint(
                     kind=hold.kind,
                     height=hold.height,
-                    holds=weakest.name,
+                    holds=name,
                     needed=float(reaction.force[0]),
                     friction=friction,
                     coefficient=coefficient if hold.kind == "top" else wall.joints.friction,
@@ -562,23 +578,22 @@ class Tied(CrackedAtHeight, Leaved):
         return self.opening or self._described_opening or Opening(foot=self.crack_position)
 
     @cached_property
-    def tie_period(self) -> float:
-        """The period with which the whole wall swings about its foot on its ties, s; 0 without ties that stretch."""
+    def tie_swing(self) -> tuple[float, Structure] | None:
         stiffness = self.tie_stiffness * sum(height**2 for height in self.tie_heights)
-        if not stiffness:
-            return 0.0
+        ties = {hold.height for hold in self.held_wall.holds if hold.kind == "tie"}
+        hanging = (
+            candidate.structure
+            for candidate in self.mechanisms()
+            if (way := candidate.opening) and way.hinge is not None and way.outwards
+            if not candidate.refusal and (way.foot in ties or way.hold in ties)
+        )
+        bulge = next(hanging, None) if stiffness else None
+        if bulge is None:
+            return None
         wall = self.held_wall
         inertia = sum(storey.weight * (storey.high**3 - storey.low**3) / 3 for storey in wall.storeys)
         inertia += sum(load.weight * load.z**2 for load in wall.loads if load.rides)
-        return 2 * math.pi * math.sqrt(inertia / (GRAVITY * stiffness))
-
-    def hangs_on_ties(self, candidate: Candidate) -> bool:
-        """Whether a mechanism is an outward bulge that stands on a tie or is held by one, and can be followed."""
-        opening = candidate.structure.opening if isinstance(candidate.structure, Tied) else None
-        if opening is None or opening.hinge is None or not opening.outwards or candidate.refusal:
-            return False
-        ties = {hold.height for hold in self.held_wall.holds if hold.kind == "tie"}
-        return opening.foot in ties or opening.hold in ties
+        return 2 * math.pi * math.sqrt(inertia / (GRAVITY * stiffness)), bulge
 
     def _holds_back(self, height: float, candidate: Candidate) -> bool:
         """Whether what holds the wall at `height` [m] stops the upper body of a mechanism that falls outwards."""
@@ -590,29 +605,22 @@ class Tied(CrackedAtHeight, Leaved):
     def _held_back(self, state: MotionState, mirrored: bool) -> list[Reaction]:
         """What each hold gives on one side, in the order of `held_wall.holds`."""
         wall = self.held_wall
-        way = self._way(mirrored)
-        if way and way.is_triangle:
+        way = self._moves(mirrored)
+        if way.is_triangle:
             raise UnknownContacts("what the ties take as the wall falls between them is not known.")
         linkage: Linkage = self.linkages[-1 if mirrored else 0]
-        if way is None and isinstance(self._described_opening, Opening):
-            way = replace(self._described_opening, outwards=not mirrored)
-            linkage = wall.linkage(
-                way, self._described_opening, self._hung(mirrored), guided=self.loads_rise_only
-            )
-        above = [
-            hold.height for hold in wall.holds if way and way.hold is not None and hold.height > way.hold
-        ]
+        above = [hold.height for hold in wall.holds if way.hold is not None and hold.height > way.hold]
         stop = max(above, default=wall.height)
         gives = np.zeros((2, state.rotation.size))
         if isinstance(linkage, Chain):
-            gives = linkage.holding(state, stop if way and way.upright else None) / GRAVITY
+            gives = linkage.holding(state, stop if way.upright else None) / GRAVITY
         reactions = []
         heights = [hung.start.imag for hung in linkage.hung if hung.tie]
         for hold in wall.holds:
             force = np.zeros(state.rotation.size)
-            if way and hold.height == way.hold:
+            if hold.height == way.hold:
                 force = gives[0]
-            elif way and way.upright and hold.height == stop:
+            elif way.upright and hold.height == stop:
                 force = gives[1]
             for tie, height in zip(linkage.ties, heights, strict=True):
                 if abs(height - hold.height) < 1e-9 * wall.height:
@@ -627,48 +635,17 @@ class Tied(CrackedAtHeight, Leaved):
         """How it opens as it is described, where that is a bulge; None: as one body."""
         return None
 
-    def way_in_words(self, sign: int) -> str:
-        """Return how it opens to the positive (1) or the negative (−1) side: "bulges between foot and tie, hinge …"."""
-        way = self._way(sign < 0)
-        if way is None:
-            return self.crack_in_words
-        does = self.held_wall.name(way)
-        if way.hinge is None:
-            return does
-        return Phrase("{does}, {opens}", does=does, opens=Phrase("hinge at {height:.4g} m", height=way.hinge))
-
     def _way(self, mirrored: bool) -> Opening | None:
         """The way it opens to one side; None: about the crack as it is described."""
         if self.opening is None or self.opening.outwards != mirrored:
             return self.opening
         return self.held_wall.other_way(self.opening)
 
-    def _opened_linkage(self, mirrored: bool) -> Linkage | None:
-        """The bodies of its opening as they move to one side; None where it has none."""
-        way = self._way(mirrored)
-        if self.opening is None or way is None:
-            return None
-        hung = self._hung(mirrored)
-        return self.held_wall.linkage(way, self.opening, hung, guided=self.loads_rise_only)
-
-    def _tie_on(self, height: float, mirrored: bool) -> Tie | None:
-        """The tie at `height` [m] where it pulls on one side: inwards it goes slack, and a hold does not move."""
-        way = self._way(mirrored)
-        stays = way is not None and way.between
-        if way is not None and way.hold is not None:
-            stays |= height == way.hold or (way.upright and height > way.hold)
-        return None if mirrored or stays else self._tie
-
     @cached_property
     def _yield_force(self) -> float:
         """The force of each tie as it yields, N per metre; inf of one that never does."""
         strength = np.inf if self.tie_strength is None else self.tie_strength
         return strength if self.tie_stiffness else self.tie_pretension
-
-    @staticmethod
-    def _load(start: complex, part: int, load: float, weight_only: bool) -> Hung:
-        """A load [N/m], whose mass something else holds or which moves along."""
-        return Hung("load", start, part, -1j * load) if weight_only else Hung("load", start, part, mass=load)
 
     def tie_events(self, rotation: float) -> str:
         tie = self._tie

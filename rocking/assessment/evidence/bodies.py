@@ -23,7 +23,6 @@ from rocking.remarks import Remark
 from rocking.structures import Structure
 from rocking.structures.leaves import parts_of
 from rocking.structures.linkage import Turning
-from rocking.structures.tied import Tied
 
 
 class Thrown:
@@ -87,9 +86,9 @@ def why_open(
         return None
     if bounces:
         return AssessmentKind.CONTACTS_OPEN
-    candidates = [candidate.structure for candidate in structure.candidates() if not candidate.part]
-    bulges = [wall for wall in candidates if isinstance(wall, Tied) and wall.opening]
-    first = [body for body in candidates if body not in bulges][:1]
+    candidates = [candidate for candidate in structure.candidates() if not candidate.part]
+    bulges = [candidate.structure for candidate in candidates if candidate.bulges]
+    first = [candidate.structure for candidate in candidates if not candidate.bulges][:1]
     asked = [body for body in first if not all(isinstance(part, Turning) for part in body.linkages)]
     for body, sign, direction in product(asked, signs(structure, settings), directions(motions)):
         strongest = motions.horizontal[direction].scaled(sign * (1 + settings.ensemble.amplitude_range))

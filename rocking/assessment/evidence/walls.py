@@ -15,7 +15,6 @@ from rocking.motion.integration import Members, integrate_members, strict
 from rocking.remarks import Remark
 from rocking.structures import Structure
 from rocking.structures.leaves import parts_of
-from rocking.structures.tied import Tied
 
 BEYOND = 0.4
 """Share of the critical rotation beyond which a chain of a held wall may fall though its mechanism stands (theory:
@@ -47,11 +46,7 @@ class Held:
         return asked.moves(word) and not asked.slides_throughout and asked.case.ensembles is not None
 
     def look(self, asked: Asked) -> Limit | None:
-        held = {
-            name
-            for name, part in parts_of(asked.structure)
-            if isinstance(part, Tied) and part.held_wall.holds
-        }
+        held = {name for name, part in parts_of(asked.structure) if part.is_held}
         assert asked.case.ensembles is not None
         far = any(
             crack.counts and crack.facts.farthest > BEYOND and crack.part in held
@@ -99,16 +94,13 @@ def ties_give(structure: Structure, motions: GroundMotions, settings: Assessment
     them as one body, and its bulge is shaken by the absolute acceleration of that oscillator: the bulge of least λ that
     a tie holds or bears is followed under it, with both signs of every direction. What cannot be followed counts.
     """
-    if not isinstance(structure, Tied) or not structure.tie_period:
+    if structure.tie_swing is None:
         return False
-    hanging = (each.structure for each in structure.mechanisms() if structure.hangs_on_ties(each))
-    bulge = next(hanging, None)
-    if bulge is None:
-        return False
+    own_period, bulge = structure.tie_swing
     both = Members(1 + settings.ensemble.amplitude_range, polarity=[1.0, -1.0])
     for motion in (motions.horizontal[direction] for direction in directions(motions)):
         # Below two samples of the record it cannot be distinguished from one that moves with the ground.
-        period = structure.tie_period if structure.tie_period >= 2 * motion.time_step else 0.0
+        period = own_period if own_period >= 2 * motion.time_step else 0.0
         through_ties = swinging(period).motion(motion)
         try:
             followed = integrate_members(bulge, through_ties, both, strict(settings.tolerance))

@@ -18,7 +18,6 @@ from rocking.reports.printing import unit_of
 from rocking.reports.sentences import Sentences
 from rocking.reports.style import PREDICTED, PULSE, new_figure, panel_at, room_for_texts, styled
 from rocking.structures import Structure
-from rocking.structures.tied import Tied
 
 _HEIGHT = 102.0
 """mm; of the mechanism to the left of its bars."""
@@ -51,7 +50,7 @@ def bars_figure(
     figure = new_figure(_HEIGHT)
     mechanism = checked.governing
     body = mechanism.candidate.structure
-    bay = body.bay if isinstance(body, Tied) and body.opening is not None else None
+    bay = body.bay if mechanism.candidate.bulges else None
     foot = 6 if bay is None else 6 + _HEIGHT / 3
     drawn = panel_at(figure, 2, foot, 58, _HEIGHT - 4 - foot)
     rotation = mechanism.candidate.sign * _TURNED * mechanism.static.side.critical_rotation

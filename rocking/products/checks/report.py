@@ -41,7 +41,6 @@ from rocking.reports.variants import strips
 from rocking.structures import Structure
 from rocking.structures.crackable import Crackable
 from rocking.structures.structure import AS_DESCRIBED, Candidate
-from rocking.structures.tied import Tied
 
 _QUANTILE = 1.645
 """The deviation of the normal distribution within which nine tenths lie."""
@@ -101,7 +100,7 @@ class CheckedStructure:
     @property
     def has_ties(self) -> bool:
         """Whether ties hold it."""
-        return isinstance(self.structure, Tied) and bool(self.structure.tie_heights)
+        return bool(getattr(self.structure, "tie_heights", ()))
 
 
 def structures_data(

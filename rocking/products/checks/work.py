@@ -30,7 +30,6 @@ from rocking.remarks import Remark
 from rocking.reports.pages import Panel, Part
 from rocking.reports.printing import sentence, strong, table_of, words, write_document
 from rocking.structures.structure import Candidate
-from rocking.structures.tied import Tied
 from rocking.study.documents import made_or_failed
 from rocking.study.job import Job, Study
 from rocking.study.kept import Rows
@@ -226,9 +225,9 @@ def _checked(
     try:
         with one_structure(scene.name):
             checked = check_here(scene.structure)
-            if isinstance(scene.structure, Tied) and scene.structure.tie_heights:
-                with suppress(RockingError):  # without its ties it may not stand
-                    untied = check_here(scene.structure.without_ties())
+            with suppress(RockingError):  # without its ties it may not stand
+                alone = scene.structure.without_ties()
+                untied = None if alone is None else check_here(alone)
     except RockingError as error:
         checked = None
         refusal = error.remark or str(error)

@@ -99,7 +99,6 @@ def test_what_it_is_called_besides_is_no_type_and_is_answered_by_one_or_none():
         ("Vault", "vault"),
         ("domes", "dome"),
         ("retaining_wall", "retaining wall"),
-        ("cavity_wall", "cavity wall"),
     ],
 )
 def test_a_name_is_answered_by_its_meaning_however_it_is_spelt(typed, name):

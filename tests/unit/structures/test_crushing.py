@@ -178,7 +178,10 @@ def test_strength_without_end_changes_nothing():
     pairs = [
         (Block.of_size(0.9, 5.0, **far), Block.of_size(0.9, 5.0)),
         (Wall(2.0, 1.4, 0.3, **far), Wall(2.0, 1.4, 0.3)),
-        (LoadedWall(2.0, 1.4, 0.3, 18e3, 5e3, **held), LoadedWall(2.0, 1.4, 0.3, 18e3, 5e3)),
+        (
+            LoadedWall(2.0, 1.4, 0.3, 18e3, top_load=5e3, **held),
+            LoadedWall(2.0, 1.4, 0.3, 18e3, top_load=5e3),
+        ),
         (
             Facade((3.0, 3.0), (0.5, 0.4), 18e3, (5e3, 4e3), **held),
             Facade((3.0, 3.0), (0.5, 0.4), 18e3, (5e3, 4e3)),
