@@ -38,7 +38,7 @@ class AssessmentKind(Kind):
     FRICTION = auto(), """measure the friction of its joints, and give it
         (friction_coefficient)""", "measure friction"
     ANCHORS = auto(), """let each anchor grip more of the wall, and say how much
-        (anchor_height_m)""", "larger anchors"
+        (anchor_height_m, anchor_width_m)""", "larger anchors"
     INPUT = auto(), "give a record and settings under which it can be followed", "not followed"
     ENSEMBLE = auto(), "follow an ensemble of members (ensemble: members)", "follow an ensemble"
     TOLERANCE = auto(), "give a restitution below 1, or another tolerance", "give restitution below 1"

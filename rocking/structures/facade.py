@@ -318,6 +318,7 @@ class Facade(Tied):
             ties=self._tie_levels,
             ties_apart=self.ties_apart,
             gripped=self.anchor_height,
+            gripped_share=self._gripped_share,
             joints=self.joints,
         )
 

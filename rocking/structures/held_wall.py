@@ -358,7 +358,7 @@ class HeldWall:
     that nothing moves inwards. strength: f_c at which the edges of joints crush, Pa; or None. lean: how far it stands
     out of plumb outwards, per height, whereas x is given in plumb. ties: the height of each, m. ties_apart: whether its
     ties stand so far apart along the wall that it may fall between them. gripped: height of the masonry that each
-    anchor grips, m.
+    anchor grips, m. gripped_share: of the length of the wall that all anchors of a row grip.
     """
 
     storeys: tuple[Storey, ...]
@@ -371,6 +371,7 @@ class HeldWall:
     ties: tuple[float, ...] = ()
     ties_apart: bool = False
     gripped: float = GRIPPED
+    gripped_share: float = 1.0
     joints: Joints = USUAL
 
     @property
@@ -409,7 +410,8 @@ class HeldWall:
         """
         floor = sum(load.weight for load in self.loads if load.z == height and not load.slab)
         storey = next(storey for storey in self.storeys if storey.low < height <= storey.high)
-        return self.joints.friction * (self.pressing(height) + floor + self.gripped * storey.weight)
+        pressing = self.pressing(height) + floor + self.gripped * storey.weight
+        return self.joints.friction * self.gripped_share * pressing
 
     @cached_property
     def anchors_slide_at(self) -> float:

@@ -51,7 +51,10 @@ class StructureKind(Kind):
         carried about 2.8 times the static force (1.9 to 4.8 in eight of ten walls)."""
     ANCHOR_SLIDES = auto(), """The tie at {height_m:.4g} m may get {most_kN_m:.3g} kN/m, but the wall around
         it gives {grip_kN_m:.3g} kN/m by friction ({friction:.2g} of what lies above it and of what the anchor
-        grips, anchor_height_m): that may slide out; spread the anchor over several courses."""
+        grips, anchor_height_m and anchor_width_m): that may slide out; spread the anchor over several courses."""
+    EACH_TIE = auto(), """Each tie at {height_m:.4g} m, {spacing_m:.4g} m from the next, carries
+        {needed_kN:.3g} kN statically when the wall {about}; the masonry that its anchor grips gives
+        {grip_kN:.3g} kN by friction."""
     TIE_YIELDS = auto(), """The tie at {height_m:.4g} m fails at {gives_kN_m:.3g} kN/m, before the wall
         {about}, for which it would have to carry {needed_kN_m:.3g} kN/m."""
     TOP_HOLDS = auto(), """The top at {height_m:.4g} m needs {needed_kN_m:.3g} kN/m statically when the wall

@@ -533,6 +533,7 @@ class Restraint:
     of the joints around an anchor. ties: the force at which they yield, inf of such as have no strength. weight: of the
     wall per metre; 1 where that is not known, so that `needed` is a share of it. grip: the most that the wall gives
     around a tie, by friction above and below the course that it grips (theory: section 13.3); inf of what is no tie.
+    spacing: of the ties along the wall, m; None where it is not known.
     """
 
     kind: str
@@ -544,6 +545,7 @@ class Restraint:
     ties: float = 0.0
     weight: float = 1.0
     grip: float = float("inf")
+    spacing: float | None = None
 
     @property
     def gives(self) -> float:
@@ -559,6 +561,19 @@ class Restraint:
     def most(self) -> float:
         """The most that a tie may get, N per metre: the force at which it yields, or else that of the impacts."""
         return self.ties if self.ties < float("inf") else IMPACTS * self.needed
+
+    @property
+    def remarks(self) -> tuple[Remark, ...]:
+        """What it needs and gives, per metre and of each tie, and whether its anchor may slide out."""
+        each = []
+        if self.spacing is not None:
+            forces = {
+                "needed_kN": self.needed * self.spacing / 1e3,
+                "grip_kN": self.grip * self.spacing / 1e3,
+            }
+            about = {"height_m": self.height, "spacing_m": self.spacing}
+            each.append(Remark.of(StructureKind.EACH_TIE, self.holds, **about, **forces))
+        return (self.remark, *each, *filter(None, [self.slides_out]))
 
     @property
     def slides_out(self) -> Remark | None:

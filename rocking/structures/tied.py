@@ -79,6 +79,7 @@ _NO_TIES: dict[str, Any] = {
     "unit_length": None,
     "held_between": None,
     "anchor_height": GRIPPED,
+    "anchor_width": None,
     **_RODS_SPREAD,
 }
 """The fields of a wall without ties."""
@@ -113,8 +114,8 @@ class Tied(CrackedAtHeight, Leaved):
     tie_spacing: of the ties of a row along the wall, m, with the unit_length of the masonry, m, or held_between:
     "floor" where a stiff floor or a ring beam holds all along; without a spacing they are taken to. rod_diameter,
     rod_length, m, rod_yield_stress and rod_modulus, Pa, rod_pretension, N: of each rod, in place of the stiffness
-    E A/(L s), the strength f_y A/s and the pretension T/s. anchor_height: of the masonry that the anchor of each tie
-    grips, m.
+    E A/(L s), the strength f_y A/s and the pretension T/s. anchor_height, anchor_width: of the masonry that the anchor
+    of each tie grips, m.
     compressive_strength: of the masonry, Pa; None: the edges of its joints do not crush.
     loaded_leaf: of its leaves the one on which loads and thrusts bear. Ties hold each leaf without bonders as they hold
     the wall; a leaf that goes inwards alone is held by none.
@@ -222,6 +223,17 @@ class Tied(CrackedAtHeight, Leaved):
             bounds={"gt": 0, "le": 1000},
         ),
     ] = field(default=GRIPPED, kw_only=True)
+    anchor_width: Annotated[
+        float | None,
+        Value(
+            "Length along the wall of the masonry that each anchor grips, its plate and the spread that a study names; "
+            "left out: the unit_length of the masonry, and all of it where a floor holds it between its ties",
+            None,
+            "m",
+            (0.1, 3),
+            bounds={"gt": 0, "le": 1000},
+        ),
+    ] = field(default=None, kw_only=True)
     loaded_leaf: Annotated[
         Literal["inner", "outer"] | None,
         Value(
@@ -292,6 +304,12 @@ class Tied(CrackedAtHeight, Leaved):
         if self.tie_spacing is None or self.unit_length is None or self.held_between:
             return False
         return self.tie_spacing > FAR_APART * self.unit_length
+
+    @property
+    def _gripped_share(self) -> float:
+        """The share of the length of the wall that the anchors of a row grip (theory: section 13.3)."""
+        width = self.anchor_width or (None if self.held_between else self.unit_length)
+        return 1.0 if width is None or self.tie_spacing is None else min(1.0, width / self.tie_spacing)
 
     def _check_plane(self) -> None:
         """Refuse a stack, which is plane, of a wall that may fall between its ties."""
@@ -555,6 +573,7 @@ class Tied(CrackedAtHeight, Leaved):
                     ties=of_ties,
                     weight=sum(storey.total for storey in wall.storeys),
                     grip=wall.grip(hold.height) if hold.kind == "tie" else math.inf,
+                    spacing=self.tie_spacing if hold.kind == "tie" else None,
                 )
             )
         return tuple(found)
@@ -821,9 +840,10 @@ class Tied(CrackedAtHeight, Leaved):
         if self.tie_spacing is not None and self.unit_length is None and self.held_between is None:
             said = ", but a tie_spacing needs the length of the units of the masonry, or held_between: floor; give it."
             raise SizeError.of("unit_length", "missing", said)
-        if self.unit_length is not None and self.tie_spacing is None:
-            said = ", but a unit_length needs the distance between the ties of a row; give it."
-            raise SizeError.of("tie_spacing", "missing", said)
+        for name in ("unit_length", "anchor_width"):
+            if getattr(self, name) is not None and self.tie_spacing is None:
+                said = f", but {name} needs the distance between the ties of a row; give it."
+                raise SizeError.of("tie_spacing", "missing", said)
         if self.loaded_leaf is not None and not self.leaves:
             said = ", but says which of its leaves bears its loads; give the thickness of each, leaves_m."
             raise SizeError.of("loaded_leaf", repr(self.loaded_leaf), said)

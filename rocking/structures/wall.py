@@ -349,6 +349,7 @@ class Wall(Tied):
             ties=self.tie_heights,
             ties_apart=self.ties_apart,
             gripped=self.anchor_height,
+            gripped_share=self._gripped_share,
             joints=self.joints,
         )
 

@@ -762,8 +762,7 @@ def _sentences(page: CheckedStructure, checked: StructureCheck, words: Sentences
         )
     if checked.remark and checked.remark.kind is CheckKind.NO_DISPLACEMENT:
         lines.append(words.of(checked.remark))
-    lines += [words.of(restraint.remark) for restraint in checked.restraints]
-    lines += [words.of(restraint.slides_out) for restraint in checked.restraints if restraint.slides_out]
+    lines += [words.of(remark) for restraint in checked.restraints for remark in restraint.remarks]
     lines += _lowered(checked, page.untied, words)
     dynamic = checked.dynamic
     if dynamic is not None:

@@ -12,8 +12,8 @@ from rocking.assessment.contacts import stackable
 from rocking.assessment.cracks import cracks, mechanisms_of
 from rocking.assessment.kinds import AssessmentKind
 from rocking.codes.static_check import kinematic_check
-from rocking.errors import RockingError, StructureError
-from rocking.structures import Facade, LoadedWall
+from rocking.errors import RockingError, SizeError, StructureError
+from rocking.structures import Facade, Joints, LoadedWall
 from rocking.structures.kinds import StructureKind
 from tests.refusals import refused
 
@@ -261,6 +261,25 @@ def test_anchors_slide_out_at_the_load_of_hand():
     assert larger.anchors_slide_at == ALL_ALONG.without_ties().anchors_slide_at == np.inf
     weak = replace(ALL_ALONG, tie_strength=grip / 2, tie_plastic_elongation=0.05)
     assert weak.anchors_slide_at == np.inf  # it yields before
+
+
+@pytest.mark.parametrize("spacing", [1.0, 2.0, 8.0])
+def test_each_anchor_gives_the_friction_of_what_it_grips_and_needs_the_force_of_its_spacing(spacing):
+    """By hand: μ (what lies above + what it grips) × width against R × spacing; a wider anchor gives more."""
+    along = replace(
+        ALL_ALONG.on_joints(Joints(friction=0.4)), tie_spacing=spacing, unit_length=0.5, held_between=None
+    )
+    (per_metre,) = ALL_ALONG.on_joints(Joints(friction=0.4)).restraints()
+    for width in (None, 0.25, 0.5, 20.0):
+        (tie,) = replace(along, anchor_width=width).restraints()
+        assert tie.grip * spacing == pytest.approx(per_metre.grip * min(width or 0.5, spacing))
+        assert tie.remarks[1]["needed_kN"] == pytest.approx(per_metre.needed * spacing / 1e3)
+        assert tie.remarks[1]["grip_kN"] == pytest.approx(tie.grip * spacing / 1e3)
+    (held,) = replace(along, held_between="floor").restraints()
+    assert held.grip == per_metre.grip
+    assert replace(along, anchor_width=0.25).anchors_slide_at <= along.anchors_slide_at
+    with refused(SizeError, "tie_spacing"):
+        replace(ALL_ALONG, anchor_width=0.3)
 
 
 def test_an_anchor_grips_no_more_than_the_wall():
