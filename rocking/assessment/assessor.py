@@ -300,6 +300,9 @@ class Assessor:
                 motion=pair, structure=scene.structure, settings=self.settings, bounces=bounces
             )
             directions = replace(self._case(inputs), structure=scene.name)
+        loss = scene.terms.support_loss
+        cases = {name: case.losing_seats(scene.structure, loss) for name, case in cases.items()}
+        directions = directions and directions.losing_seats(scene.structure, loss)
         return PeriodResult(scene, cases, directions, shaking.support)
 
     def _of_governing(

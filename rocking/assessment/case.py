@@ -13,6 +13,7 @@ from rocking.assessment.contacts import ContactShare, stackable
 from rocking.assessment.cracks import (
     CrackEnsembles,
     counting_cracks,
+    cracks,
     decided_by,
     is_own,
     never_overturns_because,
@@ -104,7 +105,9 @@ class CaseResult:
     computed; a store keeps it apart, as only what is printed has one. slides_at: acceleration [g] at which its joints
     slide before they lift, where the motion reaches it; else nan. limits: what evidence sets against the word of its
     mechanisms. crack: to which prediction, responses and check belong; "" where it is that of the structure. statics:
-    the case of that one, where another crack governs. variations: other cracks, then other processings.
+    the case of that one, where another crack governs. variations: other cracks, then other processings. seat_lost:
+    whether a member, or the run, moves so far below a floor, beam or vault that this loses its bearing, and counts as
+    fallen.
     """
 
     component: str
@@ -117,6 +120,7 @@ class CaseResult:
     slides_at: float = math.nan
     crack: str = ""
     statics: "CaseResult | None" = None
+    seat_lost: bool = False
     limits: tuple[Limit, ...] = ()
     contact: ContactShare | None = None
     variations: tuple[Variation, ...] = ()
@@ -130,6 +134,30 @@ class CaseResult:
         """
         responses = {method: _without_history(response) for method, response in self.responses.items()}
         return replace(self, prediction=None, responses=responses, reserve=None)
+
+    def losing_seats(self, body: Structure, support_loss: float) -> "CaseResult":
+        """Return it with each member, or its run, that moves by `support_loss` [m] below a floor counted as fallen."""
+        if not math.isfinite(support_loss):
+            return self
+        lost_at = {
+            candidate.description: candidate.structure.loses_seat_at(support_loss)
+            for candidate in cracks(body)
+        }
+        own = lost_at.get(self.crack, body.loses_seat_at(support_loss))
+        case = replace(self, seat_lost=self.integrated_rotation_ratio > own)
+        if self.ensembles is None:
+            return case
+        beyond = [
+            replace(crack, ensemble=crack.ensemble.overturning_beyond(lost_at.get(crack.description, own)))
+            for crack in self.ensembles.followed
+        ]
+        more = any(
+            after.ensemble.overturning_members > before.ensemble.overturning_members
+            for before, after in zip(self.ensembles.followed, beyond, strict=True)
+        )
+        return replace(
+            case, ensembles=replace(self.ensembles, followed=tuple(beyond)), seat_lost=case.seat_lost or more
+        )
 
     @property
     def predicted_rotation_ratio(self) -> float:
@@ -184,14 +212,17 @@ class CaseResult:
             own,
             # What slides apart does not have to lift.
             rests=rests and not (body.falls_by_sliding and not math.isnan(self.slides_at)),
-            run_ratio=max(runs, default=math.nan),
-            never_overturns_because=never_overturns_because(body),
+            run_ratio=math.inf if self.seat_lost else max(runs, default=math.nan),
+            never_overturns_because="" if self.seat_lost else never_overturns_because(body),
             slides_at=own.slides_at if math.isnan(self.slides_at) else self.slides_at,
             top=next((top.remark for top in tops), None),
             stacks=(self.contact.falls, self.contact.runs) if self.contact and self.contact.runs else None,
             as_stones=body.as_stones,
             stackable=self.contact is None and stackable(body),
-            remarks=worth_measuring(self.ensembles, restitution_is_typed=typed) if self.ensembles else (),
+            remarks=(
+                *([Remark(AssessmentKind.SEATS)] if self.seat_lost else []),
+                *(worth_measuring(self.ensembles, restitution_is_typed=typed) if self.ensembles else ()),
+            ),
             failures=failures,
         )
 

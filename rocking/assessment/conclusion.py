@@ -27,6 +27,8 @@ UNSAID = (AssessmentKind.NOTHING_TO_DO, AssessmentKind.NOTHING_DECIDES)
 """Remarks of which a row of a report says nothing."""
 TO_CHECK = (StructureKind.SIZE_UNUSUAL, StructureKind.BROADER_THAN_TALL, AssessmentKind.VERTICAL_MISSING)
 """Kinds of remarks for which somebody has to check what was typed before anything else is read."""
+_MOVES = 0.01
+"""Distance below a floor from which on it is said, m."""
 _MOST_TO_CHECK = 3
 """Remarks of these kinds that are printed with a conclusion; remarks.csv holds all."""
 _MOST_NAMED = 20
@@ -85,6 +87,8 @@ class Conclusion:
             return Remark(AssessmentKind.STANDS_AS_RECORDED)
         if word in FALLING:
             return Remark(AssessmentKind.STRENGTHEN)
+        if self.case is not None and word.stays_up and self.case.bearing_displacement_m >= _MOVES:
+            return Remark.of(AssessmentKind.FLOORS_MOVE, moved_m=self.case.bearing_displacement_m)
         if word.stays_up:
             return Remark(AssessmentKind.NOTHING_TO_DO)
         if falls and word is Verdict.PROBABLY_STANDS:

@@ -260,6 +260,11 @@ class Ensemble:
         """Whether all members stay far from overturning."""
         return bool(self.members and not self.failed_members and self._followed.max() <= FAR)
 
+    def overturning_beyond(self, rotation_ratio: float) -> "Ensemble":
+        """Return it with each member that rotates further counted as one that overturns."""
+        ratios = np.where(self.rotation_ratios > rotation_ratio, np.inf, self.rotation_ratios)
+        return replace(self, rotation_ratios=ratios)
+
     def followed_by(self, more: "Ensemble") -> "Ensemble":
         """Return the ensemble of these members and of `more`, of the same causes."""
         before = self.rotation_ratios.size

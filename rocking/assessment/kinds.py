@@ -60,6 +60,10 @@ class AssessmentKind(Kind):
     STACKS_FALL = auto(), """in contact dynamics {falls} of {runs} runs
         fall""", "contact dynamics: {falls} of {runs} fall"
     STRENGTHEN = auto(), "strengthen or tie it", "strengthen"
+    SEATS = auto(), """lengthen or tie the bearings of what lies on it: some lose them
+        (support_loss_m)""", "bearings lost"
+    FLOORS_MOVE = auto(), """it moves up to {moved_m:.2g} m below what lies on it: compare its bearings
+        (support_loss_m)""", "moves {moved_m:.2g} m below floors"
     TIE_THE_TOP = auto(), "tie its top, or say by top_friction what holds it", "tie its top"
     NOTHING_DECIDES = auto(), "no input decides on its own", "no input decides"
     NOTHING_TO_DO = auto(), "nothing needs to be done", "nothing"

@@ -44,8 +44,8 @@ from rocking.tables.yaml_file import read_yaml, scalar_value
 CHECK_KEYS = {
     "elastic_period_s": "For the checks of the code: period T_0 of a part that is free to vibrate, s (C8.7.1.7); "
     "left out: it is tied rigidly to what carries it",
-    "support_loss_m": "For the checks of the code: horizontal displacement of the corner that moves farthest at which "
-    "what it carries falls, m; left out: nothing does",
+    "support_loss_m": "Horizontal displacement at which what it carries falls, m: in the verdict below each floor, "
+    "beam or vault, in the checks of the code of the corner that moves farthest; left out: nothing does",
 }
 """Keys of an entry of a structure list, whatever its type, with their meaning."""
 

@@ -43,6 +43,8 @@ if TYPE_CHECKING:
     from rocking.structures.held_wall import Opening
 
 
+_SEATS = 65
+"""Rotations up to the critical one at which it is asked how far floors have moved, with lines between them."""
 AS_DESCRIBED = "as described"
 """The description of the one mechanism of what does not crack."""
 CRACKS = 11
@@ -260,6 +262,32 @@ class Structure(ABC):
         if not mirrored or self.symmetric:
             return self._parts()
         return [(part, -corners.conj()) for part, corners in self._parts()]
+
+    def moved_from_bearings(self, rotation: float) -> float:
+        """Return how far it has moved sideways below what bears or pushes on it at a signed `rotation` [rad], m.
+
+        Of several floors, beams or vaults the farthest; 0 of what bears none.
+        """
+        linkage, motion = self._posed(rotation)
+        bearing = [hung for hung in linkage.hung if hung.kind in ("load", "thrust")]
+        moved = (linkage.carried(hung.part, hung.start, motion).moved.real for hung in bearing)
+        return max((abs(float(aside)) for aside in moved), default=0.0)
+
+    def loses_seat_at(self, support_loss: float) -> float:
+        """Return the least share of the critical rotation at which it has moved by `support_loss` [m] below a floor.
+
+        inf where it overturns before.
+        """
+        lost = math.inf
+        sides = self.mechanism().sides
+        for sign, side in zip((1, -1), sides, strict=False):
+            shares = np.linspace(0.0, min(1.0, side.end_rotation / side.critical_rotation), _SEATS)
+            moved = [self.moved_from_bearings(sign * share * side.critical_rotation) for share in shares]
+            place = int(np.argmax(np.array(moved) >= support_loss))
+            if moved[place] >= support_loss:
+                ends = slice(place - 1, place + 1)
+                lost = min(lost, float(np.interp(support_loss, moved[ends], shares[ends])))
+        return lost
 
     def hinges(self, rotation: float = 0.0) -> np.ndarray:
         """Return the contact points (k, 2) in m at a signed `rotation` [rad]; at rest those of the positive side."""

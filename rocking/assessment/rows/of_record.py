@@ -115,6 +115,18 @@ class ComparedCase(OfStructure):
         return sides[-1 if prediction is not None and prediction.pulse.amplitude > 0 else 0]
 
     @property
+    def bearing_displacement(self) -> float:
+        """How far it moves below a floor, beam or vault under the record, m; nan where it overturns or is not known."""
+        from rocking.assessment.cracks import cracked  # as above: it loads what integrates
+
+        response = self.case.response
+        if response is None or not math.isfinite(response.rotation_ratio):
+            return math.nan
+        body = cracked(self.period_result.scene.structure, self.case.crack)
+        critical = body.mechanism().sides[-1 if response.peak_side < 0 else 0].critical_rotation
+        return body.moved_from_bearings(response.peak_side * response.rotation_ratio * critical)
+
+    @property
     def acts(self) -> Acts | None:
         """When the pulse acts beside the fall of the integration."""
         prediction, response = self.case.prediction, self.case.response
@@ -240,6 +252,11 @@ class ComparisonRow(DecidedRow[ComparedCase]):
     )
     statics_integrated_rotation_ratio: float = of_own_crack(
         "Likewise the mechanism under the record", lambda case: case.integrated_rotation_ratio
+    )
+    bearing_displacement_m: float = of_case(
+        "Largest distance that it moves sideways below a floor, beam or vault under the record, from the bearing of "
+        "this; empty where it overturns",
+        lambda of: of.bearing_displacement,
     )
     peak_time_s: float = of_response(
         "Time of the largest rotation after the first sample", lambda response: response.peak_time

@@ -1,0 +1,49 @@
+"""What moves so far below what it carries that this loses its bearing counts as fallen."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rocking import Accelerogram, Block, Facade, Verdict
+from rocking.assessment.assessor import Assessor
+from rocking.assessment.kinds import AssessmentKind
+from rocking.assessment.scene import CheckTerms, Scene
+from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
+
+FRONT = Facade((3.0,), (0.5,), 20e3, floor_loads=(5e3,), crack="known", crack_storey=1)
+
+
+def test_a_floor_loses_its_bearing_where_the_top_has_moved_so_far():
+    """By hand: a point of the top, at the middle of .5 m, turns about the toe: u = h sin φ + b (1 − cos φ)/2."""
+    side = FRONT.mechanism().positive
+    for phi in (0.02, 0.1):
+        by_hand = 3.0 * np.sin(phi) + 0.25 * (1 - np.cos(phi))
+        assert FRONT.moved_from_bearings(phi) == pytest.approx(by_hand, rel=1e-12)
+    loss = FRONT.moved_from_bearings(0.4 * side.critical_rotation)
+    assert FRONT.loses_seat_at(loss) == pytest.approx(0.4, rel=1e-4)
+    assert FRONT.loses_seat_at(2.0) == math.inf
+    bare = replace(FRONT, floor_loads=())
+    assert bare.moved_from_bearings(0.1) == 0 and bare.loses_seat_at(1e-6) == math.inf
+    assert Block.of_size(0.5, 3.0).loses_seat_at(1e-6) == math.inf
+
+
+@pytest.mark.parametrize("members", [0, 64])
+def test_a_front_that_stands_falls_once_its_floor_is_said_to_lose_a_short_bearing(members):
+    times = np.arange(0, 4, 0.01)
+    swing = 1.35 * FRONT.static_multiplier * 9.80665 * np.sin(2 * np.pi * times / 0.5) * (times < 3)
+    motion = Accelerogram(swing, 0.01)
+    settings = AssessmentSettings(ensemble=EnsembleSettings(members=members))
+    found = {}
+    for loss in (math.inf, 1e-4):
+        scene = Scene("front", FRONT, terms=CheckTerms(support_loss=loss))
+        result = Assessor(settings).assess("record", (motion,), {"front": scene})
+        found[loss] = result
+    without, lost = (result.scenes["front"].worst for result in found.values())
+    assert without.verdict in (Verdict.STANDS, Verdict.PROBABLY_STANDS)
+    assert lost.verdict in (Verdict.OVERTURNS, Verdict.PROBABLY_OVERTURNS, Verdict.UNCERTAIN)
+    if members:
+        assert lost.verdict is Verdict.OVERTURNS
+    else:
+        assert AssessmentKind.SEATS in {remark.kind for remark in lost.cases[""].facts(FRONT).remarks}
