@@ -34,7 +34,7 @@ def drawing(kind: str, form: Form) -> Figure:
 
     form = TYPES[kind][0] if form.is_in_a_file else form
     example = {field.key: field.value.example for field in form.fields if field.required or field.unit}
-    if "restitution" in form.keys:  # which one that is held by friction and ties cannot take from its geometry
+    if "restitution" in form.keys:  # no balance gives that of a wall which friction and ties hold
         example |= {"restitution": 0.5}
     structure = structure_from_config({"type": kind, **example})
     figure = Figure(figsize=(6.4, 2.9), layout="constrained")
