@@ -57,10 +57,10 @@ def made_answers(rng, stations, events, median, size=10):
         pairs=tuple(
             (
                 Accelerogram(
-                    ground, 0.01, event=f"{chr(97 + each // 26)}{chr(97 + each % 26)}", station=f"S{place}"
+                    ground, 0.01, event=f"{chr(97 + item // 26)}{chr(97 + item % 26)}", station=f"S{place}"
                 ),
             )
-            for place, each in enumerate(event)
+            for place, item in enumerate(event)
         ),
         factors=np.ones(stations),
         periods=np.ones(1),

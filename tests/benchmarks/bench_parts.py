@@ -105,7 +105,7 @@ def report_of_ten_structures():
     places = count()
 
     def another() -> bytes:
-        moved = [each.scaled(1 + 1e-3 * next(places)) for each in case.accelerograms]
+        moved = [accelerogram.scaled(1 + 1e-3 * next(places)) for accelerogram in case.accelerograms]
         return dataclasses.replace(case, accelerograms=moved).pdf()
 
     return another
@@ -163,7 +163,7 @@ def ensembles() -> None:
 def stages() -> None:
     """The share of each stage in the time of the shipped records under the shipped structures, all of it loaded."""
     study = Study(load_scenes(STRUCTURES))
-    methods = {str(each) for each in Method}
+    methods = {str(method) for method in Method}
     for record in load_catalogue(RECORDS / "catalogue.csv"):
         for _ in range(2):  # the first loads what it needs
             started = time.process_time()
@@ -173,10 +173,12 @@ def stages() -> None:
             RecordReport(result, rows, study.structures, study.settings.for_pages).pdf()
             reported_at = time.process_time()
         whole = reported_at - started
-        spent = {str(stage): each for stage, each in result.durations.items() if stage not in methods}
+        spent = {
+            str(stage): other_stage for stage, other_stage in result.durations.items() if stage not in methods
+        }
         spent["rest of the assessment"] = assessed_at - started - sum(spent.values())
         spent["tables and report"] = reported_at - assessed_at
-        shares = ", ".join(f"{stage} {each / whole:.0%}" for stage, each in spent.items())
+        shares = ", ".join(f"{stage} {one_stage / whole:.0%}" for stage, one_stage in spent.items())
         print(f"{record.id}: {whole:.2f} s: {shares}")
 
 

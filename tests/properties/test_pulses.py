@@ -158,7 +158,7 @@ def ranks(seeds, shortest, strength, frequency, cycles):
         at = np.random.default_rng(1000 + seed).uniform(2, 30)
         samples += sine_cycle(np.arange(4000) * 0.01, strength * amplitude, 1 / frequency, at, cycles)
         ranked = extract_pulses(Accelerogram(samples, 0.01)).ranked
-        hits = [recovered(each.pulse, period, start) for each in ranked]
+        hits = [recovered(row.pulse, period, start) for row in ranked]
         places.append((period, hits.index(True) if any(hits) else len(hits)))
     return np.array(places).T
 

@@ -8,7 +8,7 @@ from rocking.earthquakes.sample import Sample
 from rocking.strengthening import GRID, Strengthening, Tried, sizes
 from rocking.structures import Block
 
-(BREADTH,) = (each for each in sizes(Block(2.0, 0.2)) if each.name == "breadth")
+(BREADTH,) = (size for size in sizes(Block(2.0, 0.2)) if size.name == "breadth")
 VALUES = np.geomspace(0.1, 1.0, GRID).tolist()
 
 
@@ -35,11 +35,13 @@ def test_the_scores_are_the_shares_of_the_other_half():
     shares = np.zeros((GRID, 60))
     shares[:8] = 1.0
     scores = list(scores_of_halves("made", _found(shares)))
-    parts = {each.part for each in scores}
+    parts = {score.part for score in scores}
     assert parts == {f"{rule} to hold, target {limit:g}" for rule in ("shown", "seems") for limit in TARGETS}
-    values = {each.measure.split(" ")[0]: each.value for each in scores}
+    values = {one_score.measure.split(" ")[0]: one_score.value for one_score in scores}
     assert values == pytest.approx({"share": 0.0, "value": VALUES[8], "of": 1.0})
-    assert {each.sites for each in scores if each.measure == "share of the other half"} == {30}
+    assert {
+        other_score.sites for other_score in scores if other_score.measure == "share of the other half"
+    } == {30}
 
 
 def test_the_least_value_that_seems_to_hold_fails_on_half_of_the_halves():
@@ -48,8 +50,8 @@ def test_the_least_value_that_seems_to_hold_fails_on_half_of_the_halves():
     shares[:8] = 1.0
     shares[8, :10] = 1.0
     scores = {
-        (each.part, each.measure.split(" ")[0]): each.value
-        for each in scores_of_halves("made", _found(shares))
+        (score.part, score.measure.split(" ")[0]): score.value
+        for score in scores_of_halves("made", _found(shares))
     }
     assert scores["seems to hold, target 0.2", "of"] < 0.7
     assert scores["shown to hold, target 0.2", "of"] >= 0.9  # what its bound promises

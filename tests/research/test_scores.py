@@ -71,10 +71,12 @@ def test_reliability_counts_every_case_once():
     probability, sites = draw.random(200), [str(k // 5) for k in range(200)]
     outcomes = (draw.random(200) < probability).astype(float)
     rows = scores.reliability("a", "b", probability, outcomes, sites, (0.0, 0.2, 0.5, 1.0))
-    happened = [each for each in rows if each.measure == HAPPENED]
-    assert sum(each.cases for each in happened) == 200
-    assert sum(each.cases * each.value for each in happened) == pytest.approx(outcomes.sum())
-    assert all(each.value_low <= each.value <= each.value_high for each in happened)
+    happened = [row for row in rows if row.measure == HAPPENED]
+    assert sum(event.cases for event in happened) == 200
+    assert sum(one_event.cases * one_event.value for one_event in happened) == pytest.approx(outcomes.sum())
+    assert all(
+        other_event.value_low <= other_event.value <= other_event.value_high for other_event in happened
+    )
 
 
 def test_a_site_under_two_names_counts_once():

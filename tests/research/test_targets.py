@@ -76,7 +76,7 @@ def asked(tree, tmp_path_factory) -> SmallStudy:
 def test_a_target_writes_its_tables_and_its_report(asked, target):
     folder = asked.results / target
     described = json.loads((folder / "datapackage.json").read_text())["resources"]
-    assert {each["path"] for each in described} == TARGETS[target]
+    assert {value["path"] for value in described} == TARGETS[target]
     assert (folder / "report.pdf").read_bytes().startswith(b"%PDF")
     scores = read_table(Score, folder)
     assert scores
@@ -115,11 +115,11 @@ def test_code_check_holds_every_wall_beside_every_record(asked):
             row for row in rows if row.kind != "wall, hinge at mid-height" and getattr(row, formula) >= 1
         ]
         (score,) = (
-            each
-            for each in scores
-            if each.subject == f"{kind}, FC 1.35"
-            and each.part.startswith("all")
-            and each.measure.startswith("unsafe")
+            one_score
+            for one_score in scores
+            if one_score.subject == f"{kind}, FC 1.35"
+            and one_score.part.startswith("all")
+            and one_score.measure.startswith("unsafe")
         )
         assert score.measure == f"unsafe of the {len(passed)} that pass"
         assert score.sites == 4

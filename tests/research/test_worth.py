@@ -16,8 +16,10 @@ def test_a_record_that_is_one_sine_is_explained_by_it_and_ends_as_said():
     record = Accelerogram(pulse.acceleration(np.arange(500) * 0.01), 0.01)
     cases = list(cases_of(SiteRecord("made", "site", "made", record), {"block": Block.of_size(0.6, 3.0)}))
     assert len(cases) == len(FACTORS)
-    assert all(each.explained == pytest.approx(1.0, abs=0.01) for each in cases)
-    assert [math.isinf(each.predicted) for each in cases] == [math.isinf(each.integrated) for each in cases]
+    assert all(other_case.explained == pytest.approx(1.0, abs=0.01) for other_case in cases)
+    assert [math.isinf(case.predicted) for case in cases] == [
+        math.isinf(one_case.integrated) for one_case in cases
+    ]
 
 
 def test_each_class_counts_its_own_outcomes():

@@ -68,7 +68,7 @@ def test_every_remark_that_the_package_makes_has_the_values_of_its_sentence():
             if not (isinstance(call, ast.Call) and ast.unparse(call.func) in makes and call.args):
                 continue
             named = ast.unparse(call.args[0]).rpartition(".")[2].lower()
-            given = sorted(each.arg or "" for each in call.keywords if each.arg != "about")
+            given = sorted(keyword.arg or "" for keyword in call.keywords if keyword.arg != "about")
             if named in KINDS and "" not in given and given != list(KINDS[named].value_names):
                 wrong.append(f"{path.name}:{call.lineno}: {named} with {given}")
     assert not wrong

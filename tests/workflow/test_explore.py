@@ -64,7 +64,7 @@ def _explored(folder: Path, structures: str) -> tuple[Path, Study, list]:
     study = Study(load_scenes(folder / "structures.yaml"), read_settings(choices | paths))
     at = {"station_latitude": 37.5, "station_longitude": -122.2}
     epicentre = {"epicentre_latitude": 37.1, "epicentre_longitude": -121.9}
-    records = [replace(each, **at, **epicentre) for each in load_catalogue(paths["catalogue"])]
+    records = [replace(record, **at, **epicentre) for record in load_catalogue(paths["catalogue"])]
     worked(records, study, results)
     (results / "summary").mkdir(parents=True, exist_ok=True)
     page = results / "summary" / "study.html"
@@ -116,22 +116,22 @@ def test_drawings_are_those_of_the_structure(study):
         count = sum(frames[17]["parts"])
         assert len(points) == count + frames[17]["hinges"] + 2 * len(frames[17]["marks"])
         assert np.allclose(points[:count], expected, atol=np.abs(points).max() / 32767)
-        signs = {each["rotation"] > 0 for each in frames}
+        signs = {frame["rotation"] > 0 for frame in frames}
         assert signs == ({True} if structure.mechanism().one_sided else {True, False})
 
 
 def test_the_page_carries_the_rotation_that_was_integrated(content, study):
     """The history that moves the drawing has the largest rotation of an integration done here."""
     _, assessed, records = study
-    drawn = {name: each for name, each in content["records"][0]["cases"].items() if "history" in each}
+    drawn = {name: item for name, item in content["records"][0]["cases"].items() if "history" in item}
     accelerograms, _ = assessed.open(records[0])
     component = accelerograms[0].component
     rows = read_table(ComparisonRow, study[0].parents[1] / records[0].id)
     cracks = {row.structure: row.crack for row in rows if row.component == component}
-    for name, each in drawn.items():
+    for name, figure in drawn.items():
         mechanism = cracked(assessed.structures[name], cracks[name]).mechanism()
         response = integrate(mechanism, accelerograms[0], assessed.assessment.tolerance)
-        largest = np.abs(unpacked(each["history"])).max()
+        largest = np.abs(unpacked(figure["history"])).max()
         # between the steps of a history the peak may lie a little higher; a fall is followed farther
         expected = response.rotation_ratio
         assert largest > 1 if math.isinf(expected) else math.isclose(largest, expected, rel_tol=0.01)
@@ -171,13 +171,13 @@ def test_the_page_carries_the_closed_form_of_each_case_and_the_path_of_the_groun
 def test_the_numbers_beside_a_history_are_those_of_page_two(content, study):
     """Of comparison.csv, under the component that turns the structure farthest."""
     rows = read_table(ComparisonRow, study[0].parents[1] / study[2][0].id)
-    moving = {name: each for name, each in content["records"][0]["cases"].items() if "history" in each}
+    moving = {name: item for name, item in content["records"][0]["cases"].items() if "history" in item}
     for name, case in moving.items():
         row = max(
             (row for row in rows if row.structure == name), key=lambda row: row.integrated_rotation_ratio
         )
         ratios = row.printed_rotation_ratio, row.predicted_rotation_ratio, row.integrated_rotation_ratio
-        assert case["numbers"] == [in_words(each) for each in ratios]
+        assert case["numbers"] == [in_words(ratio) for ratio in ratios]
         assert case["outside"] == (row.printed_holds is False) and case["component"] == row.component
         assert f"λ {number(row.uplift_multiplier)} " in case["beside"][0] and row.crack in case["beside"][1]
     resting = set(study[1].structures) - set(moving)
@@ -199,10 +199,10 @@ def test_the_page_tells_the_reserve_that_the_table_holds_and_what_it_leaves_out(
 
 
 def test_every_case_and_every_failure_is_on_the_page(content, study):
-    assert [each["id"] for each in content["records"]] == ["synthetic_00000", "synthetic_00001"]
+    assert [item["id"] for item in content["records"]] == ["synthetic_00000", "synthetic_00001"]
     assert list(content["records"][0]["cases"]) == list(study[1].structures)
     assert all("sha256" in case["text"] for case in content["records"][1]["cases"].values())
-    assert HOSTILE in [each["name"] for each in content["structures"]]
+    assert HOSTILE in [one_item["name"] for one_item in content["structures"]]
 
 
 def test_the_page_loads_nothing(study):
@@ -225,7 +225,7 @@ def page(study, browser) -> Callable:
 
 
 def visible(page: Callable) -> list:
-    return [each for each in page("#matrix tbody button") if each.is_displayed()]
+    return [element for element in page("#matrix tbody button") if element.is_displayed()]
 
 
 def moving(page: Callable):
@@ -276,19 +276,22 @@ def test_page_two_of_a_record_opens_by_its_address(page, browser, study, content
     """A strip for each structure that moves: its numbers, a band as high as the closed form, a mark where it falls."""
     browser.get(f"{study[0].as_uri()}#synthetic_00000")
     cases = content["records"][0]["cases"]
-    moving = {name: each for name, each in cases.items() if "history" in each}
+    moving = {name: case for name, case in cases.items() if "history" in case}
     strips = {row.find_element("css selector", "b").text: row for row in page("#strips tbody tr")[1:]}
     assert set(strips) == set(moving)
     for name, row in strips.items():
-        told = [each.text for each in row.find_elements("css selector", "td")[1:]]
+        told = [one_element.text for one_element in row.find_elements("css selector", "td")[1:]]
         assert told == moving[name]["numbers"]
         assert bool(row.find_elements("css selector", ".falls")) == (told[2] == "falls")
-        heights = [float(each.get_attribute("height")) for each in row.find_elements("css selector", ".band")]
+        heights = [
+            float(other_element.get_attribute("height"))
+            for other_element in row.find_elements("css selector", ".band")
+        ]
         sides = 1 if moving[name]["one_sided"] else 2
         reach = min(moving[name]["predicted"], 1.25)
         assert heights == pytest.approx([60 * sides * reach / 2.5] if reach else [], abs=1e-3)
     page("#strips summary")[0].click()
-    assert not any(each.is_displayed() for each in page("#strips table"))
+    assert not any(element.is_displayed() for element in page("#strips table"))
 
 
 def test_the_map_has_the_stations_of_the_earthquake_in_the_colour_of_the_chosen_structure(page, browser):
@@ -325,7 +328,9 @@ def test_the_ground_lies_below_the_feet_of_the_piers_and_not_through_them(page, 
     """In the drawing y grows upwards, from the springings; the piers reach as far below them as they are high."""
     page("button[data-record='0'][data-structure='6']")[0].click()
     (ground, *_) = page("#mechanism #moving > line")
-    points = [re.split("[ ,]+", each.get_attribute("points").strip()) for each in page("#mechanism polygon")]
+    points = [
+        re.split("[ ,]+", element.get_attribute("points").strip()) for element in page("#mechanism polygon")
+    ]
     lowest = min(float(number) for values in points for number in values[1::2])
     assert float(ground.get_attribute("y1")) == pytest.approx(lowest, abs=0.05) and lowest < -1
 
@@ -348,7 +353,7 @@ def test_columns_that_the_width_hides_are_told_and_a_dark_screen_gets_a_dark_pag
     for scheme, is_dark in (("dark", True), ("light", False)):
         features = [{"name": "prefers-color-scheme", "value": scheme}]
         browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
-        paper, text = (browser.execute_script(ink.format(each)) for each in ("backgroundColor", "color"))
+        paper, text = (browser.execute_script(ink.format(choice)) for choice in ("backgroundColor", "color"))
         assert (paper < text) == is_dark and abs(paper - text) > 400
 
 
@@ -356,12 +361,12 @@ def test_the_filters_leave_what_they_name(page):
     everything = len(visible(page))
     (text,) = page("#text")
     text.send_keys("colon")
-    assert {each.get_attribute("data-structure") for each in visible(page)} == {"4"}
+    assert {one_element.get_attribute("data-structure") for one_element in visible(page)} == {"4"}
     text.clear()
     text.send_keys(" ")
     (choice,) = page("#verdict option:nth-child(4)")
     choice.click()
-    assert {each.get_attribute("data-verdict") for each in visible(page)} == {"cannot be told"}
+    assert {element.get_attribute("data-verdict") for element in visible(page)} == {"cannot be told"}
     assert 0 < len(visible(page)) < everything
 
 
@@ -399,9 +404,9 @@ def test_with_more_structures_than_records_each_structure_has_a_row_and_the_wors
     page, content
 ):
     rows = lambda: [int(row.get_attribute("data-row")) for row in page("#matrix tbody tr")]  # noqa: E731
-    heads = [each.text.split("\n")[0] for each in page("#matrix thead th")]
+    heads = [element.text.split("\n")[0] for element in page("#matrix thead th")]
     assert heads == ["Structure", "synthetic_00000", "synthetic_00001"], "the record that failed comes last"
-    names = [each["name"] for each in content["structures"]]
+    names = [item["name"] for item in content["structures"]]
     severity = [content["records"][0]["cases"][name]["severity"] for name in names]
     worst_first = sorted(range(7), key=lambda place: severity[place], reverse=True)
     assert [severity[place] for place in rows()] == [severity[place] for place in worst_first]
@@ -414,7 +419,10 @@ def test_with_more_structures_than_records_each_structure_has_a_row_and_the_wors
     assert rows() == list(range(7)), "the order of the list"
     page("#matrix thead button")[1].click()
     assert [severity[place] for place in rows()] == [severity[place] for place in worst_first]
-    assert [each.get_attribute("aria-sort") for each in page("#matrix thead th")][:2] == [None, "descending"]
+    assert [one_element.get_attribute("aria-sort") for one_element in page("#matrix thead th")][:2] == [
+        None,
+        "descending",
+    ]
 
 
 @pytest.mark.parametrize(("width", "height"), [(1280, 800), (390, 844)])
@@ -431,11 +439,15 @@ def test_drawing_and_traces_are_in_view(page, browser, width, height):
     assert browser.execute_script(edge.format("#mechanism", "right")) <= width
     assert browser.execute_script(edge.format("#matrix tbody button", "right")) <= width, "one whole cell"
     told = ("record", "closed form")
-    remarks = [each for each in page("#histories text") if any(word in each.text for word in told)]
+    remarks = [
+        one_element
+        for one_element in page("#histories text")
+        if any(word in one_element.text for word in told)
+    ]
     assert len(remarks) == 2
     for remark in remarks:
-        frames = [each.rect for each in page("#histories rect")]
-        below = min(each["y"] for each in frames if each["y"] > remark.rect["y"])
+        frames = [element.rect for element in page("#histories rect")]
+        below = min(frame["y"] for frame in frames if frame["y"] > remark.rect["y"])
         assert remark.rect["y"] + 0.8 * remark.rect["height"] <= below, "no trace runs through it"
     browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 

@@ -26,13 +26,13 @@ def without(tmp_path) -> Path:
     """A copy of the package without them. What is left is linked, so that no kernel is compiled again."""
     package = tmp_path / "rocking"
     package.mkdir()
-    for each in (TREE / "rocking").iterdir():
-        if each.name not in (*LATER, "products", "__pycache__"):
-            (package / each.name).symlink_to(each)
+    for path in (TREE / "rocking").iterdir():
+        if path.name not in (*LATER, "products", "__pycache__"):
+            (package / path.name).symlink_to(path)
     (package / "products").mkdir()
-    for each in (TREE / "rocking" / "products").iterdir():
-        if each.name not in (*THEIR_PRODUCTS, "__pycache__"):
-            (package / "products" / each.name).symlink_to(each)
+    for one_path in (TREE / "rocking" / "products").iterdir():
+        if one_path.name not in (*THEIR_PRODUCTS, "__pycache__"):
+            (package / "products" / one_path.name).symlink_to(one_path)
     for name in ("Snakefile", "workflow", "config", "docs"):
         (tmp_path / name).symlink_to(TREE / name)
     study = tmp_path / "study"
@@ -75,7 +75,7 @@ def test_without_codes_and_fragility_a_record_is_assessed_and_a_study_runs(witho
         without, "-c", "import rocking, pathlib; print(pathlib.Path(rocking.__file__).parent)"
     ).strip()
     assert where == str(without / "rocking")
-    for name in (*LATER, *(f"products.{each}" for each in THEIR_PRODUCTS)):
+    for name in (*LATER, *(f"products.{product}" for product in THEIR_PRODUCTS)):
         with pytest.raises(AssertionError, match="No module named"):
             run(without, "-c", f"import rocking.{name}")
 

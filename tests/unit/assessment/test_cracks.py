@@ -60,8 +60,8 @@ def test_the_verdict_and_every_number_are_those_of_all_cracks_followed_one_by_on
         motion = record(severity * structure.static_multiplier * 9.80665)
         assessment = rocking.assess(motion, structure)
         motions = GroundMotions.of(motion)
-        alone = {each.description: ensemble(each.mechanism, motions) for each in cracks(structure)}
-        words = {name: each.facts().step(0.05) for name, each in alone.items()}
+        alone = {crack.description: ensemble(crack.mechanism, motions) for crack in cracks(structure)}
+        words = {name: one_part.facts().step(0.05) for name, one_part in alone.items()}
         of_statics = words[cracks(structure)[0].description]
         worst = max(words.values(), key=lambda word: word.badness)
         if of_statics in (Verdict.STANDS, Verdict.PROBABLY_STANDS):
@@ -80,7 +80,7 @@ def test_the_verdict_and_every_number_are_those_of_all_cracks_followed_one_by_on
             assert without.word is worst
         assert assessment.crack in alone or not assessment.crack
         if of_statics is not Verdict.OVERTURNS:
-            largest = max(each.overturning_share for each in alone.values())
+            largest = max(part.overturning_share for part in alone.values())
             # 64 members beside the many to which an ensemble near an edge grows
             share = assessment.ensembles.governing.ensemble.overturning_share
             assert share == pytest.approx(largest, abs=1 / 32)
@@ -95,7 +95,7 @@ def test_no_crack_is_followed_beyond_doubt_and_none_by_more_than_its_ensemble(st
         motions = GroundMotions.of(record(severity * structure.static_multiplier * 9.80665))
         followed = ensemble_over_cracks(structure, motions, AssessmentSettings()).followed
         doubted.append(len(followed) - 1)
-        assert len({each.description for each in followed}) == len(followed) <= len(cracks(structure))
+        assert len({crack.description for crack in followed}) == len(followed) <= len(cracks(structure))
     assert doubted[0] == 0, "what hardly lifts leaves no other crack in doubt"
     assert doubted[-1] == 0, "what overturns by statics already needs no other crack"
     assert max(doubted) > 0
@@ -110,9 +110,9 @@ def test_the_counts_that_are_told_of_two_cracks_are_not_of_members_that_leave_th
         motions = GroundMotions.of(record(severity * structure.static_multiplier * 9.80665))
         ensembles = ensemble_over_cracks(structure, motions, settings)
         both += ensembles.governing is not ensembles.followed[0]
-        for each in (ensembles.followed[0], ensembles.governing):
-            assert each.ensemble.members == 1024 or not each.facts.is_near_an_edge(
-                each.ensemble.settings.risk
+        for case in (ensembles.followed[0], ensembles.governing):
+            assert case.ensemble.members == 1024 or not case.facts.is_near_an_edge(
+                case.ensemble.settings.risk
             )
     assert both
 
@@ -128,13 +128,13 @@ def test_a_crack_that_is_known_decides_and_what_falls_beside_it_is_told():
     alone = rocking.assess(motion, typed.mechanism())
     assert (known.verdict, known.overturning_members) == (alone.verdict, alone.overturning_members)
     assert np.array_equal(known.rotation_ratios, alone.rotation_ratios)
-    of_typed, of_statics = (rocking.assess(motion, each) for each in (typed, Wall.of_size(6.0, 0.4)))
+    of_typed, of_statics = (rocking.assess(motion, case) for case in (typed, Wall.of_size(6.0, 0.4)))
     assert of_typed.overturning_members >= of_statics.overturning_members > known.overturning_members
     assert of_typed.verdict is of_statics.verdict
     assert of_typed.verdict.badness > known.verdict.badness
     assert known.statics.ensemble.overturning_members == of_typed.overturning_members
     assert known.statics_crack == of_typed.crack
-    assert [each.kind for each in known.decision.doubts] == [AssessmentKind.OTHER_CRACK_WORSE]
+    assert [one_doubt.kind for one_doubt in known.decision.doubts] == [AssessmentKind.OTHER_CRACK_WORSE]
     assert [doubt.kind for doubt in of_typed.decision.doubts] == [AssessmentKind.HELD_BEYOND]
 
 
@@ -148,7 +148,7 @@ def test_a_body_that_needs_more_friction_than_it_has_slides_as_the_ground_reache
 def test_the_crack_that_governs_is_found_by_its_description():
     several = cracks(WALL)
     assert len(several) > 3
-    assert all(governing_crack(WALL, each.description) is each for each in several)
+    assert all(governing_crack(WALL, part.description) is part for part in several)
     assert governing_crack(WALL, AS_DESCRIBED) is several[0]
 
 
@@ -160,8 +160,8 @@ def test_beside_a_known_crack_that_overturns_the_worst_other_is_told_and_followe
         assert known.verdict is Verdict.OVERTURNS and known.decision.doubts == ()
         assert known.crack == typed.crack_in_words
         first, *beside = known.ensembles.followed
-        assert first.description == typed.crack_in_words and not any(each.counts for each in beside)
-        *before, last = (each.facts.step(0.05) for each in beside)
+        assert first.description == typed.crack_in_words and not any(neighbour.counts for neighbour in beside)
+        *before, last = (one_neighbour.facts.step(0.05) for one_neighbour in beside)
         assert last is Verdict.OVERTURNS and Verdict.OVERTURNS not in before
         assert known.statics is beside[-1] and len(beside) < len(cracks(typed)) - 1
 
@@ -208,7 +208,7 @@ def test_the_middle_candidate_is_the_wall_itself():
 def test_variations_are_followed_at_the_tolerance_at_which_a_fragile_run_is_repeated():
     """A word may hang on one of them, and none is asked whether it is fragile."""
     motion = record(12.0, 0.5)
-    at_settings, strictly = (integrate(LOW_WALL, motion, each).rotation_ratio for each in (1e-3, 1e-9))
+    at_settings, strictly = (integrate(LOW_WALL, motion, value).rotation_ratio for value in (1e-3, 1e-9))
     assert at_settings != strictly
     settings = AssessmentSettings(tolerance=1e-3)
     assert other_cracks(LOW_WALL, motion, None, 5, settings)[2].integrated_rotation_ratio == strictly
@@ -220,7 +220,7 @@ def test_the_vertical_component_acts_on_every_candidate():
     vertical = record(3.0, 0.4)
     motion = record(12.0, 0.5)
     middle = other_cracks(LOW_WALL, motion, None, 5, AssessmentSettings(), vertical)[2]
-    with_it, without = (integrate(LOW_WALL, motion, 1e-9, vertical=each) for each in (vertical, None))
+    with_it, without = (integrate(LOW_WALL, motion, 1e-9, vertical=case) for case in (vertical, None))
     assert middle.integrated_rotation_ratio == with_it.rotation_ratio
     assert 0 < with_it.rotation_ratio != without.rotation_ratio
 
@@ -228,7 +228,7 @@ def test_the_vertical_component_acts_on_every_candidate():
 def test_a_higher_hinge_lifts_earlier():
     # λ = 2 tan α₁ falls as the lower block grows, so a shaking that leaves low hinges shut opens high ones.
     variations = other_cracks(LOW_WALL, SINE.scaled(0.8), None, 9, AssessmentSettings())
-    lifted = [each.integrated_rotation_ratio > 0 for each in variations]
+    lifted = [variation.integrated_rotation_ratio > 0 for variation in variations]
     assert lifted == sorted(lifted)
     assert lifted[-1]
     assert not lifted[0]
@@ -239,7 +239,7 @@ def test_processing_that_changes_nothing_changes_no_answer():
     block = Block(2.0, 0.2)
     assert "unchanged" in records
     variations = other_processings(block, records, AssessmentSettings())
-    ratios = {each.processing: each.integrated_rotation_ratio for each in variations}
+    ratios = {variation.processing: variation.integrated_rotation_ratio for variation in variations}
     assert ratios["unchanged"] == integrate(block, SINE, 1e-9).rotation_ratio
     assert ratios["high-pass 0.2 Hz"] != ratios["unchanged"]
 
@@ -255,7 +255,7 @@ def test_a_row_of_the_comparison_speaks_of_the_crack_that_governs_alone(several,
     crack = station.ensembles.governing.description
     statics, *_ = wall.candidates()
     assert crack != statics.description, "another crack than that of statics governs"
-    (body,) = (each.structure for each in wall.candidates() if each.description == crack)
+    (body,) = (candidate.structure for candidate in wall.candidates() if candidate.description == crack)
     block = body.mechanism().equivalent_block("exact_at_rest")
     rows = rows_of_record(result).comparison
     assert len(rows) == several
@@ -293,7 +293,7 @@ def test_a_wall_falls_as_it_bulges_below_the_tie_that_holds_it_for_good(crack):
     times = np.arange(0, 12, STEP)
     motion = Accelerogram(np.where(times < 3, 8 * np.sin(6 * times), 0.0), STEP)
     span = LoadedWall.of_size(6.4, 0.4, 19e3, top_load=1e4, one_sided=True, restitution=0.7)
-    about_its_foot, between_supports = (rocking.assess(motion, each) for each in (front.mechanism(), span))
+    about_its_foot, between_supports = (rocking.assess(motion, case) for case in (front.mechanism(), span))
     assert (about_its_foot.verdict, about_its_foot.overturning_members) == (Verdict.STANDS, 0)
     assessed = rocking.assess(motion, front)
     assert assessed.verdict is between_supports.verdict is Verdict.OVERTURNS
@@ -341,11 +341,11 @@ def test_a_held_wall_that_turns_far_only_probably_stands():
     for amplitude in (4.0, 5.0):
         assessed = rocking.assess(record(amplitude, 0.6), front)
         (case,) = assessed.cases.values()
-        limits = [each for each in case.limits if each.doubt.kind is not AssessmentKind.FRICTION_SHORT]
+        limits = [limit for limit in case.limits if limit.doubt.kind is not AssessmentKind.FRICTION_SHORT]
         decision = decide(replace(case.facts(front), stacks=None), limits)
         farthest = float(np.nanmax(assessed.rotation_ratios))
         if farthest <= 1:
-            words[farthest > 0.4] = decision.word, [each.kind for each in decision.doubts]
+            words[farthest > 0.4] = decision.word, [doubt.kind for doubt in decision.doubts]
     assert words[False][0] is Verdict.STANDS
     assert words[True][0] is Verdict.PROBABLY_STANDS and AssessmentKind.HELD_BEYOND in words[True][1]
 
@@ -401,8 +401,8 @@ def test_a_wall_at_rest_on_ties_that_give_only_probably_stands(share):
     assessed = rocking.assess(motion, wall)
     assert np.all(assessed.rotation_ratios == 0)
     assert assessed.decision.word is Verdict.PROBABLY_STANDS
-    assert [each.kind for each in assessed.decision.doubts] == [AssessmentKind.TIES_GIVE]
-    assert AssessmentKind.CONTACT_DYNAMICS in [each.kind for each in assessed.decision.would_settle]
+    assert [doubt.kind for doubt in assessed.decision.doubts] == [AssessmentKind.TIES_GIVE]
+    assert AssessmentKind.CONTACT_DYNAMICS in [remark.kind for remark in assessed.decision.would_settle]
     stacks = contacts.contact_share(wall, GroundMotions.of(motion), AssessmentSettings(), 8)
     assert (stacks.falls > 0) is (share == 0.95)
     unmoved = rocking.assess(motion, replace(wall, tie_stiffness=1e9)).decision
@@ -425,7 +425,7 @@ def test_ties_that_give_are_told_beside_the_word():
     motion = Accelerogram(1.02 * wall.static_multiplier * 9.80665 * swing, STEP)
     decision = rocking.assess(motion, wall.on_joints(ROUGH)).decision
     assert decision.word is Verdict.PROBABLY_STANDS
-    assert [each.kind for each in decision.doubts] == [AssessmentKind.TIES_GIVE]
+    assert [doubt.kind for doubt in decision.doubts] == [AssessmentKind.TIES_GIVE]
     unmoved = rocking.assess(motion, replace(wall, tie_stiffness=1e9, joints=ROUGH)).decision
     assert (unmoved.word, unmoved.doubts) == (Verdict.STANDS, ())
 
@@ -442,16 +442,16 @@ def test_a_restitution_typed_far_below_that_of_the_geometry_is_followed_beside_i
     verdicts = set()
     for amplitude in (1.0, 2.0, 3.0, 5.0):
         motion = Accelerogram(amplitude * wave, STEP)
-        both, livelier = (rocking.assess(motion, each) for each in (typed, own))
+        both, livelier = (rocking.assess(motion, one_case) for one_case in (typed, own))
         verdicts.add(both.verdict)
         if livelier.overturning_members:
             assert both.crack == "restitution 0.98 of its geometry"
             assert both.overturning_members == livelier.overturning_members
-            assert [each.kind for each in both.decision.would_settle] == [AssessmentKind.RESTITUTION]
+            assert [remark.kind for remark in both.decision.would_settle] == [AssessmentKind.RESTITUTION]
             assert both.decision.interval[0] < both.decision.interval[1] == livelier.overturning_share
         else:
             assert both.verdict is livelier.verdict
     assert Verdict.UNCERTAIN in verdicts
     near = replace(typed, restitution=own.mechanism().restitution - 0.049)
     leans = replace(typed, one_sided=True)
-    assert [len(cracks(each)) for each in (near, leans)] == [1, 1]
+    assert [len(cracks(case)) for case in (near, leans)] == [1, 1]

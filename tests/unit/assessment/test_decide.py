@@ -48,7 +48,9 @@ class Facts(decided.AllFacts):
 
     @property
     def of_mechanisms(self):
-        return decides.Facts(**{each.name: getattr(self, each.name) for each in fields(decides.Facts)})
+        return decides.Facts(
+            **{attribute.name: getattr(self, attribute.name) for attribute in fields(decides.Facts)}
+        )
 
 
 def decide(facts):

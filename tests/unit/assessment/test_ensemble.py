@@ -54,8 +54,10 @@ def test_the_generator_is_what_its_criterion_asks_for():
         for size in SIZES:
             k = np.arange(size)
             bernoulli = (k / size) ** 2 - k / size + 1 / 6
-            others = sum(bernoulli[k * each % size] for each in known)
-            errors = np.array([(bernoulli[k * each % size] * others).mean() for each in range(1, size, 2)])
+            others = sum(bernoulli[k * part % size] for part in known)
+            errors = np.array(
+                [(bernoulli[k * number % size] * others).mean() for number in range(1, size, 2)]
+            )
             worst = np.maximum(worst, np.sqrt(errors / errors.min())[every % size // 2])
         return int(every[worst.argmin()])
 
@@ -97,7 +99,7 @@ def test_half_of_the_members_feel_the_vertical_motion():
 def test_the_probability_is_the_share_of_the_range_that_overturns():
     settings = EnsembleSettings(restitution_range=0.0, amplitude_range=0.2)
     amplitudes = np.arange(3, 12, 0.1)
-    falls = [math.isinf(integrate(BLOCK, _record(each)).rotation_ratio) for each in amplitudes]
+    falls = [math.isinf(integrate(BLOCK, _record(amplitude)).rotation_ratio) for amplitude in amplitudes]
     record = _record(amplitudes[np.flatnonzero(np.diff(falls))[0]])  # beside which it overturns and does not
     result = ensemble(BLOCK, GroundMotions.of(record), settings)
     factors = np.linspace(0.8, 1.2, 801)[1::2]
@@ -260,7 +262,7 @@ def test_the_slender_block_under_rinaldi_only_probably_overturns(real_records):
 
 def test_a_mechanism_is_assessed_as_its_structure_and_members_are_those_asked_for():
     record = _record(4.0)
-    one, other = (assess(record, each, members=256) for each in (BLOCK, BLOCK.mechanism()))
+    one, other = (assess(record, case, members=256) for case in (BLOCK, BLOCK.mechanism()))
     assert one.members == 256 and np.array_equal(one.rotation_ratios, other.rotation_ratios)
 
 
@@ -286,13 +288,13 @@ def test_a_stream_of_obspy_is_assessed_as_its_components():
     from obspy import Stream
 
     first, second = _record(3.0, "HNE"), _record(4.0, "HNN")
-    stream = Stream([each.to_obspy() for each in (first, second)])
+    stream = Stream([case.to_obspy() for case in (first, second)])
     ours = assess([first, second], BLOCK, members=16)
     assert np.array_equal(assess(stream, BLOCK, members=16).rotation_ratios, ours.rotation_ratios)
 
 
 def test_components_without_a_name_are_numbered():
-    pair = [replace(_record(each), component="") for each in (0.5, 0.6)]
+    pair = [replace(_record(value), component="") for value in (0.5, 0.6)]
     assert list(assess(pair, BLOCK, members=16).cases) == ["component 1", "component 2"]
 
 
@@ -353,7 +355,7 @@ def test_an_ensemble_that_begins_with_few_costs_no_more_than_one_of_64():
     sizes = {}
     for amplitude in np.arange(4.0, 16.0, 0.4):
         motions = GroundMotions.of(_record(amplitude))
-        few, usual = (ensemble(BLOCK, motions, EnsembleSettings(members=each)).members for each in (16, 64))
+        few, usual = (ensemble(BLOCK, motions, EnsembleSettings(members=value)).members for value in (16, 64))
         assert few <= usual
         sizes[few] = amplitude
     assert len(sizes) >= 2

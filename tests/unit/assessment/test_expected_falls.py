@@ -34,7 +34,7 @@ def under(shares: list[float], structures: int) -> list[ExpectedFallsRow]:
 
 def over(records: list[ExpectedFallsRow]) -> ExpectedFallsRow | None:
     """The mean over records of as many stations of as many earthquakes."""
-    return falls_over(records, Sample.scattered([each.record for each in records]))
+    return falls_over(records, Sample.scattered([record.record for record in records]))
 
 
 def test_the_shares_of_those_that_have_one_are_added() -> None:

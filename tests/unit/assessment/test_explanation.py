@@ -24,7 +24,7 @@ def test_a_second_component_that_says_the_same_adds_nothing():
     levels, falls = outcomes(0.4 * figures + 0.5 * rng.standard_normal(12))
     names = [f"{k:02d}" for k in range(12)]
     once = explanation(levels, falls, figures, Sample.scattered(names))
-    again = [np.repeat(each, 2, axis=0) for each in (levels, falls, figures)]
+    again = [np.repeat(case, 2, axis=0) for case in (levels, falls, figures)]
     twice = explanation(*again, Sample.scattered(np.repeat(names, 2).tolist()))
     assert twice.p_value == pytest.approx(once.p_value, rel=1e-6)
     # Student's law for 12 stations less three, by which the power counts as well
@@ -109,9 +109,9 @@ def test_too_few_stations_say_nothing():
     levels, falls = outcomes(np.linspace(-1, 1, 6))
     few = explanation(levels, falls, np.arange(6.0), Sample.scattered("aabbcc"))
     equal = explanation(levels, falls, np.ones(6), Sample.scattered("abcdef"))
-    for each in (few, equal):
-        assert each.efficiency > 0
-        assert np.isnan([each.slope, each.p_value, each.power]).all()
+    for case in (few, equal):
+        assert case.efficiency > 0
+        assert np.isnan([case.slope, case.p_value, case.power]).all()
 
 
 @pytest.mark.parametrize("seed", range(6))

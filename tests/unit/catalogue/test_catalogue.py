@@ -38,7 +38,7 @@ SHIPPED = Path(__file__).parents[3] / "records"
 def catalogue_from_folder(folder, **declared):
     """Rows of the files that can be used, and (file, reason) of the others."""
     listed, rows = list_folder(folder, **declared)
-    return rows, [(each.file, each.refusal) for each in listed if each.refusal]
+    return rows, [(file.file, file.refusal) for file in listed if file.refusal]
 
 
 def fetch(record, mirror=None):
@@ -224,8 +224,10 @@ def test_the_shipped_catalogue_opens_offline() -> None:
 
 def test_the_shipped_records_make_the_arches_rock_as_their_readme_says() -> None:
     """Closed form and integration under Loma Prieta agree, and the scaled pulse knocks over none of Fig. 8."""
-    records = {each.id: open_record(each) for each in load_catalogue(SHIPPED / "catalogue.csv")}
-    (along,) = (each for each in records["APEEL_1989"] if each.component == "43")
+    records = {
+        one_record.id: open_record(one_record) for one_record in load_catalogue(SHIPPED / "catalogue.csv")
+    }
+    (along,) = (record for record in records["APEEL_1989"] if record.component == "43")
     pulse = extract_pulses(along).dominant
     for radius, (closed, integrated) in {
         10: (0.76, 0.62),
@@ -345,10 +347,12 @@ def test_every_file_is_listed_with_what_it_is(folder: Path) -> None:
     assert listed["bare.txt"].record == "bare" and listed["bare.txt"].blanks == ("unit", "time_step_s")
     notes = {row["id"]: row["note"] for row in list_folder(folder)[1]}
     assert notes["bare"] == "columns of numbers. Fill in unit and time_step_s."
-    kinds = {name: [each.kind for each in file.doubts] for name, file in listed.items()}
+    kinds = {name: [doubt.kind for doubt in file.doubts] for name, file in listed.items()}
     assert {RecordKind.CHANNEL_OF_VELOCITY, RecordKind.PEAK_RARE} <= set(kinds["loud.csv"])
     assert not kinds["table.csv"]
-    (rare,) = (each for each in listed["mixed.csv"].doubts if each.kind is RecordKind.PEAK_RARE)
+    (rare,) = (
+        one_doubt for one_doubt in listed["mixed.csv"].doubts if one_doubt.kind is RecordKind.PEAK_RARE
+    )
     assert rare.about == "EW" and rare["peak_g"] == pytest.approx(4.0)
     assert Remark.of(RecordKind.VERTICAL_BY_NAME, word="UP") in listed["quake-UP.csv"].doubts
     assert listed["tale.txt"].refusal.startswith("no reader recognises")
@@ -414,7 +418,9 @@ def test_a_row_added_by_hand_needs_no_hash_until_it_is_read(folder: Path) -> Non
 
 def test_the_readme_of_the_records_describes_every_column() -> None:
     text = (SHIPPED / "README.md").read_text(encoding="utf-8")
-    described = [f"| `{each.key}` | {each.meaning} |" for each in described_values(CatalogueRecord).values()]
+    described = [
+        f"| `{value.key}` | {value.meaning} |" for value in described_values(CatalogueRecord).values()
+    ]
     assert [line for line in text.splitlines() if line.startswith("| `")] == described
 
 

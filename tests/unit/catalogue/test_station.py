@@ -156,7 +156,7 @@ JOINED = {
 
 
 @pytest.mark.real_records
-@pytest.mark.parametrize("folder", [each for each in JOINED if not each.startswith("formats_")])
+@pytest.mark.parametrize("folder", [case for case in JOINED if not case.startswith("formats_")])
 def test_the_files_of_a_real_station_are_joined(real_records, folder):
     _, rows = list_folder(real_records / folder)
     assert sum(len(row["file"].split(";")) for row in rows if ";" in row["file"]) == JOINED[folder]
@@ -205,7 +205,7 @@ def test_a_channel_that_may_be_vertical_is_asked_for(tmp_path):
     assert str(caught.value).endswith(f"t.csv: {Remark(RecordKind.LONE_MAY_BE_VERTICAL, 'QQX')}")
     (alone,) = open_station(replace(table(["QQX"]), component="QQX")).horizontal
     assert alone.component == "QQX"
-    kinds = {each.kind for channel in (alone, *named.horizontal) for each in channel.warnings}
+    kinds = {warning.kind for channel in (alone, *named.horizontal) for warning in channel.warnings}
     assert not kinds & {RecordKind.LONE_MAY_BE_VERTICAL, RecordKind.SOME_MAY_BE_VERTICAL}
     upright = open_station(table(["A", "B", "UP"]))
     assert [channel.component for channel in upright.horizontal] == ["A", "B"]

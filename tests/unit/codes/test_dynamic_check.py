@@ -39,8 +39,8 @@ def largest_displacements(block, records, places):
     """d of the top, half of it for one mass at mid-height, of the block under each component of a set."""
     moved = []
     for place in places:
-        for each in records.scaled(int(place)):
-            (ratio,) = integrate_members(block, each, Members()).rotation_ratio
+        for item in records.scaled(int(place)):
+            (ratio,) = integrate_members(block, item, Members()).rotation_ratio
             rotation = ratio * block.mechanism().critical_rotation
             if not np.isfinite(rotation):
                 moved.append(np.inf)
@@ -119,7 +119,7 @@ def test_stout_blocks_meet_it_and_slender_ones_do_not(records):
     rng = np.random.default_rng(3)
     fall = rng.binomial(stout.stations, rng.beta(0.5, stout.stations + 0.5, 400_000))
     most = int(np.quantile(fall, 0.95, method="inverted_cdf"))
-    none = np.prod([(stout.stations - most - each) / (stout.stations - each) for each in range(10)])
+    none = np.prod([(stout.stations - most - number) / (stout.stations - number) for number in range(10)])
     assert stout.interval == (pytest.approx(none, rel=1e-12), 1.0)
     slender = rocking.check(Block.of_size(0.12, 1.5), SPECTRUM, records=records).dynamic
     assert not slender.passed and slender.exceeding and slender.share == 0
@@ -137,14 +137,16 @@ def test_what_one_set_meets_is_not_called_met_where_others_do_not(records):
         assert found.passed == (
             found.demand <= found.capacity and not found.exceeding and found.share >= 0.95
         )
-    assert any(0 < each.share < 0.95 for each in between)
+    assert any(0 < value.share < 0.95 for value in between)
     undecided = [
-        each for each in between if not each.passed and each.demand <= each.capacity and not each.exceeding
+        one_value
+        for one_value in between
+        if not one_value.passed and one_value.demand <= one_value.capacity and not one_value.exceeding
     ]
     assert undecided, "no block is refused for its share alone"
-    for each in undecided:
-        assert each.refusal.kind is CheckKind.SETS_DISAGREE
-        assert each.refusal["share_percent"] == pytest.approx(100 * each.share)
+    for part in undecided:
+        assert part.refusal.kind is CheckKind.SETS_DISAGREE
+        assert part.refusal["share_percent"] == pytest.approx(100 * part.share)
 
 
 def test_a_rigid_support_changes_nothing_and_a_resonant_one_does(records):
@@ -179,12 +181,12 @@ def test_the_interval_of_the_share_covers_what_sets_of_other_stations_say():
     for seed in range(12):
         pool = select(made_pool(40, seed=100 + seed), SPECTRUM, 10, sets=200, **LIMITS)
         found.append(rocking.check(block, SPECTRUM, records=pool).dynamic)
-    fresh = [each.share for each in found[1:]] + [found[0].share]
+    fresh = [trial.share for trial in found[1:]] + [found[0].share]
     held = [
-        each.interval[0] - 1e-9 <= share <= each.interval[1] + 1e-9
-        for each, share in zip(found, fresh, strict=True)
+        item.interval[0] - 1e-9 <= share <= item.interval[1] + 1e-9
+        for item, share in zip(found, fresh, strict=True)
     ]
-    assert sum(held) >= 9, [(each.share, each.interval) for each in found]
+    assert sum(held) >= 9, [(one_trial.share, one_trial.interval) for one_trial in found]
 
 
 @pytest.mark.slow
@@ -241,7 +243,7 @@ def other_pools(failing, stations, size, per_group, groups):
     """The shares of sets that meet the check in another pool, where of `groups` so many fail alone; by scipy."""
     of = [failing, *(per_group * betabinom.ppf([0.05, 0.95], groups, failing / per_group + 0.5,
                                                groups - failing / per_group + 0.5))]  # fmt: skip
-    here, best, worst = (hypergeom.pmf(0, stations, round(each), size) for each in of)
+    here, best, worst = (hypergeom.pmf(0, stations, round(item), size) for item in of)
     return here, worst / here, best / here
 
 

@@ -47,7 +47,7 @@ def test_names_of_one_earthquake_are_one_and_of_two_are_two(names, earthquakes):
 
 def test_what_says_one_time_is_one_earthquake_by_whatever_name_and_of_two_days_two():
     times = ["2016-10-30T06:40:18", "2016-10-30 06:40:20", "2016/10/30 06:41", "2016-10-30T13:07:00"]
-    of_times = earthquakes_of([Named(event_time=each) for each in times])
+    of_times = earthquakes_of([Named(event_time=time) for time in times])
     assert of_times[0] == of_times[1] == of_times[2] != of_times[3]
     first, second = Named("Norcia", "A", times[0]), Named("Central Italy", "B", times[1])
     assert len(set(earthquakes_of([first, second]))) == 1
@@ -57,7 +57,7 @@ def test_what_names_no_earthquake_counts_as_one_unless_each_is_declared():
     records = [Named(station=name) for name in "abc"] + [Named("Kobe", "d")]
     told = Sample.of(records)
     assert (told.count, told.earthquakes) == (4, 2)
-    assert [each.kind for each in told.remarks] == [
+    assert [remark.kind for remark in told.remarks] == [
         SampleKind.EARTHQUAKES_UNNAMED,
         SampleKind.EARTHQUAKES_FEW,
     ]
@@ -68,7 +68,7 @@ def test_what_names_no_earthquake_counts_as_one_unless_each_is_declared():
 
 def test_one_event_for_all_says_that_nothing_is_told_of_others():
     sample = Sample.of([Named("Kobe", name) for name in "abcdef"])
-    assert [each.kind for each in sample.remarks] == [SampleKind.EARTHQUAKE_ONE]
+    assert [remark.kind for remark in sample.remarks] == [SampleKind.EARTHQUAKE_ONE]
     assert sample.interval(lambda weights: float(weights.sum())) == (0.0, np.inf)
     low, high = sample.share_bounds(np.array([1.0, 0, 0, 0, 0, 0]))
     assert (low, high) == (0, 1)
@@ -78,7 +78,7 @@ def test_a_motion_under_two_earthquakes_is_named():
     wave = np.sin(np.arange(100) / 5)
     records = [Accelerogram(wave, 0.01, station="a", event=event) for event in ("Kobe", "Landers")]
     twice = next(
-        each for each in Sample.of(records).remarks if each.kind is SampleKind.EARTHQUAKE_NAMED_TWICE
+        remark for remark in Sample.of(records).remarks if remark.kind is SampleKind.EARTHQUAKE_NAMED_TWICE
     )
     assert (twice["first"], twice["second"]) == ("Kobe", "Landers")
 
@@ -207,4 +207,4 @@ def test_the_order_of_the_catalogue_draws_no_other_samples():
 )
 def test_an_interval_is_called_by_how_many_earthquakes_are_behind_it(earthquakes, words):
     assert interval_words(earthquakes) == words
-    assert Sample.scattered([f"{each}" for each in range(earthquakes)]).interval_words == words
+    assert Sample.scattered([f"{number}" for number in range(earthquakes)]).interval_words == words

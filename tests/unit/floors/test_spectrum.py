@@ -41,7 +41,7 @@ def test_modes_add_as_squares_and_the_ground_is_the_least():
     other = Support((Mode(period=0.1, damping_ratio=0.05, participation=-0.6),))
     both = Support(ONE.modes + other.modes)
     periods = np.array([0.03, 0.05, 0.1])
-    squares = sum(floor_spectrum(each, periods, 0.05, flat) ** 2 for each in (ONE, other))
+    squares = sum(floor_spectrum(case, periods, 0.05, flat) ** 2 for case in (ONE, other))
     assert floor_spectrum(both, periods, 0.05, flat) == pytest.approx(np.sqrt(squares))
     assert floor_spectrum(ONE, np.array([30.0]), 0.05, flat) == pytest.approx([2.0])
 
@@ -59,7 +59,9 @@ def test_its_peak_against_records_on_the_support(real_records, manifest):
     ratios = []
     rows = [row for row in manifest if row["format"] == "PEER AT2 NGA-West2" and float(row["dt"]) <= 0.01]
     for row in rows[:24]:
-        record = next((each for each in read(real_records / row["file"]) if each.is_horizontal), None)
+        record = next(
+            (channel for channel in read(real_records / row["file"]) if channel.is_horizontal), None
+        )
         if record is None:
             continue
 

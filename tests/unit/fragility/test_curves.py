@@ -283,7 +283,7 @@ def test_the_interval_of_a_rate_holds_the_truth_of_a_made_population(slope, coun
     dispersion = 0.35
     truth = math.exp((slope * dispersion) ** 2 / 2)
     draws = np.exp(slope * dispersion * np.random.default_rng(count).standard_normal((400, count)))
-    ends = [rate_interval(each, _scattered(each.size)) for each in draws]
+    ends = [rate_interval(draw, _scattered(draw.size)) for draw in draws]
     assert 0.85 <= np.mean([low <= truth <= high for low, high in ends]) <= 0.95
 
 
@@ -292,12 +292,12 @@ def test_the_interval_of_a_rate_holds_the_truth_where_rates_are_no_lognormal():
     0.1 % quantile of the binomial lies 4.9 % below; the method for lognormals alone holds it in 81 %."""
     draws = np.random.default_rng(7).weibull(2.5, (400, 35)) ** 3.5
     truth = math.gamma(1 + 3.5 / 2.5)
-    ends = [rate_interval(each, _scattered(each.size)) for each in draws]
+    ends = [rate_interval(draw, _scattered(draw.size)) for draw in draws]
     assert np.mean([low <= truth <= high for low, high in ends]) >= 0.85
 
 
 def test_no_record_is_scaled_beyond_the_largest_factor_and_the_weak_are_counted_out():
-    weak, *strong = (_record(0.9, "").scaled(each) for each in (0.02, 2.0, 3.0))
+    weak, *strong = (_record(0.9, "").scaled(value) for value in (0.02, 2.0, 3.0))
     curve = fragility([weak, *strong], BLOCK, stations=list("abc"), intensity_measure="pga")
     factors = curve.levels / curve.analysis.intensities[:, None]
     assert np.nanmax(np.where(np.isfinite(curve.exceedance), factors, np.nan)) <= 10 * (1 + 1e-9)
@@ -342,7 +342,7 @@ def test_of_statics_or_of_what_governs_as_it_is_asked():
 def test_a_level_at_the_largest_factor_itself_is_reached():
     """Quotients are rounded: a record that needs the largest factor but for rounding does not leave the level."""
     records = [_record(period, str(k)) for k, period in enumerate((0.7, 0.9, 1.3))]
-    scaled = [each.scaled(0.1 * GRAVITY / each.peak_acceleration) for each in records]
+    scaled = [record.scaled(0.1 * GRAVITY / record.peak_acceleration) for record in records]
     levels = 0.1 * 7 * np.array([0.5, 1 + 5e-10, 1 + 1e-6])
     curve = fragility(scaled, BLOCK, intensity_measure="pga", levels=levels, largest_factor=7.0)
     assert curve.levels.tolist() == levels[:2].tolist()

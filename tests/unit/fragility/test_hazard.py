@@ -220,10 +220,12 @@ def test_the_discrete_nrml_holds_the_curve_in_units_of_openquake(tmp_path):
     assert (
         imls.get("imt") == "PGV" and poes.get("ls") == model.find(f"{NRML}limitStates").text == "overturning"
     )
-    assert [float(each) for each in imls.text.split()] == pytest.approx(
+    assert [float(part) for part in imls.text.split()] == pytest.approx(
         (100 * curve.levels).tolist(), rel=1e-8
     )
-    assert [float(each) for each in poes.text.split()] == pytest.approx(curve.probability.tolist(), abs=1e-9)
+    assert [float(one_part) for one_part in poes.text.split()] == pytest.approx(
+        curve.probability.tolist(), abs=1e-9
+    )
 
 
 def test_the_lognormal_of_nrml_is_that_of_the_curve(tmp_path):

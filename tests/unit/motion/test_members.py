@@ -53,7 +53,7 @@ def test_members_equal_one_response_at_a_time(name, count):
     assert kept.sum() >= 0.75 * count
     assert found.rotation_ratio[kept] == pytest.approx(expected[kept], rel=1e-7)
     rocks = found.lifted & ~found.overturns & kept
-    assert np.array_equal(found.peak_side[rocks], np.array([each.peak_side for each in alone])[rocks])
+    assert np.array_equal(found.peak_side[rocks], np.array([part.peak_side for part in alone])[rocks])
     assert rocks.sum() > count / 8
     assert not found.reasons
 
@@ -72,7 +72,7 @@ def test_chains_of_impacts_that_die_out_change_nothing(linear):
             continue
         structure = mechanism.equivalent_block() if linear else mechanism
         motions = motion, motion.scaled(1 + 1e-9)
-        alone, stronger = (integrate(structure, each, 1e-12).rotation_ratio for each in motions)
+        alone, stronger = (integrate(structure, one_motion, 1e-12).rotation_ratio for one_motion in motions)
         if np.isfinite(alone) and abs(stronger / alone - 1) < 1e-7:
             found = integrate_members(structure, motion, Members(), 1e-12).rotation_ratio[0]
             assert found == pytest.approx(alone, rel=1e-9)
@@ -164,7 +164,7 @@ def test_spectrum_equals_the_responses():
             )
             alone = integrate(block, SHAKING).rotation_ratio
             around = [integrate(block, record).rotation_ratio for record in nudged]
-            spread = max(abs(each - alone) for each in around) if np.isfinite(alone) else 0.0
+            spread = max(abs(item - alone) for item in around) if np.isfinite(alone) else 0.0
             assert ratios[i, j] == pytest.approx(alone, rel=1e-12, abs=spread)
     assert np.isinf(ratios).any() and (ratios == 0).any() and ((ratios > 0) & (ratios < 1)).any()
 
@@ -189,6 +189,8 @@ def test_a_list_of_blocks_and_others_is_followed_as_each_of_them_alone():
     structures = [BLOCKS["block"], MECHANISMS["block"], BLOCKS["two sides"], BLOCKS["one side"]]
     factors = (1.0, 1.2)
     together = integrate_batch(structures, RECORD, factors, workers=1)
-    alone = [[integrate(each, RECORD.scaled(k)).rotation_ratio for k in factors] for each in structures]
+    alone = [
+        [integrate(structure, RECORD.scaled(k)).rotation_ratio for k in factors] for structure in structures
+    ]
     assert together == pytest.approx(np.array(alone), rel=1e-9)  # the same computation up to roundings
     assert together.min() > 0

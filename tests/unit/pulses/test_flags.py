@@ -13,7 +13,7 @@ TIMES = np.arange(3000) * STEP
 
 
 def flags(samples, **fields):
-    return tuple(each.kind for each in extract_pulses(Accelerogram(samples, STEP, **fields)).flags)
+    return tuple(flag.kind for flag in extract_pulses(Accelerogram(samples, STEP, **fields)).flags)
 
 
 def cycle(amplitude, period, start, cycles=1.0, wave=np.sin):
@@ -70,7 +70,7 @@ def ricker(period, middle):
 def test_a_symmetric_shape_reports_both_solutions(shape):
     found = extract_pulses(Accelerogram(shape, STEP))
     first, second = found.ranked[0].pulse, found.ranked[1].pulse
-    assert {PulseKind.PULSE_SYMMETRIC, PulseKind.PULSE_UNSTABLE} <= {each.kind for each in found.flags}
+    assert {PulseKind.PULSE_SYMMETRIC, PulseKind.PULSE_UNSTABLE} <= {flag.kind for flag in found.flags}
     # mirror images: equal gain, period and magnitude, opposite sign. The middle of the shape lies on a sample, so
     # that the mirror is exact up to the last bits of the search
     assert second.amplitude == pytest.approx(-first.amplitude, rel=1e-4)
@@ -87,7 +87,7 @@ def test_the_middle_of_an_oscillation_shows_in_the_gains_of_its_twins(share, osc
     samples = 3 * np.sin(2 * np.pi * phase) * ((half < 0.5) + share * ((half >= 0.5) & (half < 1)))
     found = extract_pulses(Accelerogram(samples, STEP))
     assert found.gain_ratio == pytest.approx(((1 + share) / 2) ** 2, rel=1e-2)
-    assert (PulseKind.PULSE_UNSTABLE in {each.kind for each in found.flags}) is oscillates
+    assert (PulseKind.PULSE_UNSTABLE in {flag.kind for flag in found.flags}) is oscillates
 
 
 def test_a_filter_that_reduces_the_pulse_is_told():

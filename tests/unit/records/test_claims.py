@@ -15,7 +15,7 @@ G = 9.80665
 
 
 def kinds(record: Accelerogram) -> set[str]:
-    return {each.kind for each in record.warnings}
+    return {warning.kind for warning in record.warnings}
 
 
 def at2(folder: Path, title: str = "QUAKE, STATION, 090", unit: str = "UNITS OF G", **more: object) -> Path:

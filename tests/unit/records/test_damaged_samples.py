@@ -30,7 +30,7 @@ def test_a_sample_alone_is_told_with_the_peak_without_it() -> None:
     for place in (0, 150, 399):
         struck = SHAKING.copy()
         struck[place] = 30.0
-        (alone,) = (each for each in told(struck) if each.kind is RecordKind.SAMPLE_ALONE)
+        (alone,) = (remark for remark in told(struck) if remark.kind is RecordKind.SAMPLE_ALONE)
         assert alone["time_s"] == pytest.approx(place * 0.01)
         assert alone["peak_g"] == pytest.approx(30 / GRAVITY)
         assert alone["others_g"] == pytest.approx(np.abs(np.delete(SHAKING, place)).max() / GRAVITY)
@@ -49,7 +49,7 @@ def test_zeros_within_shaking_are_told() -> None:
     for zeros, is_told in ((49, False), (50, True)):
         gap = coarse.copy()
         gap[180 : 180 + zeros] = 0.0
-        assert (RecordKind.ZEROS_IN_SHAKING in {each.kind for each in told(gap)}) == is_told
+        assert (RecordKind.ZEROS_IN_SHAKING in {remark.kind for remark in told(gap)}) == is_told
     still = np.concatenate([np.zeros(300), SHAKING + 1e-9, np.zeros(300)])
     assert not told(still) + told(np.zeros(400))
 
@@ -98,4 +98,4 @@ def test_a_velocity_that_strays_in_one_place_is_told(size: int, is_told: bool, o
     if size:
         series[1900 : 1900 + 2 * size] = np.roll(series[1900 : 1900 + 2 * size], size)
     told_of = agree_with_velocity(Accelerogram(acceleration, 0.01), velocity).warnings
-    assert [each.kind for each in told_of] == [RecordKind.VELOCITY_UNLIKE_THERE] * is_told
+    assert [remark.kind for remark in told_of] == [RecordKind.VELOCITY_UNLIKE_THERE] * is_told

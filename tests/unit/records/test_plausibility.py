@@ -86,4 +86,4 @@ def test_a_stated_peak_may_be_off_by_half_of_the_last_digit_that_is_printed(tmp_
         f"PEER\nMade 1/1/2000, A, 90, PGA={stated} G\nACCELERATION IN UNITS OF G\nNPTS= 200, DT= .01 SEC\n{samples}\n"
     )
     (read,) = rocking.read(path)
-    assert (RecordKind.PEAK_UNLIKE_HEADER in {each.kind for each in read.warnings}) is is_told
+    assert (RecordKind.PEAK_UNLIKE_HEADER in {warning.kind for warning in read.warnings}) is is_told

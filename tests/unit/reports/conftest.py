@@ -96,7 +96,7 @@ def of_structures(report: RecordReport, kinds: dict[str, str], record: str = "on
     scenes = {}
     for name, kind in kinds.items():
         (source,) = report.result.scenes[kind].periods
-        cases = {component: replace(each, structure=name) for component, each in source.cases.items()}
+        cases = {component: replace(case, structure=name) for component, case in source.cases.items()}
         scene = replace(source.scene, name=name)
         scenes[name] = SceneResult(scene, (replace(source, scene=scene, cases=cases),))
     result = replace(report.result, record=record, scenes=scenes)

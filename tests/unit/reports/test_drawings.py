@@ -39,7 +39,7 @@ def _lines(svg):
     """The points (k, 2) of each line of a picture, upwards from its lower left corner, mm."""
     height = float(re.search(r'height="([\d.]+)mm"', svg)[1])
     for points in re.findall(r'points="([^"]*)"', svg):
-        places = np.array([[float(each) for each in point.split(",")] for point in points.split()])
+        places = np.array([[float(part) for part in point.split(",")] for point in points.split()])
         yield places * [1, -1] + [0, height]
 
 
@@ -66,7 +66,9 @@ def test_common_letters_need_no_font_of_the_machine():
 def test_page_one_draws_the_mechanism_at_four_fifths_of_the_critical_rotation_on_its_side(example):
     """The dashed outline at rest is drawn after the turned one; both are as like as pictures of two sizes."""
     name = "block 4 m"
-    (conclusion,) = (each for each in example.conclusions if each.verdict.structure == name)
+    (conclusion,) = (
+        one_conclusion for one_conclusion in example.conclusions if one_conclusion.verdict.structure == name
+    )
     block = example.structures[name]
     critical = block.mechanism().critical_rotation
     for side in (1, -1):

@@ -41,8 +41,8 @@ SPECTRUM = DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
 def with_members(station, falls, limits=()):
     """The result with ensembles of 64 of each of its cracks, of which so many overturn, and what limits its word."""
     cracks = tuple(
-        FollowedCrack(f"hinge {place}" if len(falls) > 1 else "", math.nan, members(each))
-        for place, each in enumerate(falls)
+        FollowedCrack(f"hinge {place}" if len(falls) > 1 else "", math.nan, members(fall))
+        for place, fall in enumerate(falls)
     )
     ensembles = CrackEnsembles(cracks)
     cases = {
@@ -65,7 +65,7 @@ def report(example) -> RecordReport:
         name: replace(
             scene,
             periods=tuple(
-                with_members(each, *made[name]) if name in made else each for each in scene.periods
+                with_members(period, *made[name]) if name in made else period for period in scene.periods
             ),
         )
         for name, scene in example.result.scenes.items()
@@ -77,11 +77,11 @@ def report(example) -> RecordReport:
 @pytest.fixture(scope="module")
 def decisions(report):
     """The decision on each structure: what everybody has to say."""
-    return {each.structure: each.decision for each in report.result.periods}
+    return {period.structure: period.decision for period in report.result.periods}
 
 
 def test_the_example_has_five_words_a_range_and_a_doubt(decisions):
-    words = {name: str(each.word) for name, each in decisions.items()}
+    words = {name: str(decision.word) for name, decision in decisions.items()}
     assert words == {
         "block 4 m": "overturns",
         "block 1 m": "probably overturns",
@@ -107,7 +107,7 @@ def test_the_tables_hold_it(report, decisions, tmp_path):
 def test_the_workbook_holds_it(report, decisions):
     lines = workbook_lines(report.tables)
     for name, decision in decisions.items():
-        (line,) = (each for each in lines if f"|{name}|" in f"|{each}|")
+        (line,) = (one_line for one_line in lines if f"|{name}|" in f"|{one_line}|")
         assert f"|{decision.word}|" in line
         assert decision.why in line
         assert all(doubt.kind in line for doubt in decision.doubts)
@@ -115,7 +115,7 @@ def test_the_workbook_holds_it(report, decisions):
 
 def test_the_terminal_says_it(report, decisions):
     line = record_line(report.result.scenes.values(), [])
-    told = [text for each in report.result.periods for text in _lines_of(each, 1.0)]
+    told = [text for period in report.result.periods for text in _lines_of(period, 1.0)]
     for name, decision in decisions.items():
         (own,) = (text for text in told if text.startswith(f"{name}: "))
         assert own == f"{name}: {decision.word} ({decision.share_in_words}); {decision.why}"
@@ -174,7 +174,9 @@ def test_the_page_to_sign_says_it(report, decisions):
         share = data.answers[0].basis.share
         assert f"{decision.word.predicate} under 1 station" in share
         if not math.isnan(decision.share):
-            assert f"{100 * decision.share:.0f}{NO_BREAK}%" in [each.value for each in data.answers[0].sure]
+            assert f"{100 * decision.share:.0f}{NO_BREAK}%" in [
+                sentence.value for sentence in data.answers[0].sure
+            ]
         doubts = "; ".join(map(str, decision.doubts))
         assert not doubts or f"({doubts})" in share
 
@@ -189,14 +191,17 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
     study = Study(load_scenes(ROOT / "config" / "structures.yaml"))
     result = assess_catalogued(record, study)
     tables = rows_of(result, record, study)
-    decided = {(each.structure, each.support_period_s): each.decision for each in result.periods}
+    decided = {
+        (this_period.structure, this_period.support_period_s): this_period.decision
+        for this_period in result.periods
+    }
     assert {name for name, _ in decided} == set(study.structures)
 
     write_rows(VerdictRow, tables.verdicts, tmp_path / "verdicts.csv")
     written = list(frame(VerdictRow, tmp_path / "verdicts.csv").itertuples())
     periods = [None if math.isnan(row.support_period_s) else row.support_period_s for row in written]
     of_rows = {(row.structure, period): printed(row) for row, period in zip(written, periods, strict=True)}
-    assert of_rows == {name: in_print(each) for name, each in decided.items()}
+    assert of_rows == {name: in_print(item) for name, item in decided.items()}
     for row in (*tables.comparison, *tables.supports):
         decision = decided[row.structure, row.support_period_s]
         assert row.verdict is decision.word
@@ -204,7 +209,7 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
 
     report = RecordReport(result, tables, study.structures, study.settings.for_pages)
     data = report.page()
-    told = [line for each in result.periods for line in _lines_of(each, 1.0)]
+    told = [line for other_period in result.periods for line in _lines_of(other_period, 1.0)]
     lines = workbook_lines(tables)
     stations = {row.record: (row.station, row.event) for row in tables.record}
     for station in report.result.worst_first:
@@ -215,7 +220,7 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
         assert own == f"{name}: {decision.word}{f' ({share})' if share else ''}; {decision.why}"
         period = [] if station.support_period_s is None else [f"{station.support_period_s:g}"]
         key = "|".join(["", station.structure, *period, decision.word, ""])
-        (line,) = (each for each in lines if key in each)
+        (line,) = (one_line for one_line in lines if key in one_line)
         assert decision.why in line
         assert all(doubt.kind in line for doubt in decision.doubts)
         own_rows = [row for row in tables.verdicts if row.structure == station.structure]
@@ -225,7 +230,7 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
         assert f"{decision.word.predicate} under 1 station" in signed.answers[0].basis.share
         assert all(str(Remark(doubt.kind)) in signed.answers[0].basis.share for doubt in decision.doubts)
 
-    worst = {each.structure: each for each in result.worst_periods}
+    worst = {one_period.structure: one_period for one_period in result.worst_periods}
     content = record_content(result, tables, study.structures)
     summary = summary_data(summarised(tables, study.structures), SETTINGS)
     rows = {row.name: row for row in data.page_one.rows}

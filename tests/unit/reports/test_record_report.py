@@ -63,7 +63,7 @@ def texts_of(data: RecordPage) -> list[str]:
     for row in data.page_one.rows:
         texts += [row.below, row.chip.share, row.reserve, row.remark]
     for row in data.known.table.rows:
-        texts += [each.text if isinstance(each, TableCell) else each for each in row]
+        texts += [cell.text if isinstance(cell, TableCell) else cell for cell in row]
     return texts
 
 
@@ -80,7 +80,11 @@ def data(example) -> RecordPage:
 def test_every_number_that_is_printed_stands_in_a_csv(example, data):
     structures = "|".join([*map(re.escape, example.structures), "D5–95"])  # names
     numbers = csv_numbers(example)
-    printed = [each for text in texts_of(data) for each in printed_numbers(re.sub(structures, "", text))]
+    printed = [
+        printed_number
+        for text in texts_of(data)
+        for printed_number in printed_numbers(re.sub(structures, "", text))
+    ]
     assert len(printed) > 40
     for value, half in printed:
         # rounding to the last printed digit, and the rounding of that comparison itself
@@ -133,9 +137,11 @@ def test_a_client_gets_a_page_to_look_at_of_at_most_330_words(example, count):
     assert f"{count} structures overturn or probably do" in " ".join(words)
     assert {f"{place}" for place in range(count)} <= set(words)
     data = report.page()
-    named = [(each.word, name) for each in data.page_one.others for name in each.names.split(", ")]
+    named = [(other.word, name) for other in data.page_one.others for name in other.names.split(", ")]
     named += [(row.chip.word.removeprefix("? "), row.name) for row in data.page_one.rows]
-    assert sorted(named) == sorted((str(each.verdict), each.structure) for each in report.tables.verdicts)
+    assert sorted(named) == sorted(
+        (str(verdict.verdict), verdict.structure) for verdict in report.tables.verdicts
+    )
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -167,8 +173,8 @@ def test_an_outcome_that_processing_decides_is_told_but_of_what_its_network_has_
         for row in example.tables.variations
     ]
     corrected = tuple(
-        replace(each, accelerogram=replace(each.accelerogram, processed=True))
-        for each in example.result.components
+        replace(component, accelerogram=replace(component.accelerogram, processed=True))
+        for component in example.result.components
     )
     of_network = replace(example, result=replace(example.result, components=corrected))
     for report, rows, decides in (
@@ -192,7 +198,7 @@ def test_the_reason_of_a_miss_is_told_apart(example):
     }
     comparison = [replace(row, **changed) for row in example.tables.comparison]
     told = known(with_tables(example, comparison=comparison))
-    (sentence,) = (each for each in told if each.startswith("The closed form predicts less"))
+    (sentence,) = (remark for remark in told if remark.startswith("The closed form predicts less"))
     assert sentence.endswith("so the single pulse is the reason.")
 
 
@@ -236,7 +242,7 @@ def test_nothing_that_lifts_no_structure_and_no_pulse_are_told_first():
     for notice, (records, structures) in cases.items():
         report = assessed("one", records, structures)
         data = report.page()
-        assert any(notice in each.text for each in data.notices)
+        assert any(notice in one_notice.text for one_notice in data.notices)
         assert report.pdf().startswith(b"%PDF")
 
 
@@ -294,19 +300,19 @@ def test_an_arch_that_stands_on_its_friction_is_no_model_that_fails(example):
         data = with_tables(report, comparison=comparison)
         texts = known(data)
         assert (stands in texts) is told
-        assert any(f"{name} (slides)" in each for each in texts) is not told
+        assert any(f"{name} (slides)" in text for text in texts) is not told
         beside = {row.name: row.remark for row in data.page_one.rows}[name]
         assert ("such arches stood" in beside and "0.67" in beside) is told, "page one and two say one thing"
         # What was followed as voussoirs needs neither: these are on the friction that it has.
         verdicts = [replace(row, stack_falls=0, stack_runs=18) for row in example.tables.verdicts]
         texts = known(with_tables(report, comparison=comparison, verdicts=verdicts))
-        assert stands not in texts and not any(f"{name} (slides)" in each for each in texts)
+        assert stands not in texts and not any(f"{name} (slides)" in one_text for one_text in texts)
 
 
 @pytest.mark.usefixtures("undrawn")
 def test_of_a_frame_that_was_followed_as_stones_its_contacts_are_known(example):
     """The sentence that nobody knows them stays with a frame of more columns, and where none was followed."""
-    name = next(each.structure for each in example.result.worst_first if each.rotation_ratio > 0)
+    name = next(station.structure for station in example.result.worst_first if station.rotation_ratio > 0)
     followed = [replace(row, stack_falls=0, stack_runs=18) for row in example.tables.verdicts]
     scene = example.result.scenes[name]
     for columns, verdicts, told in (
@@ -315,7 +321,9 @@ def test_of_a_frame_that_was_followed_as_stones_its_contacts_are_known(example):
         (4, followed, True),
     ):
         frame = Frame(Block.of_size(breadth=1.1, height=8.0), columns, 0.3)
-        periods = tuple(replace(each, scene=replace(each.scene, structure=frame)) for each in scene.periods)
+        periods = tuple(
+            replace(period, scene=replace(period.scene, structure=frame)) for period in scene.periods
+        )
         result = replace(
             example.result, scenes={**example.result.scenes, name: replace(scene, periods=periods)}
         )
@@ -327,8 +335,8 @@ def test_of_a_frame_that_was_followed_as_stones_its_contacts_are_known(example):
         )
         assert (
             any(
-                each.kind is StructureKind.FRAME_CONTACTS and name in names
-                for each, names in report.left_out.items()
+                remark.kind is StructureKind.FRAME_CONTACTS and name in names
+                for remark, names in report.left_out.items()
             )
             is told
         )
@@ -337,12 +345,14 @@ def test_of_a_frame_that_was_followed_as_stones_its_contacts_are_known(example):
 @pytest.mark.usefixtures("undrawn")
 def test_a_reserve_that_may_be_too_high_is_grey(example):
     """Of a structure whose contacts open the mechanism knows too little."""
-    name = next(each.structure for each in example.result.worst_first if each.reserve is not None)
+    name = next(
+        one_station.structure for one_station in example.result.worst_first if one_station.reserve is not None
+    )
     scene = example.result.scenes[name]
     station = scene.worst
     cases = {
-        each: replace(case, limits=(Limit.untold(Remark(AssessmentKind.CONTACTS_OPEN)),))
-        for each, case in station.cases.items()
+        one_case: replace(case, limits=(Limit.untold(Remark(AssessmentKind.CONTACTS_OPEN)),))
+        for one_case, case in station.cases.items()
     }
     in_doubt = replace(scene, periods=(replace(station, cases=cases),))
     result = replace(example.result, scenes={**example.result.scenes, name: in_doubt})
@@ -353,7 +363,9 @@ def test_a_reserve_that_may_be_too_high_is_grey(example):
 
 def test_the_reserve_of_a_spire_is_always_told_as_the_mechanisms(example):
     """Its courses may be thrown at every factor, also where it falls as a mechanism and its verdict needs no doubt."""
-    name = next(each.structure for each in example.result.worst_first if each.reserve is not None)
+    name = next(
+        one_station.structure for one_station in example.result.worst_first if one_station.reserve is not None
+    )
     station = example.result.scenes[name].worst
     assert station.reserve_in_words == str(station.reserve)
     spire = Spire(width=3.0, height=15.0, wall_thickness=0.25, crack_height=5.0)
@@ -371,7 +383,7 @@ def test_a_front_that_is_free_to_rock_through_its_floors_is_told():
         "free": Facade(**sizes),
     }
     report = assessed("one", [shaken()], fronts)
-    told = [each for each in known(report.page()) if str(Remark(StructureKind.FLOORS_BEHIND)) in each]
+    told = [part for part in known(report.page()) if str(Remark(StructureKind.FLOORS_BEHIND)) in part]
     assert told == [str(Remark(StructureKind.FLOORS_BEHIND, "floors"))]
 
 
@@ -389,13 +401,13 @@ def test_a_report_in_g_and_centimetres_prints_the_same_numbers_in_them(example):
     assert "m/s²" not in str(shown.known)
     sizes = {"[m/s²]": ("[g]", 9.80665), "[m/s]": ("[cm/s]", 0.01), "[m]": ("[cm]", 0.01)}
     (row,) = example.tables.record
-    pulse = next(each for each in example.tables.pulses if each.rank == 1)
+    pulse = next(one_pulse for one_pulse in example.tables.pulses if one_pulse.rank == 1)
     components = dict(_columns(shown.known.table))
     assert components["PGV [cm/s]"] == (printing.number(row.peak_velocity_m_s / 0.01),)
     assert components["Sine: amplitude [g]"] == (printing.number(abs(pulse.amplitude_m_s2) / 9.80665),)
     pairs = zip(_columns(plain.known.table), _columns(shown.known.table), strict=True)
     for (head, before), (new_head, after) in pairs:
-        unit = next((each for each in sizes if each in head), None)
+        unit = next((one_size for one_size in sizes if one_size in head), None)
         if unit is None:
             assert (new_head, after) == (head, before)
             continue
@@ -479,7 +491,7 @@ def test_page_one_tells_what_was_typed_and_what_crushing_would_change_before_pag
 def test_every_figure_that_a_campaign_measured_names_where_it_stands():
     """The page of the documents says the figure, and the campaign is there to be run again."""
     root = Path(__file__).parents[3]
-    for each in MEASURED.values():
-        assert (root / each.source).exists()
-        page = (root / "docs" / "pages" / each.page).read_text(encoding="utf-8")
-        assert NUMBER.findall(each.figure)[0] in page
+    for figure in MEASURED.values():
+        assert (root / figure.source).exists()
+        page = (root / "docs" / "pages" / figure.page).read_text(encoding="utf-8")
+        assert NUMBER.findall(figure.figure)[0] in page

@@ -49,7 +49,7 @@ def test_both_languages_name_the_same_values(context, english):
 
 def test_a_page_says_what_stands_behind_in_the_words_of_its_language():
     front = Facade((3.0,), (0.5,), unit_weight=20e3, behind="cross_walls", restitution=0.6)
-    given = next(each for each in front.described.values if each.field.name == "behind")
+    given = next(value for value in front.described.values if value.field.name == "behind")
     assert ITALIAN.described(given) == "elemento a tergo muri trasversali"
     assert "cross walls" in Sentences().described(given)
 
@@ -93,10 +93,10 @@ def texts_of(page):
     if isinstance(page, str):
         return [page]
     if isinstance(page, list | tuple):
-        return [text for each in page for text in texts_of(each)]
+        return [text for element in page for text in texts_of(element)]
     if not is_dataclass(page) or isinstance(page, Picture):
         return []
-    return [text for each in fields(page) for text in texts_of(getattr(page, each.name))]
+    return [text for attribute in fields(page) for text in texts_of(getattr(page, attribute.name))]
 
 
 def test_an_italian_page_has_no_english_sentence():
@@ -106,9 +106,9 @@ def test_an_italian_page_has_no_english_sentence():
     pages = [
         CheckedStructure(
             name="A",
-            structure=each,
-            checked=check(each, SPECTRUM),
-            untied=check(each.without_ties(), SPECTRUM) if isinstance(each, Facade) else None,
+            structure=case,
+            checked=check(case, SPECTRUM),
+            untied=check(case.without_ties(), SPECTRUM) if isinstance(case, Facade) else None,
             overturning_share=0.25,
             records=4,
             stations=3,
@@ -120,7 +120,7 @@ def test_an_italian_page_has_no_english_sentence():
             ),
             reserve_doubts=(AssessmentKind.CONTACTS_OPEN,),
         )
-        for each in (tied, Block.of_size(0.4, 3.0))
+        for case in (tied, Block.of_size(0.4, 3.0))
     ]
     english = re.compile(
         r"\b(the|of|and|is|are|not|met|by|under|which|with|its|height|thickness|crack|outwards|inwards|falls)\b"
@@ -130,7 +130,7 @@ def test_an_italian_page_has_no_english_sentence():
         said = [text for text in texts_of(data) if english.search(text)]
         assert said == []
         drawings = [
-            each.svg for each in (*data.sheets[0].answers[0].bars, *data.sheets[0].answers[0].basis.figure)
+            bar.svg for bar in (*data.sheets[0].answers[0].bars, *data.sheets[0].answers[0].basis.figure)
         ]
         drawn = [text for svg in drawings for text in re.findall(r"<text[^>]*>([^<]*)</text>", svg)]
         assert drawn and not [text for text in drawn if english.search(text)]
@@ -240,5 +240,5 @@ def test_the_catalogue_holds_what_every_page_prints(monkeypatch):
 
 def test_the_languages_are_those_of_the_setting():
     assert get_args(Language) == ("en", "it")
-    for each in get_args(Language):
-        assert Settings(language=each).language == each
+    for language in get_args(Language):
+        assert Settings(language=language).language == language

@@ -216,7 +216,7 @@ def test_long_lists_are_cut_and_say_how_much_was_left_out():
     assert {row.agreement for row in unsafe} == {Agreement.TOO_LOW}
     fallen = [case("wall", 0.1, math.inf, "fallen")]
     names = [f"r{place}" for place in range(250)]
-    records = [filled(RecordRow, record=each, component="EW", scale_factor=2.0, samples=1) for each in names]
+    records = [filled(RecordRow, record=name, component="EW", scale_factor=2.0, samples=1) for name in names]
     data = summary_data(summary_tables([*unsafe, *fallen], record=records), SETTINGS)
     names = [row[0] for row in data.unsafe.table.rows]
     assert names[0] == "fallen" and len(names) == 20
@@ -267,7 +267,7 @@ def test_a_scatter_stands_where_three_cases_have_both_ratios(predicted, drawn):
 
 def test_a_scatter_of_many_cases_does_not_grow_with_them():
     many = [[case("wall", 0.1 + k / count, 0.5) for k in range(count)] for count in (5500, 22000)]
-    sizes = [len(svg(prediction_scatter(each))) for each in many]
+    sizes = [len(svg(prediction_scatter(part))) for part in many]
     assert sizes[1] < 1.5 * sizes[0] < 1.5 * 2e5
 
 
@@ -341,7 +341,9 @@ def test_the_document_of_the_fragility_names_records_stations_units_and_what_gov
     assert Fragilities().panel({FragilitySummaryRow: [], IdaRow: []}) is None
 
 
-@pytest.mark.parametrize("measure", [each.name for each in compared(rocking.Block(2.0, 0.2).mechanism())])
+@pytest.mark.parametrize(
+    "measure", [one_row.name for one_row in compared(rocking.Block(2.0, 0.2).mechanism())]
+)
 def test_every_intensity_measure_is_drawn_with_its_unit(measure):
     curves = frame(FragilityRow, FRAGILITY[FragilityRow]).assign(intensity_measure=measure)
     assert f">{measure} [" in svg(fragility_figure(curves))

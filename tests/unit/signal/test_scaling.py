@@ -60,14 +60,15 @@ def test_all_components_get_one_factor(record: CatalogueRecord) -> None:
     as_is = open_station(record)
     station = open_station(replace(record, scale_to="pga .35 g"))
     components = [*station.horizontal, station.vertical]
-    factors = {each.scale_factor for each in components}
+    factors = {component.scale_factor for component in components}
     assert len(factors) == 1 and factors.pop() == pytest.approx(
         0.35 * GRAVITY / as_is.horizontal[1].peak_acceleration
     )
-    peaks = [each.peak_acceleration / GRAVITY for each in components]
+    peaks = [one_component.peak_acceleration / GRAVITY for one_component in components]
     assert peaks[1] == pytest.approx(0.35, rel=1e-12) and peaks[0] < 0.2 and peaks[2] > 0.35
     assert all(
-        "so that the larger PGA of the horizontal ones is .35 g" in each.processing[-1] for each in components
+        "so that the larger PGA of the horizontal ones is .35 g" in other_component.processing[-1]
+        for other_component in components
     )
 
 
@@ -76,22 +77,31 @@ def test_a_study_scales_the_motion_that_acts(record: CatalogueRecord, apply: str
     """After processing, which changes the peak; a row's own target comes before that of the study."""
     settings = read_settings({"scale_to": "pga 0.35 g", "vertical": True, "processing": {"apply": apply}})
     horizontal, vertical = Study({}, settings).open(replace(record, scale_factor=3.0))
-    assert max(each.peak_acceleration for each in horizontal) == pytest.approx(0.35 * GRAVITY, rel=1e-12)
-    assert vertical is not None and len({each.scale_factor for each in (*horizontal, vertical)}) == 1
+    assert max(component.peak_acceleration for component in horizontal) == pytest.approx(
+        0.35 * GRAVITY, rel=1e-12
+    )
+    assert (
+        vertical is not None
+        and len({other_component.scale_factor for other_component in (*horizontal, vertical)}) == 1
+    )
     horizontal, _ = Study({}, settings).open(replace(record, scale_to="pga 0.1 g"))
-    assert max(each.peak_acceleration for each in horizontal) == pytest.approx(0.1 * GRAVITY, rel=1e-12)
+    assert max(one_component.peak_acceleration for one_component in horizontal) == pytest.approx(
+        0.1 * GRAVITY, rel=1e-12
+    )
     assert Study({}, Settings()).open(record)[0][0].scale_factor == 1
 
 
 def test_a_factor_beyond_ten_is_told(record: CatalogueRecord) -> None:
     for text, is_told in (("pga 1.7 g", False), ("pga 1.9 g", True), ("pga 0.01 g", True)):
         (north, _) = open_station(replace(record, scale_to=text)).horizontal
-        assert (SignalKind.SCALED_FAR in {each.kind for each in north.warnings}) == is_told, text
+        assert (SignalKind.SCALED_FAR in {warning.kind for warning in north.warnings}) == is_told, text
 
 
 def test_a_velocity_is_reached(record: CatalogueRecord) -> None:
     station = open_station(replace(record, scale_to="pgv 30 cm/s"))
-    assert max(each.measures.peak_velocity for each in station.horizontal) == pytest.approx(0.3, rel=1e-9)
+    assert max(component.measures.peak_velocity for component in station.horizontal) == pytest.approx(
+        0.3, rel=1e-9
+    )
 
 
 def test_what_cannot_be_scaled_is_refused(record: CatalogueRecord, tmp_path: Path) -> None:

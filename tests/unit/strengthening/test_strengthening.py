@@ -38,7 +38,7 @@ TIED = Facade(
     tie_stiffness=5e6,
     tie_strength=5e3,
 )
-(BREADTH,) = (each for each in sizes(PARAPET) if each.name == "breadth")
+(BREADTH,) = (other_size for other_size in sizes(PARAPET) if other_size.name == "breadth")
 STEP = 0.01
 
 
@@ -50,8 +50,8 @@ def _records(count: int, amplitude: float = 3.0) -> list[Accelerogram]:
         for omega in np.linspace(4.0, 8.0, count)
     ]
     return [
-        Accelerogram(each.acceleration(times), STEP, station="one", event=f"EQ {k}")
-        for k, each in enumerate(pulses)
+        Accelerogram(pulse.acceleration(times), STEP, station="one", event=f"EQ {k}")
+        for k, pulse in enumerate(pulses)
     ]
 
 
@@ -91,7 +91,7 @@ def test_no_number_of_stations_shows_a_share_that_is_not_below_the_target():
     ("stations", "target"),
     [
         (25, 0.1),
-        *(pytest.param(*each, marks=pytest.mark.slow) for each in ((40, 0.1), (40, 0.2), (80, 0.3))),
+        *(pytest.param(*case, marks=pytest.mark.slow) for case in ((40, 0.1), (40, 0.2), (80, 0.3))),
     ],
 )
 def test_the_true_share_at_the_value_is_below_the_target_in_nine_of_ten_draws(stations, target):
@@ -178,7 +178,7 @@ def test_the_parapet_that_holds_is_between_one_that_falls_and_the_next_step():
     assert found.given.value == pytest.approx(0.25)
     assert found.given.share > 0.9
     parapet = Block.of_size(breadth=found.value, height=2.0)
-    by_assess = [rocking.assess(each, parapet).overturning_share for each in records]
+    by_assess = [rocking.assess(record, parapet).overturning_share for record in records]
     assert found.share == pytest.approx(np.mean(by_assess), abs=1e-12)
 
 
@@ -199,7 +199,7 @@ def test_components_of_a_station_are_one():
 
 def test_a_tie_is_changed_in_newtons_and_the_code_sizes_it_beside():
     """By hand, of a rigid wall about its foot: F z + W t/2 = α0 W h/2, α0 g/(e* FC) = a_g/q and e* = 1."""
-    (strength,) = (each for each in sizes(TIED) if each.name == "tie_strength")
+    (strength,) = (size for size in sizes(TIED) if size.name == "tie_strength")
     assert with_value(TIED, strength, 12e3).tie_strength == 12e3
     known = replace(TIED, crack_height=0.0, crack="known")
     spectrum = DesignSpectrum.ntc(ag=4.0, f0=2.5, tc_star=0.5)
@@ -215,7 +215,7 @@ def test_a_tie_is_changed_in_newtons_and_the_code_sizes_it_beside():
 def test_a_value_with_which_it_does_not_stand_counts_as_overturning():
     """A wall that a vault pushes outwards is pushed over where it is thin."""
     wall = Facade((4.0,), (0.8,), unit_weight=18e3, restitution=0.8, thrust=3e3)
-    (thickness,) = (each for each in sizes(wall) if each.name == "thicknesses")
+    (thickness,) = (size for size in sizes(wall) if size.name == "thicknesses")
     assert with_value(wall, thickness, 0.1) is None
     found = rocking.strengthen(_records(6, 0.5), wall, "thicknesses", between=(0.1, 2.0), target=0.3)
     assert found.tried[0].share == 1.0
@@ -260,10 +260,10 @@ def test_what_is_no_list_of_records_is_refused(records):
 
 def test_a_list_of_one_value_is_a_size_and_one_of_several_is_not():
     two = Facade((3.5, 3.0), (0.6, 0.5), unit_weight=20e3)
-    assert "thicknesses" in {each.name for each in sizes(TIED)}
-    assert "thicknesses" not in {each.name for each in sizes(two)}
+    assert "thicknesses" in {one_size.name for one_size in sizes(TIED)}
+    assert "thicknesses" not in {size.name for size in sizes(two)}
     assert {"thickness", "top_load", "tie_strength"} <= {
-        each.name for each in sizes(LoadedWall(1.6, 1.6, 0.25, unit_weight=20e3))
+        other_size.name for other_size in sizes(LoadedWall(1.6, 1.6, 0.25, unit_weight=20e3))
     }
 
 
@@ -284,7 +284,7 @@ def test_where_only_the_top_slides_it_is_left_out_and_harms_nothing():
     slid = np.zeros(shares.shape)
     slid[10:, :20] = 1.0
     made = _made(shares + slid, slid=slid)
-    assert [each.value for each in made.decided] == VALUES[:10].tolist()
+    assert [item.value for item in made.decided] == VALUES[:10].tolist()
     assert made.value == VALUES[5] and made.monotone
     assert f"{VALUES[10]:.3g} m" in made.words
 
@@ -304,8 +304,8 @@ def test_one_earthquake_shows_nothing_and_few_show_less_than_scattered_stations(
 def test_a_value_that_cannot_hold_any_more_is_given_up_and_the_answer_is_the_same():
     records = _records(24)
     early, whole = (
-        rocking.strengthen(records, PARAPET, "breadth", between=(0.25, 1.0), target=0.2, early=each)
-        for each in (True, False)
+        rocking.strengthen(records, PARAPET, "breadth", between=(0.25, 1.0), target=0.2, early=choice)
+        for choice in (True, False)
     )
     assert early.value == whole.value and early.interval == whole.interval
     assert early.tried[0].followed.sum() < 24 == whole.tried[0].followed.sum()
@@ -315,8 +315,8 @@ def test_a_value_that_cannot_hold_any_more_is_given_up_and_the_answer_is_the_sam
 
 @pytest.mark.process
 def test_a_station_at_which_nothing_lifts_tells_nothing():
-    weak = [each.scaled(0.01) for each in _records(4)]
-    named = [replace(each, event=f"WEAK {k}") for k, each in enumerate(weak)]
+    weak = [record.scaled(0.01) for record in _records(4)]
+    named = [replace(item, event=f"WEAK {k}") for k, item in enumerate(weak)]
     found = rocking.strengthen([*_records(12), *named], PARAPET, "breadth", between=(0.3, 1.0))
     alone = rocking.strengthen(_records(12), PARAPET, "breadth", between=(0.3, 1.0))
     assert (found.still, alone.still) == (4, 0)
@@ -345,4 +345,4 @@ def test_another_target_follows_nothing_again(monkeypatch, tmp_path):
 
     monkeypatch.setattr(Assessor, "integrate", follows_nothing)
     again = strengthen_scene(*arguments, 0.1, sample, early=False, store=RecordStore(path))
-    assert [each.share for each in again.tried] == [each.share for each in first.tried]
+    assert [trial.share for trial in again.tried] == [one_trial.share for one_trial in first.tried]

@@ -57,7 +57,7 @@ def test_a_solid_chimney_rocks_as_the_block_of_its_size():
     chimney = part("chimney").mechanism()
     assert chimney.uplift_multiplier == pytest.approx(block.uplift_multiplier, rel=1e-12)
     angles = np.linspace(0, 0.15, 5)
-    own, other = (each.positive.inertia(angles) / each.positive.gravity(angles) for each in (chimney, block))
+    own, other = (case.positive.inertia(angles) / case.positive.gravity(angles) for case in (chimney, block))
     np.testing.assert_allclose(own, other, rtol=1e-12)
 
 
@@ -71,7 +71,7 @@ def test_a_gable_is_drawn_as_a_triangle_beside_its_section():
     assert len(without.described.front) == 3
     wall = rocking.structure_from_config({"type": "free_wall", "height_m": 3.0, "thickness_m": 0.6})
     assert len(wall.described.front) == 0
-    assert {each.letter for each in part("free_wall").dimensions()} == {"h", "t", "b"}
+    assert {path.letter for path in part("free_wall").dimensions()} == {"h", "t", "b"}
 
 
 @pytest.mark.parametrize("typed", ["boundary wall", "boundary_wall", "Boundary wall"])
@@ -83,7 +83,7 @@ def test_a_boundary_wall_is_answered_with_a_free_wall(typed):
 
 
 def test_what_it_is_called_besides_is_no_type_and_is_answered_by_one_or_none():
-    assert not set(OTHER_NAMES) & {each.replace("_", " ") for each in TYPES} - {"capacity curve"}
+    assert not set(OTHER_NAMES) & {one_name.replace("_", " ") for one_name in TYPES} - {"capacity curve"}
     for name, answered in OTHER_NAMES.items():
         assert answered.type in TYPES or (not answered.type and answered.but), name
         with pytest.raises(ConfigurationError) as refused:

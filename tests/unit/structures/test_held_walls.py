@@ -32,15 +32,15 @@ def joints_of(heights):
 def drawn_facade(draw):
     """A façade of one to three storeys with one to three holds of any kind; its courses; its joints."""
     storeys = draw.integers(1, 4)
-    heights = tuple(float(each) for each in draw.uniform(2.4, 4.2, storeys).round(2))
-    thicknesses = tuple(float(each) for each in draw.uniform(0.25, 0.7, storeys).round(2))
-    loads = tuple(float(each) for each in draw.uniform(2e3, 25e3, storeys).round())
+    heights = tuple(float(value) for value in draw.uniform(2.4, 4.2, storeys).round(2))
+    thicknesses = tuple(float(other_value) for other_value in draw.uniform(0.25, 0.7, storeys).round(2))
+    loads = tuple(float(one_value) for one_value in draw.uniform(2e3, 25e3, storeys).round())
     joints = joints_of(heights)
     levels = np.concatenate([[0.0], np.cumsum(heights)])
     behind = str(draw.choice(["nothing", "floors", "cross_walls"]))
     number = int(draw.integers(1, 4))
     at = draw.choice(joints[1:], number, replace=False) if draw.random() < 0.5 else draw.choice(levels[1:], 1)
-    ties = tuple(sorted(float(each) for each in at))
+    ties = tuple(sorted(float(place) for place in at))
     strength = None if draw.random() < 0.5 else float(draw.uniform(1e3, 4e4))
     eccentricity = float(draw.uniform(-0.4, 0.4) * min(thicknesses))
     facade = Facade(
@@ -145,12 +145,12 @@ def test_least_multiplier_is_that_of_limit_analysis_over_courses():
             assert -np.inf in (courses.multiplier(1), courses.multiplier(-1))
             continue  # it does not stand at rest
         for direction in (1, -1):
-            own = [each for each in family if each[0].outwards == (direction > 0)]
+            own = [one_member for one_member in family if one_member[0].outwards == (direction > 0)]
             expected = courses.multiplier(direction)
-            found = min((each[1] for each in own), default=np.inf)
+            found = min((member[1] for member in own), default=np.inf)
             assert found == pytest.approx(expected, rel=1e-7), (walls, direction)
             if own:
-                name = wall.held_wall.name(min(own, key=lambda each: each[1])[0])
+                name = wall.held_wall.name(min(own, key=lambda item: item[1])[0])
                 least_by_name[name] = least_by_name.get(name, 0) + 1
                 compared += 1
     assert compared > 100
@@ -192,7 +192,7 @@ ONE_STOREY = Facade(
 
 def named(wall):
     """The mechanism of least λ by each name."""
-    return {each.name: each for each in reversed(wall.mechanisms())}
+    return {mechanism.name: mechanism for mechanism in reversed(wall.mechanisms())}
 
 
 @pytest.mark.parametrize(
@@ -357,7 +357,7 @@ def test_floors_and_cross_walls_stop_the_wall_inwards():
     free = replace(THREE, behind="nothing")
     floors = replace(THREE, behind="floors", restitution=0.6)
     walls = replace(THREE, behind="cross_walls", restitution=0.6)
-    assert [any(each.sign < 0 for each in wall.mechanisms()) for wall in (free, floors, walls)] == [
+    assert [any(mechanism.sign < 0 for mechanism in wall.mechanisms()) for wall in (free, floors, walls)] == [
         True,
         True,
         False,
@@ -423,7 +423,7 @@ def test_the_bulge_of_least_multiplier_counts_wherever_the_wall_is_cracked(crack
     assert first.position == pytest.approx(hinges[by_hand.argmin()], abs=2e-3)
     assert first.name == "bulges between foot and tie"
     # Its tie keeps every crack shut: the one that is known is followed beside the bulge, and no other.
-    counting = [each.name for each in others if each.counts]
+    counting = [other.name for other in others if other.counts]
     assert counting == ([] if crack is None else [FRONT.does])
     assert replace(FRONT, crack_storey=1, crack=crack).static_multiplier == first.uplift_multiplier
 
@@ -438,19 +438,26 @@ def test_a_tie_that_yields_first_leaves_the_wall_to_overturn():
 
 
 def test_remark_on_floors_behind_ends_where_it_is_said_what_stands_there():
-    assert StructureKind.FLOORS_BEHIND in {each.kind for each in THREE.cautions}
+    assert StructureKind.FLOORS_BEHIND in {remark.kind for remark in THREE.cautions}
     assert StructureKind.FLOORS_BEHIND not in {
-        each.kind for each in replace(THREE, behind="nothing").cautions
+        one_remark.kind for one_remark in replace(THREE, behind="nothing").cautions
     }
 
 
 def test_a_known_crack_leaves_the_bulges_alone():
     """It says where the wall is cracked: what holds the wall lets it bulge all the same."""
     known = replace(THREE, crack="known", crack_storey=2)
-    bulges = [each for each in replace(known, crack=None).mechanisms() if each.structure.opening]
-    assert {each.name for each in known.mechanisms()} == {known.does, *(each.name for each in bulges)}
+    bulges = [
+        other_mechanism
+        for other_mechanism in replace(known, crack=None).mechanisms()
+        if other_mechanism.structure.opening
+    ]
+    assert {mechanism.name for mechanism in known.mechanisms()} == {
+        known.does,
+        *(bulge.name for bulge in bulges),
+    }
     untied = replace(known, tie_heights=(), tie_stiffness=0.0)
-    assert [each.structure for each in untied.mechanisms()] == [untied]
+    assert [one_mechanism.structure for one_mechanism in untied.mechanisms()] == [untied]
     assert rocking.Block(2.0, 0.2).mechanisms()[0].uplift_multiplier == pytest.approx(np.tan(0.2))
 
 
@@ -525,12 +532,14 @@ def test_reaction_in_motion_balances_all_masses_about_the_foot(upright):
         contacts = opened.contact_forces([phi], [velocity], None, [ground])
         moment, sideways = held_forces(wall, opening, (phi, velocity, acceleration, ground))
         held = opened.linkages[0].motion(phi).hinges[2].imag
-        heights = [held if each.height == 6.4 else each.height for each in found]
-        by_holds = sum(float(each.force[0]) * height for each, height in zip(found, heights, strict=True))
+        heights = [held if one_item.height == 6.4 else one_item.height for one_item in found]
+        by_holds = sum(
+            float(other_item.force[0]) * height for other_item, height in zip(found, heights, strict=True)
+        )
         assert by_holds == pytest.approx(-moment, rel=1e-6)
         # tangential forces are those of the wall on its joint
         at_foot = float(contacts.tangential[0, 0]) * opened.linkages[0].unit / GRAVITY
-        together = sum(float(each.force[0]) for each in found)
+        together = sum(float(item.force[0]) for item in found)
         assert together == pytest.approx(sideways - at_foot, rel=1e-6)
 
 
@@ -548,7 +557,7 @@ def test_tie_past_which_a_facade_turns_pulls_as_its_law_says():
         twice.reactions([0.02, 0.05], [0.1, 0.0], ground=[0.0, 1.0])[0].force, 2 * tie.force
     )
     foot = Opening(foot=0.0)
-    both, one = (replace(each, tie_strength=3e3).held_wall.multiplier(foot) for each in (twice, facade))
+    both, one = (replace(case, tie_strength=3e3).held_wall.multiplier(foot) for case in (twice, facade))
     assert both - one == pytest.approx(one - facade.mechanism().uplift_multiplier, rel=1e-9)
 
 

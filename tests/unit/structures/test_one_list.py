@@ -55,9 +55,9 @@ def told(wall):
     checked = kinematic_check(wall, SPECTRUM, CodeTerms()).mechanisms
     return {
         "statics": wall.static_multiplier,
-        "table": min(each.uplift_multiplier for each in mechanisms_of(wall)),
-        "ensemble": min(each.uplift_multiplier for each in wall.candidates() if each.counts),
-        "check": min(each.onset_multiplier for each in checked),
+        "table": min(mechanism.uplift_multiplier for mechanism in mechanisms_of(wall)),
+        "ensemble": min(candidate.uplift_multiplier for candidate in wall.candidates() if candidate.counts),
+        "check": min(item.onset_multiplier for item in checked),
     }
 
 
@@ -67,8 +67,8 @@ def test_above_a_tie_inside_a_storey_the_wall_falls_from_the_tie_on():
     by_hand = (weight + 3e3) * 0.2 / (weight * 0.3 + 3e3 * 0.6)
     assert told(ABOVE) == pytest.approx(dict.fromkeys(told(ABOVE), by_hand), rel=1e-9)
     # What the tie keeps shut for good is no crack.
-    assert all(each.position >= 3.0 for each in cracks(ABOVE) if not each.bulges)
-    assert [each.description for each in cracks(ABOVE) if each.bulges] == [
+    assert all(one_crack.position >= 3.0 for one_crack in cracks(ABOVE) if not one_crack.bulges)
+    assert [crack.description for crack in cracks(ABOVE) if crack.bulges] == [
         "hinge at 1.996 m (bulges between foot and tie)"
     ]
 
@@ -160,6 +160,6 @@ def test_a_wall_whose_top_slips_below_a_tie_needs_its_restitution():
     assert (refused.value.field, refused.value.value) == ("restitution", None)
     typed = LoadedWall.of_size(3.2, 0.5, WEIGHT, restitution=0.5, **values)
     assert "hinge at 1.204 m (bulges between foot and tie)" in {
-        each.description for each in typed.candidates()
+        candidate.description for candidate in typed.candidates()
     }
     assert typed.restitution_of_geometry is None

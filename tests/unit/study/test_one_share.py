@@ -62,23 +62,28 @@ def test_four_tables_say_one_share_of_a_pinnacle_whose_stacks_fall(folder: Path,
     worked(catalogue, study, folder / "results")
     outcomes = list(outcomes_in(folder / "results", catalogue))
     write_summary(outcomes, study.structures, folder / "summary", False)
-    verdicts = [row for each in outcomes for row in each.rows[VerdictRow]]
+    verdicts = [row for outcome in outcomes for row in outcome.rows[VerdictRow]]
 
     # The summary: of each record the larger of two counts, that of the members and that of the stacks.
     assert len(verdicts) == len(PERIODS)
-    of_members = np.array([each.overturning_members / max(each.members, 1) for each in verdicts])
-    of_stacks = np.array(
-        [each.stack_falls / each.stack_runs if each.stack_runs else 0.0 for each in verdicts]
+    of_members = np.array(
+        [one_verdict.overturning_members / max(one_verdict.members, 1) for one_verdict in verdicts]
     )
-    shares = np.array([each.overturning_share for each in verdicts])
+    of_stacks = np.array(
+        [
+            other_verdict.stack_falls / other_verdict.stack_runs if other_verdict.stack_runs else 0.0
+            for other_verdict in verdicts
+        ]
+    )
+    shares = np.array([verdict.overturning_share for verdict in verdicts])
     assert shares == pytest.approx(np.maximum(of_members, of_stacks), abs=1e-12)
     decided = [
-        each
-        for each, stacks, members in zip(verdicts, of_stacks, of_members, strict=True)
+        this_verdict
+        for this_verdict, stacks, members in zip(verdicts, of_stacks, of_members, strict=True)
         if stacks > members
     ]
     assert len(decided) >= 2, "else nothing is tested"
-    assert any(each.verdict in (Verdict.PROBABLY_OVERTURNS, Verdict.OVERTURNS) for each in decided)
+    assert any(item.verdict in (Verdict.PROBABLY_OVERTURNS, Verdict.OVERTURNS) for item in decided)
 
     # The expected falls of one structure under one record are its share.
     falls = read_table(ExpectedFallsRow, folder / "summary")
@@ -98,9 +103,9 @@ def test_four_tables_say_one_share_of_a_pinnacle_whose_stacks_fall(folder: Path,
     # What would hold it, as it is given: the same mean. Two values are tried, which nothing lifts.
     monkeypatch.setattr("rocking.strengthening.GRID", 2)
     scene = study.scenes["pinnacle"]
-    (side,) = (each for each in sizes(scene.structure) if each.name == "width")
-    motions = [rocking.read(folder / f"{each.id}.txt", unit="m/s2")[0] for each in catalogue]
-    names = tuple(each.id for each in catalogue)
+    (side,) = (size for size in sizes(scene.structure) if size.name == "width")
+    motions = [rocking.read(folder / f"{one_record.id}.txt", unit="m/s2")[0] for one_record in catalogue]
+    names = tuple(record.id for record in catalogue)
     sample = Sample(names, names)
     found = strengthen_scene(motions, scene, side, (1.5, 2.0), 0.1, sample, study.assessment)
     assert found.given.undecided == 0
