@@ -16,10 +16,9 @@ SHIPPED = Path(__file__).parents[2] / "records" / "20161113_110259_WTMC_20.V2A"
 """The real record that comes with the project, whose component N28W takes the place of Rinaldi."""
 
 
-def paper(catalogue: str, mirror: str | None, folder: str, log: str) -> None:
+def paper(catalogue: str, mirror: str | None, folder: str) -> None:
     """Do the job of the rule paper."""
-    message = write_paper(Path(catalogue), mirror, Path(folder))
-    write_whole(Path(log), f"{message}\n".encode())
+    print(write_paper(Path(catalogue), mirror, Path(folder)))
 
 
 def write_paper(catalogue: Path, mirror: str | None, folder: Path) -> str:

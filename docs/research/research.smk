@@ -1,5 +1,8 @@
 """What was measured once for this package: ensembles, a shake table, other codes. Run each by its name."""
 
+from rocking.hashes import sha256_of
+from rocking.study.settings import structure_hashes
+
 RESEARCH = HOME / "docs" / "research"
 REAL_RECORDS = [f"{HOME}/records/{name}.csv" for name in ("near_fault", "fema_p695")]
 # Each target: what it says it does, the catalogues that it reads, and what it writes beside its scores and its report.
@@ -127,7 +130,4 @@ for TARGET, (TELLS, CATALOGUES, FILES) in TARGETS_OF_RESEARCH.items():
         message:
             TELLS
         run:
-            folder = os.path.dirname(output[0])
-            run_apart(
-                "docs.research.run:run", rule, rule, list(input.catalogues), dict(config), folder, log[0]
-            )
+            research(rule, input.catalogues, output[0], log[0])

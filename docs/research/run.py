@@ -71,7 +71,7 @@ def targets() -> "dict[str, Callable[[Target], None]]":
     }
 
 
-def run(name: str, catalogues: Sequence[str], config: Mapping[str, Any], folder: str, log: str) -> None:
+def run(name: str, catalogues: Sequence[str], config: Mapping[str, Any], folder: str) -> None:
     """Do the job of the rule `name`: write the tables and the report of a target into `folder`."""
     from docs.research import validation
     from docs.research.report import Target
@@ -79,12 +79,15 @@ def run(name: str, catalogues: Sequence[str], config: Mapping[str, Any], folder:
     from docs.research.sites import spread
     from rocking.assessment.scene import load_scenes
     from rocking.catalogue import load_catalogue
-    from rocking.study.progress import line_writer
+    from rocking.study.apart import tell as tell_line
     from rocking.study.settings import read_settings
 
     settings = read_settings(config)
     mirror = settings.mirror
-    tell = line_writer(Path(log), name)
+
+    def tell(line: str, _done: int = 0, _total: int = 0) -> None:
+        tell_line(f"{name}: {line}")
+
     if name == "validate":
         campaign = Campaign.open(Path(catalogues[0]), Path(mirror) if mirror else None)
         validation.validate(Target(Path(folder), tell), campaign)

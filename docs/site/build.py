@@ -28,10 +28,9 @@ TOPICS = {
 _LINK = re.compile(r"\]\(\.\./\.\./([^)#]+)")
 
 
-def documentation(target: str, log: str) -> None:
+def documentation(target: str) -> None:
     """Do the job of the rule documentation."""
-    pages = write_site(Path(target))
-    Path(log).write_text("\n".join(map(str, pages)) + "\n", encoding="utf-8")
+    print(*write_site(Path(target)), sep="\n")
 
 
 def written_pages() -> list[Path]:

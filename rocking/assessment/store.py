@@ -106,8 +106,8 @@ class RecordStore:
             write_whole(self._timings, json.dumps(own).encode())
 
     def stand(self) -> None:
-        """Write the file where none stands, and leave one that does: what failed now may be mended."""
-        if not self._path.is_file():
+        """Write the files where none stand, and leave those that do: what failed now may be mended."""
+        if not self._path.is_file() or (self._timings is not None and not self._timings.is_file()):
             self.save()
 
 

@@ -8,7 +8,6 @@ from rocking.errors import ConfigurationError
 _READ_BY = {
     ".numba_config.yaml": "numba takes its settings, and compiled code to run,",
     "matplotlibrc": "matplotlib takes its settings",
-    "profiles/default": "snakemake takes options, and expressions to evaluate,",
 }
 """Configuration that a library takes from the folder it stands in, before any variable of the environment."""
 

@@ -11,9 +11,12 @@ import os
 import signal
 import sys
 import threading
+import traceback
 from multiprocessing import forkserver
 from multiprocessing.connection import wait
+from pathlib import Path
 
+from rocking.errors import LOGS, RockingError
 from rocking.study.settings import Settings, commented_yaml
 
 _FORKS = "forkserver" in multiprocessing.get_all_start_methods()
@@ -44,14 +47,15 @@ def warm_up(settings: Settings) -> None:
         os.environ.update(before)
 
 
-def run_apart(work: str, name: str, *arguments: object) -> None:
+def run_apart(settings: Settings, log: str, work: str, *arguments: object) -> None:
     """Run the function `work`, "module:name of the function", in a process of its own, and wait for its end.
 
-    name: what the error says that ended. Raises RuntimeError where the process did not end well.
+    settings: of the study. log: of the job, which takes what it prints. Raises RuntimeError where it did not end well.
     """
     context = multiprocessing.get_context("forkserver") if _FORKS else multiprocessing.get_context("spawn")
-    process = context.Process(target=_work, args=(work, *arguments), name=name)
+    process = context.Process(target=_work, args=(str(Path(log).absolute()), work, *arguments))
     with _ONE_AT_A_TIME:
+        warm_up(settings)
         process.start()
     wait([process.sentinel])
     with _ONE_AT_A_TIME:
@@ -61,16 +65,45 @@ def run_apart(work: str, name: str, *arguments: object) -> None:
     if status is not None and status < 0:
         cause = signal.Signals(-status).name
         hint = ", as a system does that lacks memory" if status == -signal.SIGKILL else ""
-        raise RuntimeError(f"{name}: its process was ended by {cause}{hint}; run the same command again.")
+        raise RuntimeError(f"its process was ended by {cause}{hint}; run the same command again.")
     if status:
-        raise RuntimeError(f"{name}: its process ended with status {status}; its log says why.")
+        raise RuntimeError(f"its process ended with status {status}; {log} says why.")
 
 
-def _work(work: str, *arguments: object) -> None:
-    """Call a function by its name; what ends it is reported by sys.excepthook, as at the top of a script."""
-    module, _, function = work.partition(":")
-    try:
-        getattr(importlib.import_module(module), function)(*arguments)
-    except BaseException as error:
-        sys.excepthook(type(error), error, error.__traceback__)
-        sys.exit(1)
+def _work(log: str, work: str, *arguments: object) -> None:
+    """Call a function by its name with its log as what it prints to; the terminal gets a sentence on what ends it."""
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # so that nothing is left half-written
+    LOGS[:] = [Path(log)]
+    LOGS[0].parent.mkdir(parents=True, exist_ok=True)
+    LOGS[0].unlink(missing_ok=True)
+    with open(log, "a", encoding="utf-8", buffering=1) as stream:
+        sys.stdout = sys.stderr = stream
+        module, _, function = work.partition(":")
+        try:
+            getattr(importlib.import_module(module), function)(*arguments)
+        except BaseException as error:
+            traceback.print_exc()
+            stream.flush()
+            tell(_in_a_sentence(error, log))
+            os._exit(1)  # what would be printed later finds the log closed
+
+
+def tell(line: str) -> None:
+    """Print a line into the log of this job, and to whoever started it."""
+    if sys.stderr is not sys.__stderr__:
+        print(line)
+    print(line, file=sys.__stderr__, flush=True)
+
+
+def _in_a_sentence(error: BaseException, log: str) -> str:
+    match error:
+        case RockingError():
+            return str(error)
+        case OSError():
+            return f"{error.filename or 'a file'}: {error.strerror or error}"
+        case MemoryError():
+            return "a job had not enough memory; give more, or run fewer jobs at once: --cores 1"
+        case KeyboardInterrupt():
+            return "a job was stopped"
+        case _:
+            return f"a job ended with {type(error).__name__}: {' '.join(str(error).split())}; see {log}"

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from html import escape
 from pathlib import Path
+from traceback import print_exception
 
 from rocking.assessment.case import Failure
 from rocking.assessment.rows import FailedCase, FailureRow
@@ -10,7 +11,6 @@ from rocking.errors import fault_in_words
 from rocking.reports.pages import Part, PlainPage
 from rocking.reports.printing import Figures, write_document
 from rocking.reports.style import new_figure, svg
-from rocking.study.progress import log_error
 from rocking.tables import write_whole
 from rocking.tables.workbook import workbook
 
@@ -33,7 +33,7 @@ def made_or_failed(
     except (OSError, MemoryError):
         raise
     except Exception as fault:
-        log_error(fault)
+        print_exception(fault)
         sentence = fault_in_words(fault, log, path.name)
         write_reason(path, [sentence], figures)
         return [FailureRow.of(FailedCase(record, "", "", Failure("document", sentence)))]

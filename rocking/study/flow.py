@@ -12,25 +12,19 @@ def workflow_folder() -> Path:
     return package / "shipped" if (package / "shipped" / "Snakefile").is_file() else package.parent
 
 
-SNAKEFILE = str(workflow_folder() / "Snakefile")
+SNAKEFILE = str(workflow_folder() / "workflow" / "Snakefile")
 """The workflow, for `module` in the Snakefile of a study."""
+PROFILE = workflow_folder() / "workflow" / "profiles" / "default" / "config.yaml"
+"""The options of snakemake on one machine, which it takes unasked from profiles/default in the folder of a study."""
 OWN_SNAKEFILE = """\
 from rocking.study.flow import SNAKEFILE
+
+configfile: "config.yaml"
 
 module rocking:
     snakefile: SNAKEFILE
     config: config
 
 use rule * from rocking
-
-onstart:
-    rocking.onstart()
-
-onsuccess:
-    rocking.onsuccess()
 """
-"""The Snakefile of a study of one's own: the rules of the workflow, and what it does at either end of a run.
-
-No `configfile:`, by which snakemake reads a file before anybody can check it, and runs Python that stands in it; the
-rules find config.yaml themselves.
-"""
+"""The Snakefile of a study of one's own: its settings, and the rules of the workflow."""

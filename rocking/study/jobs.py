@@ -1,42 +1,137 @@
-"""The jobs of a study: what each rule of the workflow does with the task that it is given, one function for each rule.
+"""The jobs of a study: what each rule of the workflow does in its process, one function for each kind of rule."""
 
-The products over all records beside the summary have one for all of them.
-"""
+import contextlib
+import errno
+import os
+import time
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from traceback import print_exception
 
+from rocking.assessment.case import Failure, RecordResult
 from rocking.assessment.cores import on_cores
-from rocking.assessment.rows import FailureRow
-from rocking.study.job import begin_job, steps_of
+from rocking.assessment.one_case import Clock
+from rocking.assessment.rows import FailedCase, FailureRow
+from rocking.assessment.store import RecordStore
+from rocking.catalogue import CatalogueRecord
+from rocking.errors import RockingError, fault_in_words
+from rocking.study.documents import write_reason
+from rocking.study.job import Job, Study, write_record
 from rocking.study.kept import keep_rows
+from rocking.study.outputs import cases_of, outputs_of, times_of
+from rocking.study.plan import Plan
 from rocking.study.products import BY_NAME
 from rocking.study.summary import summarise
-from rocking.study.task import Task
 from rocking.study.work import work_of
+from rocking.tables import write_whole
+
+_DRAWN = (".pdf", ".svg", ".xlsx", ".html")
 
 
-def record(task: Task) -> None:
-    """Take the records of a task through the five steps, each on what the one before it gave."""
-    with begin_job(task) as job, on_cores(task.cores):
-        for catalogued in job.records:
-            with steps_of(catalogued, job) as step:
-                motion = step.read()  # 1: by obspy, or by a reader of ours where it has none
-                components = step.pulses(motion)  # 2: the sine pulses that dominate it
-                predictions = step.predict(components)  # 3: the closed form of each equivalent block
-                responses = step.integrate(motion, components, predictions)  # 4: under the whole record
-                step.compare(responses)  # 5: and decide, report and keep the outcome
+def run(
+    rule: str, plan: Plan, contents: str, log: str, files: Iterable[str], cores: int, folder: str
+) -> None:
+    """Do the job of a rule.
+
+    contents: what the plan says of those of the files that it reads. files: of other jobs that it reads, and those that
+    it wrote before: dates of these ahead of the clock, with which snakemake would never be content, become now. folder:
+    in which the files lie that the rule declares, as the study names them; on another machine they are copies.
+    """
+    now = time.time()
+    log = str(Path(log).absolute())
+    for file in files:
+        with contextlib.suppress(OSError):
+            if os.stat(file).st_mtime > now:
+                os.utime(file)
+    with contextlib.chdir(folder or "."), on_cores(cores):
+        match rule:
+            case "record":
+                (catalogued,) = plan.records.values()
+                record(
+                    catalogued,
+                    Study.of(plan),
+                    Path(log),
+                    lambda: plan.contents(rule, catalogued.id) == contents,
+                )
+            case "summary":
+                summarise(Job(rule, plan, Study.of(plan), Path(log)))
+            case _:
+                product(Job(rule, plan, Study.of(plan), Path(log)))
 
 
-batch = record
-"""Many records, one after another in one process: a start costs as much as twenty of them without reports."""
+def record(
+    catalogued: CatalogueRecord, study: Study, log: Path, is_unchanged: Callable[[], bool] = lambda: True
+) -> None:
+    """Take a record through the five steps, each on what the one before it gave.
+
+    Whatever goes wrong with it costs no other: its outcome is a row that says why. What goes wrong with the machine, a
+    full disk, too little memory or a folder that is gone, ends the job. is_unchanged: asks whether its files are those
+    of the plan.
+    """
+    name = catalogued.id
+    results = Path(study.settings.results)
+    clock = Clock()
+    store = RecordStore(cases_of(results, name), print, times_of(results, name))
+    assessor = study.assessor(store, clock)
+    try:
+        with clock.stage("read"):
+            horizontal, vertical = study.open(
+                catalogued
+            )  # 1: by obspy, or by a reader of ours where it has none
+        components = assessor.pulses(horizontal, vertical)  # 2: the sine pulses that dominate it
+        predictions = assessor.predict(
+            components, study.scenes
+        )  # 3: the closed form of each equivalent block
+        result = assessor.integrate(
+            name, components, study.scenes, predictions, vertical
+        )  # 4: the whole record
+        result = assessor.compare(result)  # 5: the two, and decide
+        store.save()
+    except RockingError as error:
+        if not is_unchanged():  # else the row would stand for the file that was planned
+            raise
+        result = _failed(name, Failure("read", error.without_place(name)), clock)
+    except (OSError, MemoryError):
+        raise
+    except Exception as fault:
+        print_exception(fault)
+        result = _failed(name, Failure("fault", fault_in_words(fault, log)), clock)
+    store.stand()  # outputs of the rule like the others
+    write_record(result, catalogued, study, log)
 
 
-def summary(task: Task) -> None:
-    """Write what stands over all records, and remove what no product of the study owns any more."""
-    with begin_job(task) as job:
-        summarise(job)
+def _failed(record: str, failure: Failure, clock: Clock) -> RecordResult:
+    return RecordResult(record=record, failures=(("", failure),), durations=dict(clock.durations))
 
 
-def product(task: Task) -> None:
-    """Make what stands over all records beside the summary, and keep what this shows of it."""
-    with begin_job(task) as job:
-        made = work_of(BY_NAME[job.kind]).make(job)
-        keep_rows(job.kept, {FailureRow: [], **made.rows}, job.made_by_hand, made.conclusion)
+def product(job: Job) -> None:
+    """Make what stands over all records besides the summary, and keep what this shows of it.
+
+    Where it cannot be made, its pages and a row say why, and the summary and all tables stand.
+    """
+    try:
+        made = work_of(BY_NAME[job.rule]).make(job)
+    except MemoryError:
+        raise
+    except Exception as error:
+        if isinstance(error, OSError) and error.errno in _OF_THE_DISK:
+            raise
+        print_exception(error)
+        sentence = str(error) if isinstance(error, RockingError) else fault_in_words(error, job.log, job.rule)
+        _say_why_not(job, sentence)
+    else:
+        keep_rows(job.kept, {FailureRow: [], **made.rows}, made.conclusion)
+
+
+_OF_THE_DISK = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)
+
+
+def _say_why_not(job: Job, sentence: str) -> None:
+    work = work_of(BY_NAME[job.rule])
+    for path in outputs_of(job.rule, job.plan.settings).values():
+        if path.suffix in _DRAWN:
+            write_reason(path, [sentence])
+        else:
+            write_whole(path, b"")
+    fault = FailureRow.of(FailedCase("", "", "", Failure(job.rule, sentence)))
+    keep_rows(job.kept, {row_class: [] for row_class in work.shown} | {FailureRow: [fault]})

@@ -6,7 +6,6 @@ from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from typing import Any, get_type_hints
-from zipfile import BadZipFile
 
 from rocking.assessment.store import decoder, encoded
 from rocking.errors import RockingError
@@ -19,36 +18,22 @@ Rows = Mapping[type[Row], Sequence[Row]]
 """The rows of tables by their class."""
 
 
-def keep_rows(path: Path, rows: Rows, made_by_hand: Sequence[str] = (), conclusion: str = "") -> None:
-    """Keep the rows of a product over all records, and the sentence that it comes down to.
-
-    made_by_hand: what a product is made from that no whole run makes.
-    """
-    content = (made_by_hand, conclusion, encoded_rows(rows))
-    lines = (json.dumps(key, separators=(",", ":")).encode() for key in content)
+def keep_rows(path: Path, rows: Rows, conclusion: str = "") -> None:
+    """Keep the rows of a product over all records, and the sentence that it comes down to."""
+    lines = (json.dumps(key, separators=(",", ":")).encode() for key in (conclusion, encoded_rows(rows)))
     write_whole(path, b"\n".join(lines))
 
 
 def kept_rows(path: Path, tables: Iterable[type[Row]]) -> dict[type[Row], list[Row]]:
     """Return the rows of some tables of a product. Raises RockingError where they are not what this version writes."""
     with undamaged(path):
-        *_, rows = read_whole(path, LARGEST, RockingError).split(b"\n", 2)
+        _, rows = read_whole(path, LARGEST, RockingError).split(b"\n", 1)
         return decoded_rows(json.loads(rows), tables)
-
-
-def made_by_hand(path: Path) -> tuple[str, ...]:
-    """Return what the product was made from whose rows are kept at `path`, if it was made by hand, else ()."""
-    try:
-        with regular_file(path) as stream:
-            return tuple(map(str, json.loads(stream.readline(LARGEST))))
-    except (OSError, ValueError, TypeError, RecursionError):
-        return ()
 
 
 def kept_conclusion(path: Path) -> str:
     """Return the sentence that a product comes down to. Raises RockingError where this version has not written it."""
     with undamaged(path), regular_file(path) as stream:
-        stream.readline(LARGEST)
         return str(json.loads(stream.readline(LARGEST)))
 
 
@@ -57,7 +42,7 @@ def undamaged(path: Path) -> Iterator[None]:
     """Raise RockingError, which names the file, for what only a damaged one gives."""
     try:
         yield
-    except (ValueError, KeyError, TypeError, AttributeError, RecursionError, BadZipFile) as error:
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise RockingError(
             f"{path}: it is damaged ({error}); remove it and run the study again.", path=path
         ) from None

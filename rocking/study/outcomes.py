@@ -1,9 +1,7 @@
 """The outcome of each record: what is kept of it for the products that stand over all records."""
 
 import json
-import zipfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,7 +9,7 @@ from typing import Any
 from rocking.assessment.rows import RECORD_TABLES, VerdictRow
 from rocking.errors import RockingError
 from rocking.study.kept import LARGEST, decoded_rows, encoded_rows, undamaged
-from rocking.tables import Row, read_whole, regular_file, whole, write_whole
+from rocking.tables import Row, read_whole, write_whole
 from rocking.tables.rows import rows_of
 
 
@@ -21,7 +19,7 @@ class RecordOutcome:
 
     page: what the page to explore shows. spectra: of the components, m/s², where there is a design level. Without
     reports both are empty. sums: the sha256 of its report and its tables, by their paths from the folder of the
-    results, where the record has files of its own.
+    results.
     """
 
     rows: Mapping[type[Row], list[Row]]
@@ -30,58 +28,34 @@ class RecordOutcome:
     sums: Mapping[str, str]
 
 
-@contextmanager
-def outcomes_written(path: Path) -> Iterator[Callable[[str, RecordOutcome], None]]:
-    """Yield what keeps the outcome of a record by its identifier, in one file that appears whole at the end.
-
-    In a file that ends in .zip, which holds those of a batch, each is a member; else the file is that of one record.
-    """
-    if path.suffix != ".zip":
-        yield lambda _record, outcome: write_whole(path, _encoded_outcome(outcome))
-        return
-    with whole(path) as stream, zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as batch:
-        # A member without a date: the same input gives the same bytes.
-        yield lambda record, outcome: batch.writestr(
-            zipfile.ZipInfo(record), _encoded_outcome(outcome), zipfile.ZIP_DEFLATED
-        )
-
-
-def _encoded_outcome(outcome: RecordOutcome) -> bytes:
+def keep_outcome(path: Path, outcome: RecordOutcome) -> None:
+    """Keep the outcome of a record at `path`."""
     content = {
         "rows": encoded_rows(outcome.rows),
         "page": outcome.page,
         "spectra": outcome.spectra,
         "sums": outcome.sums,
     }
-    return json.dumps(content, separators=(",", ":")).encode()
+    write_whole(path, json.dumps(content, separators=(",", ":")).encode())
 
 
-def read_outcomes(files: Mapping[str, Path]) -> Iterator[RecordOutcome]:
-    """Yield the outcome of each record, one at a time; files: by the identifier of the record that which keeps it.
+def read_outcomes(paths: Iterable[Path]) -> Iterator[RecordOutcome]:
+    """Yield the outcome of each record, one at a time.
 
     Raises RockingError where one is not what this version writes.
     """
-    for record, path in files.items():
+    for path in paths:
         with undamaged(path):
-            content = json.loads(_kept_outcome(path, record))
+            content = json.loads(read_whole(path, LARGEST, RockingError))
             rows = decoded_rows(content["rows"], RECORD_TABLES)
             yield RecordOutcome(rows, content["page"], content["spectra"], content["sums"])
 
 
-def _kept_outcome(path: Path, record: str) -> bytes:
-    if path.suffix != ".zip":
-        return read_whole(path, LARGEST, RockingError)
-    with regular_file(path) as stream, zipfile.ZipFile(stream) as batch:
-        if batch.getinfo(record).file_size > LARGEST:
-            raise ValueError(f"{record} is larger than {LARGEST} bytes")
-        return batch.read(record)
-
-
-def verdicts_of(files: Mapping[str, Path]) -> list[VerdictRow]:
+def verdicts_of(paths: Iterable[Path]) -> list[VerdictRow]:
     """Return what became of every structure under the records, from their outcomes: a table is print."""
     verdicts: list[VerdictRow] = []
-    for record, path in files.items():
+    for path in paths:
         with undamaged(path):
-            content = json.loads(_kept_outcome(path, record))
+            content = json.loads(read_whole(path, LARGEST, RockingError))
             verdicts += rows_of(VerdictRow, decoded_rows(content["rows"], [VerdictRow]))
     return verdicts

@@ -1,50 +1,72 @@
-"""The plan of a study before its first job: settings, catalogue and structures read and checked."""
+"""A study before its first job: settings, catalogue and structures, checked, and what each rule is made from."""
 
-import math
+import csv
 import os
+import re
+import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
-from functools import cached_property, lru_cache
+from functools import cache, lru_cache
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+from platform import python_version
 from typing import Any, TypeVar
+from urllib.parse import quote
 
 from rocking.assessment.kinds import AssessmentKind
+from rocking.assessment.rows import FailureRow
 from rocking.assessment.scene import Scene, load_scenes
+from rocking.assessment.settings import Heading
 from rocking.catalogue.catalogue import CatalogueRecord, load_catalogue, repeated
-from rocking.catalogue.files import answers_of, files_by_name, fill_hashes, local_files, with_hashes
+from rocking.catalogue.files import answers_of, files_by_name, local_files, with_hashes
 from rocking.catalogue.folder import unlisted
 from rocking.described import kind_in_words
 from rocking.errors import ConfigurationError, RockingError
-from rocking.hashes import sha256_of_bytes
-from rocking.quantities import shown
+from rocking.hashes import sha256_of, sha256_of_file
+from rocking.quantities import counted, shown
 from rocking.records.formats.layouts import NAME as ANSWERS
 from rocking.records.formats.layouts import Layouts
-from rocking.records.read import LARGEST_FILE
 from rocking.remarks import Remark
-from rocking.study.contents import ContentHashes
-from rocking.study.folder import REMEMBERED, check_own, results_folder, stands_inside
-from rocking.study.kept import made_by_hand
+from rocking.study.folder import check_links, results_folder
 from rocking.study.kinds import StudyKind
-from rocking.study.made_from import made_from, records_of, what_changed
-from rocking.study.outputs import kept_of, outcome_of
-from rocking.study.product import KEPT
-from rocking.study.products import PRODUCTS
-from rocking.study.settings import Settings, file_settings, named_files, read_settings
+from rocking.study.outputs import outcome_of
+from rocking.study.product import TOLD
+from rocking.study.products import BY_NAME, PRODUCTS
+from rocking.study.settings import (
+    NUMBERS,
+    Settings,
+    file_settings,
+    folder_sha256,
+    layout,
+    named_files,
+    package_sha256,
+    read_settings,
+    structure_hashes,
+)
+from rocking.tables import read_rows
 from rocking.tables.yaml_file import read_yaml
 
 T = TypeVar("T")
 
-JOBS = REMEMBERED / "rocking_jobs.lock"
-"""Locked by every job of a study while it works, in the folder of the study."""
 _NAMED = 8
 """Remarks on settings and structures that the terminal shows; remarks.csv holds all."""
 _ON_PAGES = (AssessmentKind.HELD_AT_CEILING,)
 """Remarks on what a structure is taken for, which stand on its pages and ask nothing of who starts a run."""
-_MOST_BATCHES = 8
-_MANY = 200
-_FEW = 24
-"""Records worth a batch: the start of a process costs as much as twenty records without reports."""
+_PLAIN = " ./,+=()[]'_-"
+"""Next to letters and digits, what a param holds as it is: --report prints params, and no text of a study is markup."""
+MADE_FROM: Mapping[str, tuple[str, ...]] = {
+    "record": (*TOLD, "reports", "figures", "histories", "design_spectrum"),
+    "summary": (*TOLD, "reports", "figures", "histories", "design_spectrum"),
+    **{product.name: product.settings for product in PRODUCTS},
+}
+"""The settings, and sections of settings, that each rule is made from, besides those that change a number."""
+NAMED_FILES: Mapping[str, tuple[str, ...]] = {
+    "record": ("design_spectrum.points",),
+    "summary": ("design_spectrum.points",),
+    **{product.name: product.named_files for product in PRODUCTS},
+}
+"""Those of them that name a file which the job reads."""
 
 
 def study_remarks(settings: Settings, scenes: Mapping[str, Scene]) -> tuple[Remark, ...]:
@@ -56,18 +78,35 @@ def study_remarks(settings: Settings, scenes: Mapping[str, Scene]) -> tuple[Rema
 
 @dataclass(frozen=True)
 class Plan:
-    """The work of a study before it begins.
+    """A study before it begins, of which the rules of the workflow ask what a job reads and what it is made from.
 
-    records: by identifier, in catalogue order. scenes: the structures by name, in the order of the list. contents: the
-    hashes of the files that are read. by_name: whether the files of records are taken to be where the catalogue says,
-    with the hashes that it states, because they lie on another machine.
+    records: by identifier, in catalogue order. by_name: whether the files of records are taken to be where the
+    catalogue says, with the hashes that it states, because they lie on another machine.
     """
 
     settings: Settings
     records: Mapping[str, CatalogueRecord]
-    scenes: Mapping[str, Scene]
-    contents: ContentHashes
     by_name: bool = False
+
+    @property
+    def scenes(self) -> Mapping[str, Scene]:
+        """The structures by name, in the order of the list."""
+        return scenes_of(self.settings.structures)
+
+    @property
+    def results(self) -> Path:
+        """The folder of the results."""
+        return Path(self.settings.results)
+
+    @property
+    def products(self) -> tuple[str, ...]:
+        """The products over all records that every run makes, and the summary shows."""
+        return tuple(product.name for product in PRODUCTS if product.in_every_run(self.settings))
+
+    @property
+    def outcomes(self) -> list[Path]:
+        """The file that keeps the outcome of each record, in catalogue order."""
+        return [outcome_of(self.results, record) for record in self.records]
 
     @property
     def doubts(self) -> tuple[Remark, ...]:
@@ -81,102 +120,134 @@ class Plan:
             *([Remark.of(StudyKind.REMARKS_MORE, number=more)] if more > 0 else []),
             *repeated(self.records.values()),
             *unlisted(Path(self.settings.catalogue)),
-            *self._outdated,
         )
+
+    def of(self, record: str) -> "Plan":
+        """Return what the job of one record needs of it.
+
+        Raises ConfigurationError for a record that the catalogue does not have.
+        """
+        if record not in self.records:
+            raise ConfigurationError(
+                f"{self.settings.catalogue}: it has no record {record}; ask for one that it has.",
+                record=record,
+            )
+        return replace(self, records={record: self.records[record]})
+
+    # What a job reads ------------------------------------------------------------------------------------
 
     @property
-    def _outdated(self) -> list[Remark]:
-        """What was made by hand and does not hold any more; a run leaves it out, and removes it."""
-        others = (product.name for product in PRODUCTS if product.name not in self.products)
-        made = {name: self.changed_since(name) for name in others}
-        return [
-            Remark.of(StudyKind.OUTDATED, product, why=f"changed: {why}")
-            for product, why in made.items()
-            if why
-        ]
+    def listed(self) -> list[str]:
+        """The files by which every job knows the study: the catalogue first, the structures, and what these name."""
+        catalogue = Path(self.settings.catalogue)
+        answers = [str(path) for path in [catalogue.with_name(ANSWERS)] if path.is_file()]
+        return [str(catalogue), *answers, self.settings.structures, *_curves(Path(self.settings.structures))]
 
-    @cached_property
-    def products(self) -> tuple[str, ...]:
-        """The products that a whole run makes, each by the name of its rule, and of its record or batch."""
-        settings = self.settings
-        kind, names = ("record", self.records) if self.makes_reports else ("batch", self.batches)
-        return (
-            *(f"{kind}/{name}" for name in names),
-            *(product.name for product in PRODUCTS if product.in_every_run(settings)),
-            "summary",
-        )
+    def files_of(self, record: CatalogueRecord) -> list[str]:
+        """Return the files from which a record is read.
 
-    @cached_property
-    def products_of_summary(self) -> tuple[str, ...]:
-        """The products over all records that the summary shows: of the plan, and by hand where they still hold."""
-        return tuple(
-            product.name
-            for product in PRODUCTS
-            if product.name in self.products or self._holds_by_hand(product.name)
-        )
-
-    def _holds_by_hand(self, product: str) -> bool:
-        made = not self.by_name and made_by_hand(kept_of(Path(self.settings.results), product))
-        return bool(made) and not self.changed_since(product)
-
-    def changed_since(self, product: str) -> str:
-        """Return what has changed since a product was made by hand, as a list in words.
-
-        "" where nothing has, and where it was not.
+        Raises ConfigurationError where they lie on another machine, and the catalogue does not state their hashes.
         """
-        before = made_by_hand(kept_of(Path(self.settings.results), product))
-        return what_changed(before, made_from(product, self)) if before else ""
+        if not self.by_name:
+            return list(map(str, local_files(record, self.settings.mirror)))
+        hashes = files_by_name(record)
+        if "" in hashes.values() or self.settings.mirror:
+            raise ConfigurationError(
+                f"{self.settings.catalogue}: record {record.id} is read on another machine, so that its sha256 must "
+                "stand in the catalogue, and its files in the folder of it; list it where they lie, without mirror: "
+                "rocking catalogue.",
+                sha256=record.sha256,
+            )
+        return [*hashes, *([str(record.folder / record.inventory)] if record.inventory else [])]
 
-    def outcomes(self) -> dict[str, Path]:
-        """Return the file that keeps the outcome of each record, in catalogue order; a batch has one for all of it."""
-        results = Path(self.settings.results)
-        if self.makes_reports:
-            return {record: outcome_of(results, record) for record in self.records}
-        batch_of = {record: name for name, records in self.batches.items() for record in records}
-        return {record: outcome_of(results, record, batch_of[record]) for record in self.records}
+    def files(self, rule: str, record: str = "") -> list[str]:
+        """Return the further files that a job reads: of its records, and those that its settings name."""
+        product = BY_NAME.get(rule)
+        rows = [self.of(record).records[record]] if record else []
+        if (product and product.opens_records) or (product and product.pool and not self._pool(rule)):
+            rows += self.records.values()
+        named = [path for path in self.settings.values_of(NAMED_FILES[rule]).values() if path]
+        if pool := self._pool(rule):
+            named.append(pool)
+            rows += _rows_of(pool)
+        return [*dict.fromkeys([*named, *(file for row in rows for file in self.files_of(row))])]
 
-    def fill_hashes(self) -> None:
-        """Write the hashes that the catalogue leaves blank: the files are checked against them from now on.
+    def _pool(self, rule: str) -> str:
+        name = BY_NAME[rule].pool if rule in BY_NAME else ""
+        return self.settings.values_of([name])[name] or "" if name else ""
 
-        A catalogue outside the folder of the study stays as it is.
-        """
-        if stands_inside(Path(self.settings.catalogue)):
-            fill_hashes(self.settings.catalogue, self.settings.mirror)
+    # What it is made from --------------------------------------------------------------------------------
 
-    def files_of(self, record: CatalogueRecord) -> dict[str, str]:
-        """Return the sha256 of each file from which a record is read.
+    def params(self, rule: str) -> dict[str, str]:
+        """Return what all jobs of a rule are made from, by name: settings with their values, contents as hashes."""
+        product = BY_NAME.get(rule)
+        chosen = self.settings.values_of((*NUMBERS, *MADE_FROM[rule]))
+        made_from = {name.replace(".", "_"): _in_print(name, value) for name, value in chosen.items()}
+        made_from["package"] = package_sha256(reports=product is not None or self.settings.reports)[:16]
+        made_from["libraries"] = ", ".join(f"{name} {number}" for name, number in versions().items())
+        made_from["structures_sha256"] = sha256_of(*structure_hashes(self.scenes).items())[:16]
+        shown_products = [BY_NAME[name] for name in self.products] if rule == "summary" else []
+        for shown_product in [product] if product else shown_products:
+            made_from[f"source_of_{shown_product.name}"] = folder_sha256(shown_product.source)[:16]
+        if product and product.pool:
+            terms = ((name, scene.terms) for name, scene in self.scenes.items())
+            made_from["terms_of_structures"] = sha256_of(*terms)[:16]
+        return {
+            name: f"{name}: {value}" for name, value in made_from.items()
+        }  # snakemake compares values alone
 
-        Raises ConfigurationError where the files lie on another machine, and the catalogue does not state theirs.
-        """
-        if self.by_name:
-            hashes = files_by_name(record)
-            if "" in hashes.values() or self.settings.mirror:
-                raise ConfigurationError(
-                    f"{self.settings.catalogue}: record {record.id} is read on another machine, so that its sha256 "
-                    "must stand in the catalogue, and its files in the folder of it; run the study once where they "
-                    "lie, without mirror.",
-                    sha256=record.sha256,
-                )
-            inventory = record.folder / record.inventory if record.inventory else None
-            return {**hashes, **({str(inventory): self.contents.of(inventory)} if inventory else {})}
-        return {str(path): self.contents.of(path) for path in local_files(record, self.settings.mirror)}
+    def contents(self, rule: str, record: str = "") -> str:
+        """Return one hash for the rows of the records of a job, the contents of `files` and how tables are read."""
+        rows = [self.of(record).records[record]] if record else [*self.records.values()]
+        files = [] if rule == "summary" else self.files(rule, record)
+        opens = bool(record) or (rule in BY_NAME and BY_NAME[rule].opens_records)
+        answers = [self.answers_of(row) for row in rows] if opens else []
+        hashes = files_by_name(rows[0]) if self.by_name and record else {}
+        contents = [(file, hashes.get(file) or _content(file)) for file in files]
+        return sha256_of(*rows, *contents, *answers)[:16]
 
     def answers_of(self, record: CatalogueRecord) -> dict[str, str]:
         """Return the hash of the answer by which each table of a record is read."""
-        if self.by_name:
-            answers = record.folder / ANSWERS
-            return {str(answers): self.contents.of(answers)} if answers.is_file() else {}
-        return answers_of(record, self.settings.mirror)
+        if not self.by_name:
+            return answers_of(record, self.settings.mirror)
+        answers = record.folder / ANSWERS
+        return {str(answers): _content(str(answers))}
 
-    @property
-    def makes_reports(self) -> bool:
-        """Whether each record has files of its own, so that it is a job of its own."""
-        return self.settings.reports or self.settings.histories
 
-    @cached_property
-    def batches(self) -> dict[str, tuple[str, ...]]:
-        """The identifiers of each batch of records, by its name."""
-        return batches_of(self.records, self.settings.records_per_job)
+def _curves(structures: Path) -> list[str]:
+    """The files of capacity curves that a list of structures names."""
+    text = structures.read_text(encoding="utf-8", errors="replace")
+    if structures.suffix.lower() == ".csv":
+        named = [row.get("file") or "" for row in csv.DictReader(text.splitlines())]
+    else:
+        named = re.findall(r"""\bfile["']?\s*:\s*["']?([^,}"'\n#]+)""", text)
+    return [name for name in dict.fromkeys(map(str.strip, named)) if os.path.isfile(name)]
+
+
+def folder_of(copy: str, named: str) -> str:
+    """Return the folder in which `copy` is the file that the study calls `named`: "" where it is no copy."""
+    own, name = Path(copy).parts, Path(named).parts
+    if own[len(own) - len(name) :] != name:
+        raise ValueError(f"{copy} is no copy of {named}")
+    return str(Path(*own[: len(own) - len(name)])) if own != name else ""
+
+
+def check_failures(table: Path) -> None:
+    """Raise RockingError where something that was asked for gave no result, so that the command ends with status 1."""
+    if failures := [*read_rows(FailureRow, table)]:
+        raise RockingError(
+            f"{counted(len(failures), 'row')} of {table} say what gave no result, and why; all else stands"
+        )
+
+
+def not_ahead(paths: Iterable[str]) -> list[str]:
+    """Return the paths of files that are not dated ahead of the clock, and in which snakemake reads no variables.
+
+    Behind an input that is dated in the future it would remove what a job wrote. The contents count all the same.
+    """
+    now = time.time()
+    plain = (path for path in paths if not set(path) & set("{}<>"))
+    return [path for path in plain if not os.path.exists(path) or os.stat(path).st_mtime <= now]
 
 
 def make_plan(config: Mapping[str, Any], by_name: bool = False) -> Plan:
@@ -195,31 +266,36 @@ def make_plan(config: Mapping[str, Any], by_name: bool = False) -> Plan:
             return None
 
     settings = attempt(read_settings, config) or named_files(config)
-    missing = dict(missing_files(settings))
+    missing = dict(missing_files(settings, ("catalogue", "structures")))
     defects += missing.values()
     catalogue = () if "catalogue" in missing else attempt(load_catalogue, settings.catalogue) or ()
     attempt(Layouts(Path(settings.catalogue).parent).check)
-    scenes = {} if "structures" in missing else attempt(load_scenes, settings.structures) or {}
+    if "structures" not in missing:
+        attempt(scenes_of, settings.structures)
     attempt(_check_results, settings)
-    if "design_spectrum.points" not in missing:
-        attempt(settings.design_spectrum.spectrum)
     if defects:
         raise ConfigurationError("\n".join(defects))
     records = {record.id: with_hashes(record, settings.mirror) for record in catalogue}
-    contents = ContentHashes(Path(settings.results) / KEPT / "contents.json", LARGEST_FILE)
-    return Plan(settings, records, scenes, contents, by_name)
+    return Plan(settings, records, by_name)
 
 
-def missing_files(settings: Settings) -> Iterator[tuple[str, str]]:
-    """Yield each setting that names a file that is not there, and the sentence that says so."""
-    named = settings.values_of(file_settings())
+def check_files(settings: Settings) -> None:
+    """Raise ConfigurationError where a file that a setting names is not there, or holds no design spectrum."""
+    if missing := [sentence for _, sentence in missing_files(settings)]:
+        raise ConfigurationError("\n".join(missing))
+    settings.design_spectrum.spectrum()
+
+
+def missing_files(settings: Settings, names: Iterable[str] = ()) -> Iterator[tuple[str, str]]:
+    """Yield each setting, or each of `names`, that names a file that is not there, and the sentence that says so."""
+    named = settings.values_of(names or file_settings())
     for name, value in named.items():
         if not value or os.path.lexists(value):
             continue
         folder, file = os.path.split(Path.cwd() / value)
-        names = os.listdir(folder) if os.path.isdir(folder) else []
+        others = os.listdir(folder) if os.path.isdir(folder) else []
         near = [
-            near for near in get_close_matches(file, names, n=1) if Path(near).suffix == Path(file).suffix
+            near for near in get_close_matches(file, others, n=1) if Path(near).suffix == Path(file).suffix
         ]
         hint = "write its path from the folder of the study"
         if near:
@@ -229,37 +305,16 @@ def missing_files(settings: Settings) -> Iterator[tuple[str, str]]:
         yield name, f"setting {name} is {shown(value)}, but no such file is in {Path.cwd()}; {hint}"
 
 
-def plan_of_job(config: Mapping[str, Any], product: str, by_name: bool = False) -> Plan:
-    """Return the plan as the job of one product needs it: read again, and of no other record the files.
-
-    Raises ConfigurationError or CatalogueError for what was edited since.
-    """
-    settings = read_settings(config)
-    records = {record.id: record for record in load_catalogue(settings.catalogue)}
-    contents = ContentHashes(None, LARGEST_FILE)
-    plan = Plan(settings, records, scenes_of(settings.structures, contents), contents, by_name)
-    own = records_of(product, plan)
-    if gone := [name for name in own if name not in records]:
-        raise ConfigurationError(
-            f"{settings.catalogue}: record {gone[0]} is not in it any more; start the study again.",
-            record=gone[0],
-        )
-    return replace(
-        plan, records=records | {name: with_hashes(records[name], settings.mirror) for name in own}
-    )
-
-
-def scenes_of(path: str | Path, contents: ContentHashes) -> Mapping[str, Scene]:
+def scenes_of(path: str) -> Mapping[str, Scene]:
     """Return the scenes of a list, those that this process has read where its content is the same.
 
     What their structures have computed a job need not compute again that is forked from a process which had them.
     """
-    sha256 = contents.of(Path(path))
-    return _listed(path, sha256) if sha256 else load_scenes(path)
+    return _listed(path, _content(path)) if os.path.isfile(path) else load_scenes(path)
 
 
 @lru_cache(maxsize=1)
-def _listed(path: str | Path, _sha256: str) -> Mapping[str, Scene]:
+def _listed(path: str, _sha256: str) -> Mapping[str, Scene]:
     """The scenes of a list of this content."""
     return load_scenes(path)
 
@@ -292,22 +347,57 @@ def _check_results(settings: Settings) -> None:
         raise ConfigurationError(
             f"setting results: nothing can be written in {folder}; correct its permissions or name another folder."
         )
-    check_own(results)
+    check_links(Path(".snakemake"), results)
 
 
-def batches_of(identifiers: Iterable[str], size: int | None = None) -> dict[str, tuple[str, ...]]:
-    """Return the identifiers of each batch, in their order, by the name of the batch.
+def _content(path: str) -> str:
+    """The sha256 of a file; "" of one that cannot be read."""
+    try:
+        status = os.stat(path)
+        return _sha256(path, status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns)
+    except OSError:
+        return ""
 
-    size: about how many records a batch takes; None chooses 24, but more rather than start more than eight batches, and
-    at most 200. A hash of the identifier chooses the batch, and their number is a power of two, so that one record more
-    changes one batch, or all where that number doubles.
-    """
-    identifiers = tuple(identifiers)
-    number = len(identifiers)
-    least = number / size if size else max(min(number / _FEW, _MOST_BATCHES), number / _MANY)
-    count = 1 << max(0, (math.ceil(least) - 1).bit_length())
-    batches: dict[str, list[str]] = {}
-    for identifier in identifiers:
-        place = int(sha256_of_bytes(identifier.encode())[:8], 16) % count
-        batches.setdefault(f"{place:05d}_of_{count:05d}", []).append(identifier)
-    return {name: tuple(batches[name]) for name in sorted(batches)}
+
+@cache
+def _sha256(path: str, *_mark: int) -> str:
+    """The sha256 of a file, read once for all jobs that read it; mark: what changes with its content."""
+    return sha256_of_file(Path(path))
+
+
+def _in_print(name: str, value: Any) -> str:
+    """The value of a setting as a param; of what a study says about itself the hash."""
+    return sha256_of(value)[:16] if name in _about() else quote(repr(value), safe=_PLAIN)
+
+
+@cache
+def _about() -> frozenset[str]:
+    return frozenset(layout()[Heading.ABOUT])
+
+
+def _rows_of(catalogue: str) -> tuple[CatalogueRecord, ...]:
+    """The rows of another catalogue; one that cannot be read is reported where it is used."""
+    try:
+        return load_catalogue(catalogue)
+    except RockingError:
+        return ()
+
+
+_LIBRARIES = (
+    *("rocking", "h5py", "llvmlite", "matplotlib", "numba", "numpy", "obspy", "openpyxl", "pandas"),
+    *("pydantic", "pyyaml", "scipy", "snakemake", "typst", "xlsxwriter"),
+)
+"""All that this package declares, but for what loads, fetches and counts: none of these can change a result; and what
+compiles the kernels."""
+
+
+@cache
+def versions() -> dict[str, str]:
+    """Return the versions of Python and of the libraries that are installed, by their names."""
+    found = {"python": python_version()}
+    for library in _LIBRARIES:
+        try:
+            found[library] = version(library)
+        except PackageNotFoundError:
+            continue
+    return found

@@ -28,10 +28,10 @@ def draws(settings: "Settings") -> bool:
 
 @dataclass(frozen=True)
 class Output:
-    """One file of a product.
+    """One file of a rule.
 
-    path: from the folder of the results; {name} is that of the record or the batch. when: whether the settings ask for
-    it. is_store: whether it serves the next run alone, so that nobody misses it. is_measured: whether it holds measured
+    path: from the folder of the results; {record} is the name of a record. when: whether the settings ask for it.
+    is_store: whether it serves the next run alone, so that nobody misses it. is_measured: whether it holds measured
     times: alone of all it may differ between two runs of the same input. label, caption, category: its place in the
     page that snakemake --report makes; "" for none.
     """
@@ -43,26 +43,6 @@ class Output:
     label: str = ""
     caption: str = ""
     category: str = ""
-
-
-@dataclass(frozen=True)
-class Line:
-    """What a kind of product is made from, beside the catalogue, the structures and all that changes a number.
-
-    settings: names of settings and of whole sections; section.name is one setting of a section. files: settings that
-    name a file whose content counts. catalogues: settings that name another catalogue, of which the files of the
-    records count too. opens_records: whether it is made from the files of its records, rather than from their outcomes.
-    terms: whether what the structures say of themselves for the code counts. shows: whether it shows the products over
-    all records. documents: whether it holds a document whatever the settings say.
-    """
-
-    settings: tuple[str, ...]
-    files: tuple[str, ...] = ()
-    catalogues: tuple[str, ...] = ()
-    opens_records: bool = True
-    terms: bool = False
-    shows: bool = False
-    documents: bool = True
 
 
 @dataclass(frozen=True)
@@ -83,20 +63,28 @@ class Product:
         Names of its tables, each of which is a CSV file.
     files : tuple[str, ...]
         Names of the files beside these.
-    made_from : Line
-        What it is made from.
+    settings : tuple[str, ...]
+        Settings, sections of settings and section.name that it is made from, beside those that change a number.
+    named_files : tuple[str, ...]
+        Those of them that name a file which it reads.
+    pool : str
+        The one that names another catalogue, the records of which it reads; "" for none.
     in_every_run : Callable[[Settings], bool]
         Whether every run of a study makes it, rather than its verb alone.
     folder : str
         In the results, where its files lie.
     opened : Mapping[str, str]
         Files that a reader opens after a run, and what each is to them.
+    opens_records : bool
+        Whether it reads the files of the records.
     after_records : bool
         Whether it is made from the outcomes of the records.
     is_measured : bool
         Whether its files hold measured times.
     refusal : Callable[[Settings], str]
         Why these settings cannot make it, in a sentence; "" where they can.
+    stays : bool
+        Whether its files stay where no run of the study makes it, as what its verb has made does.
     memory_mb, minutes : int
         What its job takes at most.
     """
@@ -107,13 +95,17 @@ class Product:
     rows: str
     tables: tuple[str, ...]
     files: tuple[str, ...]
-    made_from: Line
+    settings: tuple[str, ...]
     in_every_run: Callable[["Settings"], bool]
+    named_files: tuple[str, ...] = ()
+    pool: str = ""
     folder: str = "summary"
     opened: Mapping[str, str] = field(default_factory=dict)
+    opens_records: bool = False
     after_records: bool = False
     is_measured: bool = False
     refusal: Callable[["Settings"], str] = lambda _settings: ""
+    stays: bool = False
     memory_mb: int = 2000
     minutes: int = 120
 

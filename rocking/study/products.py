@@ -1,6 +1,6 @@
 """The products over all records: the one table that says which there are. To add one, see CONTRIBUTING."""
 
-from rocking.study.product import TOLD, Line, Product
+from rocking.study.product import TOLD, Product
 
 CHECKS = Product(
     name="checks",
@@ -9,12 +9,9 @@ CHECKS = Product(
     rows="rocking.products.checks.rows",
     tables=("code_checks",),
     files=("code_checks.json", "structures.pdf"),
-    made_from=Line(
-        (*TOLD, "language", "figures", "design_spectrum", "checks"),
-        files=("design_spectrum.points",),
-        catalogues=("checks.pool",),
-        terms=True,
-    ),
+    settings=(*TOLD, "language", "figures", "design_spectrum", "checks"),
+    named_files=("design_spectrum.points",),
+    pool="checks.pool",
     in_every_run=lambda settings: settings.design_spectrum.is_given,
     refusal=lambda settings: (
         ""
@@ -31,15 +28,15 @@ FRAGILITY = Product(
     rows="rocking.products.fragility.rows",
     tables=("ida", "fragility", "fragility_summary", "intensity_measures"),
     files=("datapackage.json", "fragility.pdf", "fragility.svg", "fragility.xml"),
-    made_from=Line(  # when it is measured is no part of it
-        (
-            "figures",
-            *(f"fragility.{name}" for name in ("intensity_measure", "members", "largest_factor", "hazard")),
-        ),
-        files=("fragility.hazard",),
+    settings=(  # when it is measured is no part of it
+        "figures",
+        *(f"fragility.{name}" for name in ("intensity_measure", "members", "largest_factor", "hazard")),
     ),
+    named_files=("fragility.hazard",),
     in_every_run=lambda settings: settings.fragility.in_every_run,
     folder="fragility",
+    opens_records=True,
+    stays=True,
     memory_mb=4000,
     minutes=480,
 )
@@ -50,9 +47,11 @@ TRADE = Product(
     rows="rocking.products.trade.rows",
     tables=("trade",),
     files=("trade.json", "trade.pdf", "trade.svg"),
-    made_from=Line(("figures",)),
+    settings=("figures",),
     in_every_run=lambda settings: settings.trade.in_summary,
+    opens_records=True,
     is_measured=True,
+    stays=True,
 )
 MAP = Product(
     name="map",
@@ -61,7 +60,7 @@ MAP = Product(
     rows="rocking.products.map.rows",
     tables=("stations",),
     files=("stations.json", "stations.geojson"),
-    made_from=Line((), opens_records=False),
+    settings=(),
     in_every_run=lambda settings: settings.reports,
     after_records=True,
     minutes=30,

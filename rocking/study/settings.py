@@ -320,15 +320,6 @@ class Settings(AssessmentSettings):
         heading=Heading.OUTPUT,
         changes_numbers=False,
     )
-    records_per_job: int | None = described(
-        None,
-        "number of records per batch where no reports are made; null: 24, or an eighth of many records, at most 200; "
-        "with reports each record is a job of its own",
-        ge=1,
-        le=100_000,
-        heading=Heading.OUTPUT,
-        changes_numbers=False,
-    )
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -367,25 +358,6 @@ class Settings(AssessmentSettings):
                 chosen[name] = value
         return chosen
 
-    def restricted(self, names: Iterable[str]) -> "Settings":
-        """Return these settings, of which only those named (see values_of) can be read; another raises an error.
-
-        A setting that is left out of a section has its default.
-        """
-        chosen: dict[str, Any] = {}
-        parts: dict[str, dict[str, Any]] = {}
-        for name in names:
-            top, _, part = name.partition(".")
-            if part:
-                parts.setdefault(top, {})[part] = getattr(getattr(self, top), part)
-            else:
-                chosen[top] = getattr(self, top)
-        for top, own in parts.items():
-            chosen[top] = type(getattr(self, top))(**own)
-        restricted = object.__new__(_Restricted)
-        vars(restricted).update(chosen)
-        return restricted
-
     def mapping(self) -> dict[str, Any]:
         """All settings by their names, and below "about" what every report prints of the study, by its label."""
         values = {
@@ -419,22 +391,6 @@ class Settings(AssessmentSettings):
     def for_pages_to_sign(self) -> PageSettings:
         """What the pages to sign print of them."""
         return replace(self.for_pages, language=self.language)
-
-
-class _Restricted(Settings):
-    """Settings of which some cannot be read, lest a product depend on what the table does not say of it."""
-
-    def __getattribute__(self, name: str) -> Any:
-        if name in _FIELDS and name not in object.__getattribute__(self, "__dict__"):
-            raise ConfigurationError(
-                f"setting {name}: nothing says that it is needed here; add it to the line of this job in "
-                "rocking.study.made_from.TABLE or, of a product, in rocking.study.products.",
-                **{name: None},
-            )
-        return object.__getattribute__(self, name)
-
-
-_FIELDS = frozenset(setting.name for setting in fields(Settings))
 
 
 def _said_of(name: str, what: str, otherwise: Any) -> Any:
@@ -577,12 +533,10 @@ def _meaning(description: Described) -> str:
 
 NUMBERS = tuple(Settings.changing_numbers())
 """The settings, and the sections of settings, that change a number of a table."""
-OTHER_SECTIONS = tuple(name for name in parts_of(Settings) if name not in NUMBERS)
-"""The sections that change none."""
 _SOURCE = {".py", ".csv", ".json", ".po", ".typ", ".yaml", ".mplstyle", ".html", ".css", ".js"}
 _SPOKEN = {
     f"study/{name}.py"
-    for name in ("apart", "cli", "contents", "flow", "products", "run", "terminal", "warm", "workspace")
+    for name in ("apart", "cli", "flow", "products", "progress", "run", "terminal", "warm", "workspace")
 }
 """The files that start a study and its jobs, and talk about it: they change nothing that a job writes. What the table
 of products says of one is the output of its rule and among its params."""

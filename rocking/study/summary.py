@@ -24,9 +24,8 @@ from rocking.reports.style import svg
 from rocking.study.documents import made_or_failed
 from rocking.study.job import Job, Study
 from rocking.study.kept import Rows, kept_conclusion, kept_rows
-from rocking.study.made_from import versions
-from rocking.study.outcomes import read_outcomes
-from rocking.study.outputs import PROVENANCE, SUMS, former_files, kept_of, remove, sums_of
+from rocking.study.outputs import SUMS, former_files, kept_of, remove, sums_of
+from rocking.study.plan import versions
 from rocking.study.products import BY_NAME
 from rocking.study.settings import package_sha256, structure_hashes
 from rocking.study.summary_tables import write_summary
@@ -64,15 +63,14 @@ class MadeProduct:
 
 # Whole on purpose: the list of what stands over all records, in the order in which one comes from the other.
 def summarise(job: Job) -> None:
-    """Write everything that stands over all records, in their order, and remove what no product owns any more."""
+    """Write everything that stands over all records, in their order, and remove what no rule gives any more."""
     study = job.study
     target = job.results / "summary"
-    outcomes = read_outcomes(job.plan.outcomes())
     instead = [name for name, scene in study.scenes.items() if scene.variant_of]
-    made = [_read_product(job, name) for name in job.task.products]
+    made = [_read_product(job, name) for name in job.plan.products]
     faults = [fault for product in made for fault in product.rows[FailureRow]]
     shown, pages, spectra, sums = write_summary(
-        outcomes,
+        job.outcomes(),
         study.structures,
         target,
         study.settings.reports,
@@ -94,21 +92,20 @@ def summarise(job: Job) -> None:
         "records": {record.id: record.sha256 for record in job.records},
     }
     text = json.dumps(provenance, indent=1, sort_keys=True, default=str)
-    write_whole(target / PROVENANCE, (text + "\n").encode())
+    write_whole(target / "provenance.json", (text + "\n").encode())
     if study.settings.reports:
         _documents(job, target, shown, made, pages, spectra)
-    for product in (*job.task.products, "summary"):
-        sums |= sums_of(product, job.plan.settings)
+    for rule in (*job.plan.products, "summary"):
+        sums |= sums_of(rule, study.settings)
     lines = (f"{sha256}  {path}\n".encode() for path, sha256 in sorted(sums.items()))
     write_whole(job.results / SUMS, lines)
-    if not job.task.by_name:  # else the results of other jobs lie elsewhere
+    if not job.plan.by_name:  # else the results of other jobs lie elsewhere
         _remove_former(job)
 
 
 def _remove_former(job: Job) -> None:
-    """Remove what no product of the study owns any more, and say so: it would stand for what the tables do not say."""
-    products = (*job.plan.products, *job.task.products)
-    former = former_files(job.plan.settings, products, [record.id for record in job.records])
+    """Remove what no rule of the study gives any more, and say so: it would stand for what the tables do not say."""
+    former = former_files(job.plan.settings, job.plan.products, job.plan.records)
     remove(job.results, former)
     if former:
         job.show_line(

@@ -13,17 +13,21 @@ import rocking.reports.explore
 import rocking.reports.printing
 import rocking.reports.record
 import rocking.study.jobs  # noqa: F401
-from rocking.assessment.compilation import load_all
+from rocking.assessment.compilation import compile_all, load_all
+from rocking.errors import RockingError
 from rocking.study.apart import PREPARED
 from rocking.study.job import prepare
 from rocking.study.products import PRODUCTS
-from rocking.study.settings import read_settings
+from rocking.study.settings import package_sha256, read_settings
 from rocking.study.work import work_of
 
 for product in PRODUCTS:
     with contextlib.suppress(ImportError):  # the other jobs run without its folder
         work_of(product)
-load_all()
+package_sha256(reports=False)
+with contextlib.suppress(RockingError):  # each job would compile by itself
+    compile_all()
+    load_all()
 with contextlib.suppress(Exception):  # what is wrong with a study its jobs report
     prepare(read_settings(yaml.safe_load(os.environ.pop(PREPARED))))
 gc.freeze()  # what stands here stays: to look for garbage in it takes a twelfth of a job

@@ -10,7 +10,7 @@ from rocking.catalogue.listing import listing_text
 from rocking.errors import ConfigurationError, RecordError
 from rocking.quantities import counted
 from rocking.records.formats.layouts import NAME
-from rocking.study.flow import OWN_SNAKEFILE, workflow_folder
+from rocking.study.flow import OWN_SNAKEFILE, PROFILE, workflow_folder
 from rocking.study.plan import check_config_file, config_file
 from rocking.study.progress import bar
 from rocking.study.settings import Settings, first_yaml, named_files
@@ -18,7 +18,8 @@ from rocking.tables import Document, check_target, write_whole
 
 
 def start(folder: Path) -> list[Path]:
-    """Write config.yaml, structures.yaml, Snakefile and an empty records/ into `folder`; return what was written.
+    """Write config.yaml, structures.yaml, Snakefile, its profile and an empty records/ into `folder`; return what was
+    written.
 
     Raises ConfigurationError, before anything is written, when one of the files stands there already.
     """
@@ -28,6 +29,7 @@ def start(folder: Path) -> list[Path]:
             "structures", (workflow_folder() / "config" / "structures.yaml").read_bytes()
         ),
         folder / "Snakefile": OWN_SNAKEFILE.encode(),
+        folder / "profiles" / "default" / "config.yaml": PROFILE.read_bytes(),
     }
     for path in contents:
         if path.exists():

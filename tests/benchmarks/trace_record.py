@@ -23,12 +23,10 @@ _THE_JOB = """
 import sys
 from pathlib import Path
 
-from rocking.study import apart
-from rocking.study.made_from import made_from
+from rocking.study import jobs
 from rocking.study.plan import check_config_file, make_plan
-from rocking.study.task import Task
 
-package, product = sys.argv[1:]
+package, record = sys.argv[1:]
 entered = {}
 
 def imports(frame):
@@ -45,10 +43,9 @@ def note(frame, event, _):
     if code not in entered and not imports(frame):
         entered[code] = code.co_filename[len(package) + 1:]
 
-config = check_config_file(Path("config.yaml"))
-task = Task(product, config, made_from(product, make_plan(config)))
+plan = make_plan(check_config_file(Path("config.yaml"))).of(record)
 sys.setprofile(note)
-apart._work("rocking.study.jobs:record", task)
+jobs.run("record", plan, "", "record.log", [], 1, "")
 sys.setprofile(None)
 for file in dict.fromkeys(entered.values()):
     print(file, *(f"    {code.co_qualname}" for code, place in entered.items() if place == file), sep="\\n")
@@ -68,7 +65,7 @@ def traced(folder: Path) -> str:
     )
     settings = yaml.safe_load((study / "config.yaml").read_text(encoding="utf-8"))
     (study / "config.yaml").write_text(yaml.safe_dump(settings | {"reports": True}), encoding="utf-8")
-    command = [sys.executable, "-c", _THE_JOB, str(ROOT / "rocking"), "record/synthetic_00000"]
+    command = [sys.executable, "-c", _THE_JOB, str(ROOT / "rocking"), "synthetic_00000"]
     surroundings = os.environ | {"PYTHONPATH": str(ROOT)}
     done = subprocess.run(command, cwd=study, env=surroundings, stdout=subprocess.PIPE, text=True, check=True)
     return done.stdout

@@ -82,8 +82,8 @@ class SmallStudy:
 
     def command(self, *options: str) -> list[str]:
         return [
-            *(sys.executable, "-m", "snakemake", "--snakefile", str(self.tree / "Snakefile"), "--cores", "2"),
-            *("--directory", str(self.folder), "--configfile", str(self.folder / "config.yaml")),
+            *(sys.executable, "-m", "snakemake", "--snakefile", str(self.tree / "workflow" / "Snakefile")),
+            *("--directory", str(self.folder), "--cores", "2"),
             *("--workflow-profile", str(self.tree / "workflow/profiles/default"), "--nocolor", *options),
         ]
 
@@ -151,13 +151,13 @@ class SmallStudy:
 def kinds_of_jobs(told: str) -> list[str]:
     """The kinds of jobs in the table that snakemake prints before a run and a dry run, without the target."""
     table = told.partition("Job stats:")[2].partition("\ntotal ")[0]
-    return sorted(re.findall(r"(?m)^(record|batch|summary|checks|trade|fragility) +\d+ *$", table))
+    return sorted(re.findall(r"(?m)^(record|summary|checks|trade|fragility) +\d+ *$", table))
 
 
 def new_study(folder: Path, tree: Path) -> SmallStudy:
-    """A study without records: two structures, no reports, one record a batch."""
+    """A study without records: two structures, no reports."""
     (folder / "records").mkdir(parents=True)
-    settings = {"reports": False, "records_per_job": 1}
+    settings = {"reports": False}
     (folder / "config.yaml").write_text(yaml.safe_dump(settings), encoding="utf-8")
     (folder / "structures.yaml").write_text(yaml.safe_dump(STRUCTURES), encoding="utf-8")
     return SmallStudy(folder, tree)

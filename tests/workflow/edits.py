@@ -9,7 +9,7 @@ import yaml
 
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.study.outputs import outputs_of
-from rocking.study.plan import Plan, make_plan
+from rocking.study.plan import make_plan
 from rocking.study.products import PRODUCTS
 
 STRUCTURES = [
@@ -22,13 +22,11 @@ SETTINGS = {
     "fragility": {"hazard": "hazard.csv", "in_every_run": True},
     "trade": {"in_summary": True},
 }
-NUMBERS = "a b B S C F T M"
-"""What depends on every number: both records, the batch of both, summary, checks, fragility, trade and map."""
-BATCH = "batch/00000_of_00001"
+NUMBERS = "a b S C F T M"
+"""What depends on every number: both records, summary, checks, fragility, trade and map."""
 JOBS = {
     "Summary of all records": "S",
     **{f"{each.name}: {each.does}": each.name[0].upper() for each in PRODUCTS},
-    "Batch 00000_of_00001": "B",
 }
 """By the message of its rule the letter of a job; that of a record is its name."""
 
@@ -63,10 +61,6 @@ def write_catalogue(folder: str, *names: str, **cells: str) -> None:
     Path(folder, "catalogue.csv").write_text("\n".join([*lines, ""]))
 
 
-def plan(by_name: bool = False) -> Plan:
-    return make_plan(yaml.safe_load(Path("config.yaml").read_text()), by_name)
-
-
 def write_study() -> None:
     for folder, names in (("records", "ab"), ("pool", "p")):
         Path(folder).mkdir()
@@ -81,11 +75,14 @@ def write_study() -> None:
 
 def write_outputs() -> None:
     """Write some file in the place of each output of a run; what it is made from snakemake is told by --touch."""
-    made = plan()
-    for product in made.products:
-        for path in outputs_of(product, made.settings).values():
+    plan = make_plan(yaml.safe_load(Path("config.yaml").read_text()))
+    rules = [("record", record) for record in plan.records] + [
+        (rule, "") for rule in (*plan.products, "summary")
+    ]
+    for rule, record in rules:
+        for path in outputs_of(rule, plan.settings, record).values():
             path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(f"{product}\n")
+            path.write_text(f"{rule}\n")
 
 
 def _setting(**changed: object) -> Callable[[], None]:
@@ -174,11 +171,10 @@ EDITS: list[Edit] = [
     ("structures elsewhere", _move_structures, ""),
     ("structures as CSV", _structures_as_csv, ""),
     ("cell of the structures as CSV", _content("list.csv", "3.2", "3.3"), NUMBERS, _structures_as_csv),
-    ("records_per_job", _setting(records_per_job=5), "S"),
     ("unnamed_events", _setting(unnamed_events="each"), NUMBERS),
     # What else is written, and when.
-    ("reports", _setting(reports=False), "B S C"),
-    ("histories", _setting(histories=True), "a b B S C M"),
+    ("reports", _setting(reports=False), "a b S C"),
+    ("histories", _setting(histories=True), "a b S C M"),
     ("fragility.in_every_run", _section("fragility", in_every_run=False), "S"),
     ("trade.in_summary", _section("trade", in_summary=False), "S"),
     # Numbers.
@@ -237,26 +233,26 @@ EDITS: list[Edit] = [
     ("fragility.hazard", _section("fragility", hazard=None), "S F"),
     ("content of hazard.csv", _content("hazard.csv", "0.0001", "0.0002"), "S F"),
     # Records and their files.
-    ("content of a record", _bytes("records/a.AT2", _waves(9)), "a B S C F T M"),
-    ("a byte of a record", lambda: _bytes("records/a.AT2", _waves(97) + b"\n")(), "a B S C F T M"),
+    ("content of a record", _bytes("records/a.AT2", _waves(9)), "a S C F T M"),
+    ("a byte of a record", lambda: _bytes("records/a.AT2", _waves(97) + b"\n")(), "a S C F T M"),
     ("date of a record", lambda: os.utime("records/a.AT2", (1e9, 1e9)), ""),
     ("date of a record in the future", lambda: os.utime("records/a.AT2", (9e9, 9e9)), ""),
     ("date of a list in the future", lambda: os.utime("structures.yaml", (9e9, 9e9)), ""),
-    ("record away", lambda: Path("records/a.AT2").unlink(), "a B S C F T M"),
+    ("record away", lambda: Path("records/a.AT2").unlink(), "a S C F T M"),
     ("cell of the catalogue", lambda: write_catalogue("records", "a", "b", scale_factor="2"), NUMBERS),
     ("blank cells of the catalogue", lambda: write_catalogue("records", "a", "b", event=""), ""),
-    ("records in another order", lambda: write_catalogue("records", "b", "a"), "B S C F T M"),
-    ("record renamed", _content("records/catalogue.csv", "b,b.AT2", "c,b.AT2"), "c B S C F T M"),
+    ("records in another order", lambda: write_catalogue("records", "b", "a"), "S C F T M"),
+    ("record renamed", _content("records/catalogue.csv", "b,b.AT2", "c,b.AT2"), "c S C F T M"),
     (
         "StationXML of the records",
         lambda: Path("records/station.xml").write_text("<b/>"),
         NUMBERS,
         _station_xml,
     ),
-    ("file of a record renamed oddly", _odd_name, "b B S C F T M"),
-    ("file of an odd name edited", _bytes("records/b {x}<y>.AT2", _waves(9)), "b B S C F T M", _odd_name),
-    ("record less", lambda: write_catalogue("records", "a"), "B S C F T M"),
-    ("record more", _add_record, "p B S C F T M"),
+    ("file of a record renamed oddly", _odd_name, "b S C F T M"),
+    ("file of an odd name edited", _bytes("records/b {x}<y>.AT2", _waves(9)), "b S C F T M", _odd_name),
+    ("record less", lambda: write_catalogue("records", "a"), "S C F T M"),
+    ("record more", _add_record, "p S C F T M"),
     # Structures.
     ("structure changed", _structures(BLOCK | {"height_m": 3.1}, WALL), NUMBERS),
     ("structure renamed", _structures(BLOCK | {"name": "pier"}, WALL), NUMBERS),

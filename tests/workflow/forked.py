@@ -10,7 +10,14 @@ from functools import cache
 from pathlib import Path
 
 _TIMEOUT_S = 900
-PLANNING = ("rocking.study.run", "rocking.study.made_from", "scipy.optimize", "pandas", "smart_open")
+PLANNING = (
+    "rocking.study.run",
+    "rocking.study.plan",
+    "rocking.study.apart",
+    "scipy.optimize",
+    "pandas",
+    "smart_open",
+)
 """What a plan alone imports besides snakemake."""
 
 

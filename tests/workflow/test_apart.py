@@ -11,8 +11,8 @@ import pytest
 
 pytestmark = pytest.mark.process
 
-RUN = "import sys\nfrom rocking.study.apart import run_apart, warm_up\n"
-WARM = f"{RUN}from rocking.study.settings import Settings\nwarm_up(Settings())\n"
+RUN = "import sys\nfrom rocking.study.apart import run_apart\nfrom rocking.study.settings import Settings\n"
+WARM = f"{RUN}from rocking.study.apart import warm_up\nwarm_up(Settings())\n"
 
 
 def python(code: str) -> subprocess.CompletedProcess[str]:
@@ -24,27 +24,30 @@ def python(code: str) -> subprocess.CompletedProcess[str]:
 @pytest.mark.parametrize(
     ("work", "argument", "words"),
     [
-        ("os:_exit", 3, "record/a: its process ended with status 3"),
-        ("sys:exit", 4, "record/a: its process ended with status 1"),
+        ("os:_exit", 3, "its process ended with status 3"),
+        ("sys:exit", 4, "its process ended with status 1"),
         (
             "signal:raise_signal",
             signal.SIGKILL,
-            "record/a: its process was ended by SIGKILL, as a system does that",
+            "its process was ended by SIGKILL, as a system does that",
         ),
-        ("signal:raise_signal", signal.SIGTERM, "record/a: its process was ended by SIGTERM"),
-        ("math:sqrt", -1, "record/a: its process ended with status 1"),
+        ("signal:raise_signal", signal.SIGTERM, "its process was ended by SIGTERM"),
+        ("math:sqrt", -1, "its process ended with status 1"),
     ],
 )
-def test_an_end_that_is_none_is_an_error_which_names_the_job_and_the_cause(work, argument, words) -> None:
-    done = python(f"{RUN}run_apart({work!r}, 'record/a', {int(argument)})")
+def test_an_end_that_is_none_is_an_error_which_names_the_cause(work, argument, words, tmp_path) -> None:
+    done = python(f"{RUN}run_apart(Settings(), {str(tmp_path / 'log')!r}, {work!r}, {int(argument)})")
     assert done.returncode == 1 and words in done.stderr.splitlines()[-1]
     assert ("math domain error" in done.stderr) == (work == "math:sqrt")
 
 
-def test_a_job_has_imported_what_it_needs_and_prints_where_its_scheduler_does() -> None:
+def test_a_job_has_imported_what_it_needs_and_prints_into_its_log(tmp_path: Path) -> None:
+    log = str(tmp_path / "log")
     code = "import os, sys; print('rocking.study.summary' in sys.modules, os.environ['OMP_NUM_THREADS'], os.getppid())"
-    done = python(f"{WARM}import os\nrun_apart('builtins:exec', 'a', {code!r})\nprint(os.getpid())")
-    warm, threads, parent, scheduler = done.stdout.split()
+    done = python(
+        f"{WARM}import os\nrun_apart(Settings(), {log!r}, 'builtins:exec', {code!r})\nprint(os.getpid())"
+    )
+    warm, threads, parent, scheduler = (tmp_path / "log").read_text().split() + done.stdout.split()
     assert warm == "True" and threads == "1"
     assert parent != scheduler, "it is the child of the process that has imported"
 
@@ -57,9 +60,11 @@ def test_jobs_run_side_by_side(tmp_path: Path) -> None:
     )
     names = str(tmp_path / "1"), str(tmp_path / "2")
     jobs = [job.format(names=names), job.format(names=names[::-1])]
+    logs = [str(tmp_path / name) for name in ("1.log", "2.log")]
     done = python(
         f"{RUN}from threading import Thread\n"
-        f"threads = [Thread(target=run_apart, args=('builtins:exec', 'a', job)) for job in {jobs!r}]\n"
+        f"starts = [(Settings(), log, 'builtins:exec', job) for log, job in zip({logs!r}, {jobs!r})]\n"
+        "threads = [Thread(target=run_apart, args=start) for start in starts]\n"
         "for thread in threads: thread.start()\n"
         "for thread in threads: thread.join()\n"
         "print('both')"

@@ -10,7 +10,7 @@ import pytest
 import yaml
 
 from rocking.hashes import sha256_of_file
-from tests.workflow.conftest import ROOT, SmallStudy, kinds_of_jobs
+from tests.workflow.conftest import ROOT, SmallStudy
 from tests.workflow.edits import EDITS, JOBS, write_outputs, write_study
 from tests.workflow.forked import PLANNING, run_snakemake
 
@@ -24,7 +24,7 @@ def _snakemake(*options: str) -> str:
         profile = str(ROOT / "workflow" / "profiles" / "default")
         arguments = [
             "--snakefile",
-            str(ROOT / "Snakefile"),
+            str(ROOT / "workflow" / "Snakefile"),
             "--workflow-profile",
             profile,
             "--cores",
@@ -68,13 +68,12 @@ def study(touched: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
 
 @pytest.mark.parametrize("edit", EDITS, ids=[each[0] for each in EDITS])
 def test_each_edit_makes_again_what_depends_on_it_and_nothing_else(study, edit) -> None:
-    """Of a batch, which this study has none of, tests/unit/study/test_made_from.py tells."""
     _, change, again, *first = edit
     for each in first:
         each()
         _finish()
     change()
-    assert _again(_snakemake("-n")) - {"B"} == set(again.split()) - {"B"}
+    assert _again(_snakemake("-n")) == set(again.split())
 
 
 DESIGN = "period_s,acceleration_g\n0,0.2\n0.1,0.5\n0.5,0.5\n4,0.06\n"
@@ -109,12 +108,7 @@ def _everything(study: SmallStudy) -> dict[str, bytes]:
             told = {"logs", "benchmarks", ".kept"} & set(name.parts) or path.name in measured
             found[name.as_posix()] = b"" if told else path.read_bytes()
     shows_times = {"summary/summary.pdf", "SHA256SUMS"} if "summary/trade.csv" in found else set()
-    remembered = {"summary/logs/run.log", ".kept/contents.json"}  # nothing of what was made
-    return {
-        name: b"" if name in shows_times else content
-        for name, content in found.items()
-        if name not in remembered
-    }
+    return {name: b"" if name in shows_times else content for name, content in found.items()}
 
 
 def _settings(**changed: object) -> Callable[[SmallStudy], object]:
@@ -189,7 +183,6 @@ RUNS: dict[str, tuple[Callable[[SmallStudy], object], ...]] = {
     "histories on and off": (_settings(histories=True), _settings()),
     "figures on and off": (_settings(figures="svg"), _settings()),
     "reports off and on": (_settings(reports=False), _settings()),
-    "batches of another size": tuple(_settings(reports=False, records_per_job=size) for size in (1, 9)),
     "language": (_settings(language="it"),),
     "trade on": (_settings(trade={"in_summary": True}),),
     "trade on and off": (_settings(trade={"in_summary": True}), _settings()),
@@ -240,33 +233,15 @@ def test_a_file_of_the_user_among_the_results_stays_and_what_goes_is_told(run, t
 
 
 def test_a_file_of_one_record_is_made_when_it_is_asked_for_by_its_name(finished, tmp_path) -> None:
-    """Also where the study makes no reports; and a name that is no record's is refused."""
+    """And no more; a name that is no record's is refused."""
     study = finished.copy_to(tmp_path / "study")
-    told = study.run("results/good_2/comparison.csv")
-    assert kinds_of_jobs(told) == ["record"]
-    lines = (study.results / "good_2" / "comparison.csv").read_bytes().splitlines()[1:]
-    assert lines == finished.rows_of("good_2")["comparison.csv"]
-    assert study.planned("results/good_2/comparison.csv") == []
     (study.results / "good_2" / "comparison.csv").unlink()
     assert study.planned("results/good_2/comparison.csv") == ["record"]
+    study.run("results/good_2/comparison.csv")
+    lines = (study.results / "good_2" / "comparison.csv").read_bytes().splitlines()[1:]
+    assert lines == finished.rows_of("good_2")["comparison.csv"]
     told = study.run("--dry-run", "results/good_9/comparison.csv", status=1)
     assert "records/catalogue.csv: it has no record good_9" in told
-
-
-def test_all_is_computed_anew_where_that_is_asked_for(finished, tmp_path) -> None:
-    """What is kept of the cases is not looked at: here it is damaged, of which a job that reads it tells."""
-    study = finished.copy_to(tmp_path / "study")
-    for path in study.results.glob(".kept/cases/*.json"):
-        path.write_text("no cases")
-    assert "what was kept is ignored" not in study.run("--forceall")
-    assert study.tables() == finished.tables()
-
-
-def test_where_snakemake_remembers_nothing_that_is_told(finished, tmp_path) -> None:
-    study = finished.copy_to(tmp_path / "study")
-    shutil.rmtree(study.folder / ".snakemake")
-    told = study.rocking("run", str(study.folder)).stdout
-    assert f"rocking run {study.folder} -- --forceall" in told
 
 
 def test_the_sums_are_those_of_the_pages_and_tables(run) -> None:

@@ -50,7 +50,7 @@ def test_every_described_file_stands_and_has_the_described_columns(finished) -> 
 
 @pytest.mark.parametrize(
     ("edited", "again"),
-    [("motion/nonlinear_kernel.py", ["batch", "summary"]), ("reports/record.py", [])],
+    [("motion/nonlinear_kernel.py", ["record", "summary"]), ("reports/record.py", [])],
     ids=["numbers", "appearance"],
 )
 def test_an_edit_of_the_package_runs_again_what_depends_on_it(finished, edited, again) -> None:
@@ -93,36 +93,18 @@ def test_what_the_settings_ask_for_is_waited_for(finished) -> None:
     assert "results/fragility/fragility.csv" in reason, told
 
 
-@pytest.mark.slow
-def test_the_page_takes_up_what_was_measured_by_hand_until_it_does_not_hold(finished, tmp_path: Path) -> None:
-    """The trade: it stays through another title, and goes, which is told, with the numbers that it is of."""
-    study = finished.copy_to(tmp_path / "study")
-    config = study.folder / "config.yaml"
-    before = config.read_text()
-    study.rocking("run", str(study.folder), "trade")
-    assert (study.results / "summary" / "trade.pdf").is_file() and study.planned() == ["summary"]
-    config.write_text(f"{before}study: A town\n")
-    study.run()
-    assert (study.results / "summary" / "trade.pdf").is_file() and study.planned() == []
-    config.write_text(f"{before}tolerance: 1.0e-7\n")
-    told = study.rocking("run", str(study.folder)).stdout
-    assert "trade: changed: tolerance, so that the summary leaves it out" in told
-    assert re.search(r"summary: removed \d+ files of former runs, .*results/\.kept/rows/trade\.json", told)
-    assert not list(study.results.rglob("trade*"))
-
-
 def test_a_record_that_changed_and_one_more_compute_their_own_jobs_only(finished, tmp_path: Path) -> None:
     """Whatever the date of the file."""
     study = finished.copy_to(tmp_path / "study")
     file, rows = study.folder / "records" / "good_1.txt", study.rows()
     file.write_bytes(OTHER)
     os.utime(file, (LONG_AGO, LONG_AGO))
-    assert study.planned() == ["batch", "summary"]
+    assert study.planned() == ["record", "summary"]
     os.utime(file, (IN_TEN_YEARS, IN_TEN_YEARS))
     rows[0]["sha256"] = hashlib.sha256(OTHER).hexdigest()
     study.write_catalogue(rows)
     study.add_synthetic("good_4", 4)
-    assert sum(map(int, re.findall(r"(?m)^batch +(\d+) *$", study.run()))) == 2
+    assert sum(map(int, re.findall(r"(?m)^record +(\d+) *$", study.run()))) == 2
     assert study.rows_of("good_1")["record.csv"] != finished.rows_of("good_1")["record.csv"]
     for name in ("good_2", "good_3"):
         assert finished.rows_of(name)["comparison.csv"] and study.rows_of(name) == finished.rows_of(name)
@@ -130,11 +112,8 @@ def test_a_record_that_changed_and_one_more_compute_their_own_jobs_only(finished
     assert study.planned() == [], "the second run has nothing to do, in ten years as now"
 
 
-def test_a_dry_run_changes_nothing_and_a_run_in_other_jobs_fills_in_the_hash(finished, tmp_path) -> None:
-    """Jobs of another size leave no row twice."""
+def test_a_dry_run_changes_nothing(finished, tmp_path) -> None:
     study = finished.copy_to(tmp_path / "study")
-    rows = study.rows()
-    study.write_catalogue([row | {"sha256": ""} for row in rows])
 
     def contents() -> dict[Path, bytes]:
         """Of all but what snakemake keeps for itself."""
@@ -144,13 +123,6 @@ def test_a_dry_run_changes_nothing_and_a_run_in_other_jobs_fills_in_the_hash(fin
     before = contents()
     study.rocking("run", str(study.folder), "--", "--dry-run")
     assert contents() == before
-    study.run("--config", "records_per_job=3")
-    assert study.rows() == rows
-    for name in ("good_1", "good_2", "good_3"):
-        assert study.rows_of(name) == finished.rows_of(name)
-    path = "summary/comparison.csv"
-    assert study.tables()[path] == finished.tables()[path], "in the order of the catalogue"
-    assert study.planned("--config", "records_per_job=3") == []
 
 
 def test_a_date_a_comment_or_line_ends_compute_nothing_and_a_number_everything(finished, tmp_path) -> None:
@@ -168,7 +140,7 @@ def test_a_date_a_comment_or_line_ends_compute_nothing_and_a_number_everything(f
         os.utime(study.folder / "records" / name, (LONG_AGO, LONG_AGO))
     assert study.planned() == []
     structures.write_text(structures.read_text().replace("3.2", "3.3"))
-    assert study.planned() == ["batch", "summary"]
+    assert study.planned() == ["record", "summary"]
 
 
 def test_a_study_of_broken_records_only_has_failed(start, tmp_path: Path) -> None:
@@ -176,5 +148,5 @@ def test_a_study_of_broken_records_only_has_failed(start, tmp_path: Path) -> Non
     study.write_catalogue([])
     for name in ("one", "two"):
         study.add(name, name.encode())
-    assert "none of 2 records could be read" in study.run("--config", "records_per_job=2", status=1)
+    assert "none of 2 records could be read" in study.rocking("run", str(study.folder), status=1).stderr
     assert (study.results / "summary" / "failures.csv").read_text().count("\n") == 3, "the tables say why"

@@ -1,8 +1,6 @@
 """What the Snakemake workflow catalogue and a citation ask for: files that are there and true, rules in its style."""
 
 import re
-import subprocess
-import sys
 import tomllib
 from pathlib import Path
 
@@ -22,20 +20,6 @@ def loaded(name: str):
     return yaml.safe_load((ROOT / name).read_text(encoding="utf-8"))
 
 
-@pytest.mark.slow
-def test_the_rules_are_free_of_lint():
-    command = [sys.executable, "-m", "snakemake", "--lint"]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
-    assert not done.returncode and "Lints for" not in done.stdout + done.stderr, done.stderr
-
-
-def test_the_catalogue_finds_how_it_is_used():
-    usage = loaded(".snakemake-workflow-catalog.yml")["usage"]
-    assert set(usage) == {"mandatory-flags", "software-stack-deployment", "report"}
-    flags = usage["mandatory-flags"]["flags"].split()
-    assert flags[0] == "--workflow-profile" and (ROOT / flags[1] / "config.yaml").is_file()
-
-
 def test_every_setting_and_type_that_the_configuration_page_names_exists():
     text = (ROOT / "config" / "README.md").read_text(encoding="utf-8")
     schema = loaded("workflow/schemas/config.schema.yaml")["properties"]
@@ -50,7 +34,7 @@ def test_every_setting_and_type_that_the_configuration_page_names_exists():
 
 def test_no_record_can_take_the_name_of_a_folder_of_the_results():
     research = (ROOT / "docs" / "research" / "research.smk").read_text(encoding="utf-8")
-    rules = [path.read_text(encoding="utf-8") for path in (ROOT / "workflow" / "rules").glob("*.smk")]
+    rules = [path.read_text(encoding="utf-8") for path in (ROOT / "workflow").rglob("*.smk")]
     folders = set(re.findall(r"\{RESULTS\}/(\w+)", "".join(rules)))
     outputs = (each.path for of_kind in OUTPUTS.values() for each in of_kind)
     folders |= {path.partition("/")[0] for path in outputs if "/" in path and not path.startswith(("{", "."))}

@@ -17,4 +17,4 @@ rule documentation:
     message:
         "Set the documentation"
     run:
-        run_apart("docs.site.build:documentation", rule, output[0], log[0])
+        run_apart(SETTINGS, log[0], "docs.site.build:documentation", output[0])

@@ -14,4 +14,4 @@ rule paper:
     message:
         "Redraw the figures of the paper"
     run:
-        run_apart("docs.paper.write:paper", rule, input.catalogue, SETTINGS.mirror, output[0], log[0])
+        run_apart(SETTINGS, log[0], "docs.paper.write:paper", input.catalogue, SETTINGS.mirror, output[0])

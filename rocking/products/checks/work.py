@@ -33,7 +33,6 @@ from rocking.structures.structure import Candidate
 from rocking.study.documents import made_or_failed
 from rocking.study.job import Job, Study
 from rocking.study.kept import Rows
-from rocking.study.outcomes import read_outcomes
 from rocking.study.products import CHECKS
 from rocking.study.selection import pool_of, select_for
 from rocking.study.work import Made, Work
@@ -48,7 +47,7 @@ class Checks(Work):
 
     def make(self, job: Job) -> Made:
         """Check every structure, and set against it what became of it under the records of the study."""
-        rows = [outcome.rows for outcome in read_outcomes(job.plan.outcomes())]
+        rows = [outcome.rows for outcome in job.outcomes()]
         checked, faults = write_checks(
             job.study,
             job.folder,

@@ -8,7 +8,6 @@ from rocking.quantities import counted
 from rocking.reports.pages import Panel
 from rocking.study.job import Job
 from rocking.study.kept import Rows
-from rocking.study.outcomes import read_outcomes
 from rocking.study.work import Made, Work
 from rocking.tables import rows_of, write_tables, write_whole
 
@@ -25,7 +24,7 @@ class Map(Work):
         records: list[list[RecordRow]] = []
         verdicts: list[VerdictRow] = []
         falls: dict[str, ExpectedFallsRow | None] = {}
-        for outcome in read_outcomes(job.plan.outcomes()):
+        for outcome in job.outcomes():
             of_record = rows_of(VerdictRow, outcome.rows)
             records.append(rows_of(RecordRow, outcome.rows))
             verdicts += worst_period_each(of_record)

@@ -18,7 +18,6 @@ from rocking.products.trade.rows import TradeRow
 from rocking.products.trade.work import trade_lines
 from rocking.reports.pages import Part
 from rocking.study.job import costs_no_other
-from rocking.study.progress import line_writer
 from rocking.study.settings import Settings
 
 STRUCTURES = {"block": rocking.Block(2.0, 0.15), "stout": rocking.Block(2.0, 0.7)}
@@ -76,7 +75,9 @@ def test_times_are_told_with_their_machine_and_the_search_for_sines_apart(rows):
     assert rows[TradeMethod.ENSEMBLE, ""].cpu_s > usual
 
 
-def test_a_fault_of_one_structure_or_record_costs_no_other_and_is_a_row(rows, records, tmp_path, monkeypatch):
+def test_a_fault_of_one_structure_or_record_costs_no_other_and_is_a_row(
+    rows, records, tmp_path, monkeypatch, capsys
+):
     """Planted in the search of the second record, and in the motion of one structure under the third."""
     search, follow = trade_module.best_sines, trade_module.integrate
 
@@ -92,14 +93,14 @@ def test_a_fault_of_one_structure_or_record_costs_no_other_and_is_a_row(rows, re
     with pytest.raises(ZeroDivisionError):
         rocking.trade(records, STRUCTURES)
     log = tmp_path / "trade.log"
-    line_writer(log, "trade")
     faults = []
     tried = rocking.trade(records, STRUCTURES, within=partial(costs_no_other, faults, log, "the trade"))
     first, second = faults
     assert (first.record, first.structure, second.structure) == ("", "", "stout") and first.stage == "fault"
     asks = f"a fault of rocking in the trade (KeyError: 'planted'); please report it, with {log}."
     assert second.message == asks
-    assert "ZeroDivisionError" in log.read_text() and "KeyError: 'planted'" in log.read_text()
+    trace = capsys.readouterr().err
+    assert "ZeroDivisionError" in trace and "KeyError: 'planted'" in trace
     answered = {row.structure: row for row in tried if row.method is TradeMethod.MECHANISM}
     alone = rocking.trade([records[0], records[2]], {"block": STRUCTURES["block"]})
     (same,) = [row for row in alone if (row.method, row.structure) == (TradeMethod.MECHANISM, "block")]

@@ -2,69 +2,42 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 
+from rocking.assessment.rows import FailureRow
 from rocking.catalogue import CatalogueRecord
-from rocking.study.contents import ContentHashes
-from rocking.study.job import Job, Study, steps_of
-from rocking.study.outcomes import RecordOutcome, outcomes_written, read_outcomes
-from rocking.study.outputs import outcome_of
+from rocking.study import jobs
+from rocking.study.job import Job, Study
+from rocking.study.kept import keep_rows
+from rocking.study.outcomes import RecordOutcome, read_outcomes
+from rocking.study.outputs import kept_of, outcome_of
 from rocking.study.plan import Plan
-from rocking.study.task import Task
+from rocking.study.products import BY_NAME
+from rocking.study.work import work_of
 
 
-def made_job(
-    records: Sequence[CatalogueRecord],
-    study: Study,
-    results: Path,
-    product: str = "batch/00000_of_00001",
-    told: list[str] | None = None,
-    beside: Sequence[str] = (),
-) -> Job:
-    """A job on `records`, whose results lie in a folder; told: takes what it tells."""
+def made_job(records: Sequence[CatalogueRecord], study: Study, results: Path, rule: str = "summary") -> Job:
+    """A job over all of `records`, whose results lie in a folder."""
     study = replace(study, settings=replace(study.settings, results=str(results)))
-    plan = Plan(study.settings, {each.id: each for each in records}, study.scenes, ContentHashes())
-    lines = [] if told is None else told
-    task = Task(product, {}, (), products=beside)
-    return Job(
-        task, plan, study, list(records), results / "made.log", partial(_tell, lines), partial(_keep, results)
-    )
-
-
-def _tell(lines: list[str], line: str, *_counts: int) -> None:
-    lines.append(line)
-
-
-def _keep(results: Path, record: str, outcome: RecordOutcome) -> None:
-    with outcomes_written(outcome_of(results, record)) as keep:
-        keep(record, outcome)
+    plan = Plan(study.settings, {record.id: record for record in records})
+    return Job(rule, plan, study, results / "made.log")
 
 
 def outcomes_in(results: Path, records: Sequence[CatalogueRecord]) -> Iterator[RecordOutcome]:
     """What the jobs on `records` left, in their order."""
-    yield from read_outcomes({each.id: outcome_of(results, each.id) for each in records})
+    yield from read_outcomes(outcome_of(results, record.id) for record in records)
 
 
-def take_steps(record: CatalogueRecord, job: Job) -> None:
-    """What `rocking.study.jobs.record` does with a record."""
-    with steps_of(record, job) as step:
-        motion = step.read()
-        components = step.pulses(motion)
-        step.compare(step.integrate(motion, components, step.predict(components)))
+def keep_nothing(results: Path, *products: str) -> None:
+    """Keep no rows of products over all records, as if they had been made."""
+    for name in products:
+        shown = (*work_of(BY_NAME[name]).shown, FailureRow)
+        keep_rows(kept_of(results, name), {row_class: [] for row_class in shown})
 
 
-def worked(
-    records: Sequence[CatalogueRecord],
-    study: Study,
-    results: Path,
-    told: list[str] | None = None,
-    beside: Sequence[str] = (),
-) -> Job:
-    """Assess `records`, each in a job of its own where the study makes reports or histories; return the summary's."""
-    own = study.settings.reports or study.settings.histories
-    job = made_job(records, study, results, told=told)
+def worked(records: Sequence[CatalogueRecord], study: Study, results: Path) -> Job:
+    """Assess `records`, each in a job of its own; return the summary's."""
+    job = made_job(records, study, results)
     for record in records:
-        job = made_job([record], study, results, f"record/{record.id}", told) if own else job
-        take_steps(record, job)
-    return made_job(records, study, results, "summary", told, beside)
+        jobs.record(record, job.study, job.log)
+    return job

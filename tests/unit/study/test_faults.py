@@ -14,13 +14,12 @@ from rocking.assessment.rows import (
     VerdictRow,
     rows_of_record,
 )
-from rocking.errors import StructureError
 from rocking.structures import Block
 from rocking.study.outputs import outputs_of
 from rocking.study.summary import summarise
 from rocking.study.summary_tables import write_summary
 from rocking.tables import csv_lines, read_rows
-from tests.unit.study.made_jobs import outcomes_in, worked
+from tests.unit.study.made_jobs import keep_nothing, outcomes_in, worked
 from tests.unit.study.test_job import _record, _study
 
 FUNCTIONS = {
@@ -96,6 +95,7 @@ def test_a_page_never_costs_a_summary(place, file, tmp_path: Path, monkeypatch) 
     study = _study(block=BLOCK)
     study = replace(study, settings=replace(study.settings, reports=True))
     job = worked([_record(tmp_path)], study, results)
+    keep_nothing(results, "map")
 
     def fails(*_arguments, **_values):
         raise KeyError("kind that_has_no_sentence")
@@ -126,19 +126,3 @@ def test_a_report_that_cannot_be_made_costs_its_record_nothing(tmp_path: Path, m
     assert fault.message.startswith("a fault of rocking in report.pdf (KeyError")
     assert outcome.rows[ComparisonRow] and outcome.rows[VerdictRow]
     assert (job.results / record.id / "report.pdf").read_bytes().startswith(b"%PDF")
-
-
-def test_what_cannot_be_priced_costs_its_record_nothing(tmp_path: Path, monkeypatch) -> None:
-    """What contact dynamics may take is told before a record, and no more."""
-    record = _record(tmp_path)
-    study = _study(pier=PIER, block=BLOCK)
-    expected = list(outcomes_in(worked([record], study, tmp_path / "priced").results, [record]))
-
-    def fails(*arguments):
-        raise StructureError("it has no price") if _is_of_pier(arguments[0]) else ValueError("nor has this")
-
-    monkeypatch.setattr("rocking.study.job.expected_seconds", fails)
-    found = list(outcomes_in(worked([record], study, tmp_path / "not").results, [record]))
-    for row_class in (VerdictRow, ComparisonRow, FailureRow):
-        rows = [list(csv_lines(row_class, outcome.rows[row_class])) for outcome in (*found, *expected)]
-        assert rows[0] == rows[1]

@@ -27,7 +27,6 @@ from rocking.records import Accelerogram
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.structures import Block, Spire
 from rocking.study.job import Study
-from rocking.study.progress import line_writer
 from rocking.study.settings import Settings, StudyFragility
 from rocking.study.work import write_documents
 from rocking.tables import read_rows, read_table
@@ -82,27 +81,26 @@ def test_what_cannot_overturn_is_left_out_and_said(tmp_path):
     assert not (tmp_path / "none").exists()
 
 
-def test_a_table_beside_the_curves_fails_alone(tmp_path, monkeypatch):
+def test_a_table_beside_the_curves_fails_alone(tmp_path, monkeypatch, capsys):
     """A singular matrix in what explains the curves took the finished fragility along."""
 
     def singular(*_: object) -> None:
         raise np.linalg.LinAlgError("Singular matrix")
 
     monkeypatch.setattr(import_module("rocking.products.fragility.rows"), "explanation", singular)
-    tell = line_writer(tmp_path / "fragility.log", "fragility")
     study = replace(_study(), scenes=on_the_ground({"slender": STRUCTURES["slender"]}))
     log = tmp_path / "fragility.log"
-    written, reasons = write_fragility(_records(tmp_path, 2), study, tmp_path / "out", tell, log)
+    written, reasons = write_fragility(_records(tmp_path, 2), study, tmp_path / "out", lambda *_: None, log)
     (fault,) = written[FailureRow]
     assert (fault.structure, fault.stage, _but_earthquakes(reasons)) == ("slender", "fault", [])
     said = "a fault of rocking in its rows of intensity_measures.csv (LinAlgError: Singular matrix)"
     assert fault.message.startswith(said) and fault.message.endswith(f", with {log}.")
-    assert "LinAlgError: Singular matrix\n" in (tmp_path / "fragility.log").read_text()
+    assert "LinAlgError: Singular matrix\n" in capsys.readouterr().err
     rows = {name: read_table(each, tmp_path / "out") for name, each in FRAGILITY_TABLES.items()}
     assert {name for name, held in rows.items() if not held} == {"intensity_measures"}
 
 
-def test_a_fault_of_a_record_or_a_structure_costs_no_other_and_is_a_row(tmp_path, monkeypatch):
+def test_a_fault_of_a_record_or_a_structure_costs_no_other_and_is_a_row(tmp_path, monkeypatch, capsys):
     """Planted in the reading of one record of three, and in the curve of one structure of two."""
     records = _records(tmp_path, 3)
     study = replace(_study(), scenes=on_the_ground({name: STRUCTURES[name] for name in ("slender", "stout")}))
@@ -124,11 +122,12 @@ def test_a_fault_of_a_record_or_a_structure_costs_no_other_and_is_a_row(tmp_path
     monkeypatch.setattr("rocking.products.fragility.work.fragility", faulty)
     monkeypatch.setattr(Study, "open", opened)
     log = tmp_path / "fragility.log"
-    written, reasons = write_fragility(records, study, tmp_path / "out", line_writer(log, "fragility"), log)
+    written, reasons = write_fragility(records, study, tmp_path / "out", lambda *_: None, log)
     assert [(each.record, each.structure) for each in written[FailureRow]] == [("made2", ""), ("", "stout")]
+    trace = capsys.readouterr().err
     for each, said in zip(written[FailureRow], ("ZeroDivisionError", "KeyError: 'planted'"), strict=True):
         assert said in each.message and each.message.endswith(f", with {log}.")
-        assert said in log.read_text()
+        assert said in trace
     assert _but_earthquakes(reasons) == []
     for each in FRAGILITY_TABLES.values():
         names = [folder / each.table.file_name for folder in (tmp_path / "out", tmp_path / "expected")]

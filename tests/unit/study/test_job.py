@@ -30,11 +30,11 @@ from rocking.records import Accelerogram
 from rocking.records.synthetic import SHIPPED, SyntheticRecord, at2_text
 from rocking.reports.explore import RECORD_SCRIPT
 from rocking.structures import Block
+from rocking.study import jobs
 from rocking.study.job import Study, assess_catalogued, rows_of
 from rocking.study.kept import keep_rows
 from rocking.study.outcomes import read_outcomes
 from rocking.study.outputs import cases_of, kept_of, outcome_of, outputs_of
-from rocking.study.progress import line_writer
 from rocking.study.results import Results
 from rocking.study.settings import Settings, StudyTrade
 from rocking.study.summary import summarise
@@ -42,7 +42,7 @@ from rocking.study.summary_tables import write_summary
 from rocking.tables import csv_lines, frame, read_rows, write_tables
 from tests.refusals import refused
 from tests.unit.assessment.made_rows import Impossible, filled
-from tests.unit.study.made_jobs import made_job, outcomes_in, take_steps, worked
+from tests.unit.study.made_jobs import keep_nothing, made_job, outcomes_in, worked
 
 ROOT = Path(__file__).parents[3]
 CONTENT = at2_text(
@@ -104,7 +104,7 @@ def test_a_record_that_fails_has_every_output_of_its_rule_and_keeps_what_was_kep
     """Else its job would fail, and end the run of all others."""
     study = replace(_study(), settings=replace(_study().settings, reports=True))
     job = worked([_record(tmp_path, content=b"not a record")], study, tmp_path / "results")
-    outputs = outputs_of("record/made", job.plan.settings)
+    outputs = outputs_of("record", job.plan.settings, "made")
     assert [path for path in outputs.values() if not path.is_file()] == []
     kept = cases_of(job.results, "made")
     worked([_record(tmp_path)], study, tmp_path / "results")
@@ -130,10 +130,7 @@ def of_four(tmp_path: Path) -> tuple[Path, list[CatalogueRecord]]:
     """Results of four records, one of which is none, and the records in the order of their catalogue."""
     contents = {"one": CONTENT, "bad": b"no record", "three": CONTENT, "two": CONTENT}
     records = [_record(tmp_path, name, content) for name, content in contents.items()]
-    told: list[str] = []
-    worked(records[::-1], _study(), tmp_path / "results", told)
-    assert [line.partition(": ")[0] for line in told] == [record.id for record in records[::-1]]
-    assert "failed: " in told[2]
+    worked(records[::-1], _study(), tmp_path / "results")
     return tmp_path / "results", records
 
 
@@ -162,7 +159,7 @@ def test_a_damaged_outcome_is_told_with_its_path(of_four, damaged) -> None:
     path = outcome_of(of_four[0], "one")
     path.write_bytes(damaged)
     with refused(RockingError, "path", path):
-        next(read_outcomes({"one": path}))
+        next(read_outcomes([path]))
 
 
 @pytest.mark.parametrize("in_summary", [False, True])
@@ -175,9 +172,9 @@ def test_a_summary_draws_the_trade_where_its_study_measures_it(tmp_path, monkeyp
     )
     monkeypatch.setattr("rocking.reports.printing.compile_document", lambda *_: b"")
     results = tmp_path / "results"
-    changed = {"reports": True, "trade": StudyTrade(in_summary), "results": str(results)}
+    changed = {"reports": True, "trade": StudyTrade(in_summary=in_summary), "results": str(results)}
     study = replace(_study(), settings=replace(_study().settings, **changed))
-    job = worked([_record(tmp_path)], study, results, beside=["trade"] * in_summary)
+    job = worked([_record(tmp_path)], study, results)
     row = filled(
         TradeRow,
         method=TradeMethod.MECHANISM,
@@ -195,6 +192,7 @@ def test_a_summary_draws_the_trade_where_its_study_measures_it(tmp_path, monkeyp
     )
     fault = filled(FailureRow, record="", structure="pier", stage="fault", message="a fault.")
     keep_rows(kept_of(results, "trade"), {TradeRow: [row], FailureRow: [fault]})
+    keep_nothing(results, "map")
     summarise(job)
     assert len(trades[0]) == in_summary
     told = read_rows(FailureRow, results / "summary" / "failures.csv")
@@ -230,14 +228,15 @@ def test_a_job_that_breaks_off_leaves_nothing(tmp_path: Path) -> None:
     assert not list((tmp_path / "results").rglob("*.json"))
 
 
-def test_a_fault_of_this_package_costs_no_other_record_and_asks_to_be_reported(tmp_path: Path) -> None:
+def test_a_fault_of_this_package_costs_no_other_record_and_asks_to_be_reported(tmp_path, monkeypatch) -> None:
     """Whatever is raised becomes a row of its structure, and the traceback stands in the log that the row names."""
     results = tmp_path / "results"
     records = [_record(tmp_path, "first"), _record(tmp_path, "second")]
-    line_writer(results / "made.log", "batch")
     job = made_job(records, _study(faulty=Faulty(1.0, 0.2)), results)
-    take_steps(records[0], job)
-    take_steps(records[1], replace(job, study=replace(job.study, scenes=_study().scenes)))
+    monkeypatch.setattr("rocking.errors.LOGS", [job.log])
+    results.mkdir()
+    jobs.record(records[0], job.study, job.log)
+    jobs.record(records[1], replace(job.study, scenes=_study().scenes), job.log)
     first, second = (outcome.rows for outcome in outcomes_in(results, records))
     assert {each.structure for each in first[FailureRow]} == {"faulty"}
     for failure in first[FailureRow]:

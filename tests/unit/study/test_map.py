@@ -63,9 +63,11 @@ def made(tmp_path_factory) -> tuple[Path, Rows, list[str]]:
     study = Study(on_the_ground(STRUCTURES), settings, "made")
     worked(records, study, folder / "results")
     told: list[str] = []
-    job = made_job(records, study, folder / "results", "map", told)
+    job = made_job(records, study, folder / "results", "map")
     job.folder.mkdir(parents=True, exist_ok=True)
-    return job.folder, Map().make(job).rows, told
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("rocking.study.job.tell", told.append)
+        return job.folder, Map().make(job).rows, told
 
 
 def features(content: bytes) -> list[dict]:

@@ -7,22 +7,15 @@ import time
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from rocking.assessment.kinds import AssessmentKind
 from rocking.catalogue import CatalogueRecord
 from rocking.errors import ConfigurationError
 from rocking.structures.kinds import StructureKind
-from rocking.study import contents as contents_module
 from rocking.study import settings as settings_module
-from rocking.study.contents import ContentHashes
-from rocking.study.job import begin_job, prepare
-from rocking.study.made_from import made_from
-from rocking.study.plan import Plan, batches_of, make_plan, plan_of_job, study_remarks
+from rocking.study.job import prepare
+from rocking.study.plan import Plan, make_plan, study_remarks
 from rocking.study.settings import Settings, read_settings, settings_sha256
-from rocking.study.task import Task
-from tests.refusals import refused
 
 ROOT = Path(__file__).parents[3]
 SHA256 = "0" * 64
@@ -46,13 +39,14 @@ def _write(folder: Path, rows: str, structures: str = "", **settings: object) ->
 
 def test_a_job_takes_what_was_prepared_unless_the_list_was_edited(tmp_path: Path) -> None:
     settings = _write(tmp_path, "a,a.AT2,\n", "[{name: wall, type: wall, height_m: 3, thickness_m: 0.25}]")
-    prepare(read_settings(settings))
-    wall = plan_of_job(settings, "record/a").scenes["wall"].structure
+    plan = make_plan(settings)
+    prepare(plan.settings)
+    wall = plan.scenes["wall"].structure
     assert wall.__dict__["_candidates"], "it keeps its cracks"
-    assert plan_of_job(settings, "record/a").scenes["wall"].structure is wall
+    assert make_plan(settings).scenes["wall"].structure is wall
     listed = tmp_path / "structures.yaml"
     listed.write_text(listed.read_text().replace("0.25", "0.35"))
-    assert plan_of_job(settings, "record/a").scenes["wall"].structure.thickness == 0.35  # type: ignore[attr-defined]
+    assert make_plan(settings).scenes["wall"].structure.thickness == 0.35  # type: ignore[attr-defined]
     prepare(read_settings(settings | {"structures": str(tmp_path / "none.yaml")}))  # its jobs tell
 
 
@@ -62,19 +56,33 @@ def _refusal(settings: dict[str, object]) -> str:
     return str(caught.value)
 
 
-@pytest.mark.process
-def test_a_blank_hash_is_filled_in_and_checked_from_then_on(tmp_path: Path) -> None:
+def test_a_plan_writes_nothing_and_counts_the_content_of_a_file_whose_hash_is_blank(tmp_path: Path) -> None:
     (tmp_path / "a.AT2").write_bytes(b"one")
     settings = _write(tmp_path, "a,a.AT2,\nb,b.AT2,\n")
     before = Path(str(settings["catalogue"])).read_bytes()
-    first = make_plan(settings)
-    assert Path(str(settings["catalogue"])).read_bytes() == before, "a plan alone writes nothing"
-    assert first.records["a"].sha256 == hashlib.sha256(b"one").hexdigest() and first.records["b"].sha256 == ""
-    planned = made_from("record/a", first)
-    first.fill_hashes()
-    assert made_from("record/a", make_plan(settings)) == planned, "what was planned before holds after"
+    plan = make_plan(settings)
+    assert plan.records["a"].sha256 == hashlib.sha256(b"one").hexdigest() and plan.records["b"].sha256 == ""
+    assert Path(str(settings["catalogue"])).read_bytes() == before
     (tmp_path / "a.AT2").write_bytes(b"two")
-    assert make_plan(settings).records["a"].sha256 == first.records["a"].sha256
+    assert make_plan(settings).contents("record", "a") != plan.contents("record", "a")
+
+
+def test_the_files_that_the_lists_name_are_those_by_which_every_job_knows_the_study(tmp_path: Path) -> None:
+    """Without a shared file system a job has these and no others."""
+    curve = Path("push.csv")
+    curve.write_text("displacement_m,force_kN\n0,10\n0.1,8\n0.5,0\n")
+    structures = (
+        "[{name: pier, type: block, breadth_m: 1, height_m: 6},\n"
+        " {name: tower, type: capacity_curve, file: push.csv, weight_kN: 100, restitution: 0.9}]"
+    )
+    settings = _write(tmp_path, "a,a.AT2,\n", structures)
+    Path("layouts.csv").write_text("answer\n")
+    assert make_plan(settings).listed == [
+        settings["catalogue"],
+        str(tmp_path / "layouts.csv"),
+        settings["structures"],
+        "push.csv",
+    ]
 
 
 def test_all_defects_of_all_three_files_stand_in_one_message(tmp_path: Path) -> None:
@@ -97,33 +105,9 @@ def test_all_defects_of_all_three_files_stand_in_one_message(tmp_path: Path) -> 
     assert "taken is a file, but must be a folder" in message
 
 
-@pytest.mark.process
-@pytest.mark.parametrize(
-    ("name", "old", "new"),
-    [("catalogue", SHA256, "1" * 64), ("structures", "height_m: 6", "height_m: 7")],
-)
-def test_what_was_edited_after_planning_stops_the_job(tmp_path: Path, name: str, old: str, new: str) -> None:
-    settings = _write(tmp_path, f"a,a.AT2,{SHA256}\nb,b.AT2,{SHA256}\n", records_per_job=10)
-    (batch,) = make_plan(settings).batches
-    product = f"batch/{batch}"
-    task = Task(product, settings, made_from(product, make_plan(settings)))
-    path = Path(str(settings[name]))
-    path.write_text("\n# a comment\n" * (name == "structures") + path.read_text())
-    with refused(ConfigurationError, "made_from", name), begin_job(task) as job:
-        assert [record.id for record in job.records] == ["a", "b"]
-        path.write_text(path.read_text().replace(old, new, 1))
-    with refused(ConfigurationError, "made_from", name), begin_job(task):
-        pytest.fail("it begins")
-    if name == "catalogue":
-        (tmp_path / "catalogue.csv").write_text("id,file,sha256\nb,b.AT2,\n")
-        gone = Task("record/a", settings, ())
-        with refused(ConfigurationError, "record", "a"), begin_job(gone):
-            pytest.fail("it begins")
-
-
 def test_what_changes_no_number_does_not_change_the_hash_of_the_settings(tmp_path: Path) -> None:
     settings = _write(tmp_path, f"a,a.AT2,{SHA256}\n")
-    changes = ({}, {"reports": False}, {"results": str(tmp_path / "elsewhere")}, {"records_per_job": 7})
+    changes = ({}, {"reports": False}, {"results": str(tmp_path / "elsewhere")})
 
     def hash_of(changed: dict[str, object]) -> str:
         made = make_plan(settings | changed)
@@ -147,41 +131,6 @@ def test_the_hash_of_the_package_follows_its_source(tmp_path: Path, monkeypatch:
     assert len(set(hashes)) == 6
 
 
-@given(
-    st.sets(st.text("abcdef0123456789", min_size=1, max_size=8), min_size=1, max_size=400),
-    st.none() | st.integers(1, 50),
-)
-def test_every_record_is_in_one_batch(identifiers: set[str], size: int | None) -> None:
-    batches = batches_of(sorted(identifiers), size)
-    shared = [identifier for batch in batches.values() for identifier in batch]
-    assert sorted(shared) == sorted(identifiers)
-    assert all(batch == tuple(sorted(batch)) for batch in batches.values())
-
-
-@pytest.mark.parametrize(
-    ("number", "size", "batches"),
-    [
-        (24, None, 1), (25, None, 2), (193, None, 8), (1600, None, 8), (1601, None, 16), (100_000, None, 512),
-        (100, 25, 4), (101, 25, 8),
-    ],
-)  # fmt: skip
-def test_records_are_shared_out_to_a_power_of_two_by_the_hash_of_each(number, size, batches) -> None:
-    """The setting says: 24; of many an eighth, at most 200."""
-    names = [f"r{place}" for place in range(number)]
-    shared = batches_of(names, size)
-    assert {name.partition("_of_")[2] for name in shared} == {f"{batches:05d}"}
-    for name in names[:3]:
-        place = int(hashlib.sha256(name.encode()).hexdigest()[:8], 16) % batches
-        assert name in shared[f"{place:05d}_of_{batches:05d}"]
-
-
-@pytest.mark.parametrize("number", [20, 100, 700, 3000])
-def test_a_record_more_changes_one_batch(number: int) -> None:
-    before = batches_of([f"record_{i}" for i in range(number)])
-    after = batches_of([f"record_{i}" for i in range(number + 1)])
-    assert len(set(after.items()) - set(before.items())) == 1
-
-
 COUNTS = b"000001D " + bytes(504)
 """What a miniSEED file begins with."""
 
@@ -191,9 +140,8 @@ def _record(folder: Path, content: bytes = b"samples", **cells: object) -> Catal
     return CatalogueRecord(**{"id": "a", "file": "a.dat", "sha256": "0" * 64} | cells, folder=folder)
 
 
-def _hash(record: CatalogueRecord, hashes: ContentHashes | None = None, **settings: object) -> str:
-    made = hashes or ContentHashes(Path("nowhere"))
-    return repr(Plan(Settings(**settings), {"a": record}, {}, made).files_of(record))
+def _hash(record: CatalogueRecord, **settings: object) -> str:
+    return Plan(Settings(**settings), {"a": record}).contents("record", "a")
 
 
 @pytest.mark.parametrize("when", [1e9, time.time() + 3e8], ids=["long ago", "in ten years"])
@@ -225,25 +173,6 @@ def test_every_file_that_is_read_counts_and_no_other(tmp_path, cells, content, f
     before = _hash(record)
     (tmp_path / file).write_text("sensitivity 2000")
     assert (_hash(record) != before) == counts
-
-
-def test_a_file_that_stayed_is_not_read_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    record, store = _record(tmp_path), tmp_path / "hashes.json"
-    for settled in (contents_module._SETTLED, -1.0):
-        assert not store.exists(), "what changed a moment ago may change again"
-        monkeypatch.setattr(contents_module, "_SETTLED", settled)
-        hashes = ContentHashes(store)
-        first = _hash(record, hashes)
-        hashes.save()
-    with monkeypatch.context() as patched:
-        patched.setattr(hashlib, "file_digest", lambda *_: pytest.fail("it is read again"))
-        assert _hash(record, ContentHashes(store)) == first
-    status = (tmp_path / "a.dat").stat()
-    (tmp_path / "a.dat").write_bytes(b"Samples")
-    os.utime(tmp_path / "a.dat", ns=(status.st_atime_ns, status.st_mtime_ns))
-    assert _hash(record, ContentHashes(store)) == _hash(record) != first
-    store.write_text('{"damaged": 1}')
-    assert _hash(record, ContentHashes(store)) == _hash(record)
 
 
 def test_an_edit_of_the_reports_is_in_the_hash_of_the_package_and_not_in_that_of_its_numbers(

@@ -16,7 +16,6 @@ from rocking.catalogue.catalogue import is_safe_id
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.study.job import Study
 from rocking.study.kept import keep_rows, kept_conclusion, kept_rows
-from rocking.study.made_from import settings_for
 from rocking.study.outputs import outputs_of
 from rocking.study.product import Product
 from rocking.study.products import PRODUCTS
@@ -61,13 +60,9 @@ def test_a_face_names_a_work_and_tables_that_there_are(product: Product) -> None
 
 
 @pytest.mark.parametrize("product", PRODUCTS, ids=IDS)
-def test_a_line_names_settings_that_there_are(product: Product) -> None:
-    line = product.made_from
-    told = Settings().values_of(line.settings)
-    assert {*line.files, *line.catalogues} <= {*told}
-    for name in told:
-        top, _, part = name.partition(".")
-        assert hasattr(getattr(settings_for(product.name, Settings()), top), part or "__class__")
+def test_it_names_settings_that_there_are(product: Product) -> None:
+    told = Settings().values_of(product.settings)
+    assert {*product.named_files, *filter(None, [product.pool])} <= {*told}
 
 
 @pytest.mark.parametrize("product", PRODUCTS, ids=IDS)

@@ -20,8 +20,8 @@ from rocking.assessment.rows import (
 from rocking.errors import RockingError
 from rocking.remarks import Remark, every_kind
 from rocking.study.cli import main
-from rocking.study.outcomes import RecordOutcome, outcomes_written, verdicts_of
-from rocking.study.outputs import cases_of, former_files, log_of, outcome_of, outputs_of, remove
+from rocking.study.outcomes import RecordOutcome, keep_outcome, verdicts_of
+from rocking.study.outputs import cases_of, former_files, outcome_of, outputs_of, remove
 from rocking.study.settings import Settings
 from rocking.tables import read_rows, write_rows
 from tests.refusals import refused
@@ -60,11 +60,8 @@ def test_an_outcome_keeps_the_decision_with_the_values_of_its_remarks(tmp_path: 
     (of_station,) = verdicts([station(case("EW", 0.3, falls=32))])
     row = replace(of_station, decision=decision, reserve=reserve)
     path = outcome_of(tmp_path, "a")
-    for place in (path, outcome_of(tmp_path, "a", "00000_of_00001")):
-        rows = {each: [] for each in RECORD_TABLES} | {VerdictRow: [row]}
-        with outcomes_written(place) as keep:
-            keep("a", RecordOutcome(rows, {}, {}, {}))
-        (kept,) = verdicts_of({"a": place})
+    keep_outcome(path, RecordOutcome({each: [] for each in RECORD_TABLES} | {VerdictRow: [row]}, {}, {}, {}))
+    (kept,) = verdicts_of([path])
     assert kept.decision == decision
     assert repr(kept.reserve) == repr(reserve)
     assert repr(kept) == repr(row)
@@ -106,33 +103,29 @@ def test_the_tables_of_records_assessed_one_by_one_are_gathered(tmp_path: Path) 
 # fmt: off
 OURS = (
     "summary/structures.pdf", "summary/code_checks.csv", "gone/report.pdf", "gone/histories.csv", "kept/histories.csv",
-    "fragility/fragility.xml", "summary/logs/record/gone.log", ".kept/outcomes/00000_of_00001.zip",
-    "summary/logs/batches/00000_of_00001.log",
+    ".kept/outcomes/gone.json", ".kept/rows/checks.json",
 )
 """Files of products that the study does not make, and of records that it does not hold."""
 OF_A_USER = (
     "notes.txt", "summary/notes.pdf", "gone/notes.csv", "gone/deep/report.pdf", "summary/deep/record.csv",
     "mine.pdf", "fragility/my.csv", ".kept/mine.json", "a b/report.pdf", "summary/logs/run.log",
+    "fragility/fragility.xml",
 )
 # fmt: on
 
 
 def test_what_no_product_owns_any_more_goes_and_no_file_of_a_user_does(tmp_path: Path) -> None:
     settings = Settings(results=str(tmp_path / "results"), figures="svg")
-    products = ["record/kept", "trade", "summary"]
-    owned = [path for product in products for path in outputs_of(product, settings).values()]
-    owned += [tmp_path / "results" / log_of(product) for product in products]
-    owned += [outcome_of(tmp_path / "results", "kept"), cases_of(tmp_path / "results", "other")]
+    owned = [path for rule in ("trade", "summary") for path in outputs_of(rule, settings).values()]
+    owned += outputs_of("record", settings, "kept").values()
+    owned += [cases_of(tmp_path / "results", "other")]
     ours, of_a_user = ([tmp_path / "results" / name for name in names] for names in (OURS, OF_A_USER))
     for path in (*owned, *ours, *of_a_user):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.touch()
-    former = former_files(settings, products, ["kept", "other"])
+    former = former_files(settings, ["trade"], ["kept", "other"])
     assert former == sorted(ours)
     remove(tmp_path / "results", former)
     left = {path for path in (tmp_path / "results").rglob("*") if path.is_file()}
     assert left == {*owned, *of_a_user}
-    assert not (tmp_path / "results" / "summary" / "logs" / "batches").exists(), (
-        "a folder that is empty goes too"
-    )
     assert (tmp_path / "results" / "gone" / "notes.csv").is_file()

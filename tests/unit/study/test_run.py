@@ -27,12 +27,6 @@ def test_the_status_of_a_run_is_that_of_its_jobs(study, monkeypatch, ended, opti
     assert module.run(study, options) == status
 
 
-def test_a_run_that_is_stopped_ends_with_the_number_of_the_signal(study, monkeypatch):
-    monkeypatch.setattr(module, "_snakemake", lambda arguments: 1)
-    monkeypatch.setattr(module, "_STOPS", [15])
-    assert module.run(study, []) == 128 + 15
-
-
 @pytest.mark.parametrize("ended", [None, 0, 5])
 def test_the_status_of_snakemake_is_handed_on(monkeypatch, ended):
     def main(arguments):

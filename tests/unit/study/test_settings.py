@@ -18,7 +18,6 @@ from rocking.errors import ConfigurationError
 from rocking.fragility.measures import INTENSITY_MEASURES, MEASURES_IN_WORDS, SPELLINGS
 from rocking.reports.pages import Fact
 from rocking.signal.processing import UNPROCESSED_DEFAULT
-from rocking.study.made_from import settings_for
 from rocking.study.settings import (
     EXAMPLE,
     Settings,
@@ -110,7 +109,6 @@ def test_all_defects_stand_in_one_message_each_with_its_value_and_what_is_allowe
         "results": "",
         "processing": {"apply": "sometimes", "taper": True},
         "pulse": {"lowest_frequency_hz": -1, "choice": "best", "pursuit": 3.0},
-        "records_per_job": 0,
         "scale_to": "0.35 g",
         "trade": 3,
         "mirror": math.nan,
@@ -127,7 +125,6 @@ def test_all_defects_stand_in_one_message_each_with_its_value_and_what_is_allowe
         "setting pulse.pursuit is 3.0, but must be a whole number from 1 to 200.",
         "setting pulse.choice is 'best', but must be energy or demand or velocity.",
         "setting trade is 3, but must be a mapping of in_summary.",
-        "setting records_per_job is 0, but must be a whole number from 1 to 100000 or null.",
     }
 
 
@@ -158,7 +155,6 @@ def test_settings_that_do_not_go_together_are_refused(config: object, words: str
         ({"pulse": {"pursuit": 4_000_000_000}}, "is 4000000000, but must be a whole number from 1 to 200"),
         ({"pulse": {"candidates": 201}}, "from 1 to 200"),
         ({"pulse": {"alternatives": 201}}, "from 1 to 200"),
-        ({"records_per_job": 4_000_000_000}, "from 1 to 100000"),
         ({"processing": {"time_step_s": 1e-9}}, "from 0.0001 to 1"),
         ({"tolerance": "x" * 3_000_000}, "xxx… (3000002 characters), but must be a number"),
         ({"tolerance": 10**5000}, "a number of thousands of digits, but must be"),
@@ -177,7 +173,6 @@ def test_a_refusal_says_what_to_write_and_repeats_no_long_value(config: object, 
     [
         (("tolerance",), "1e-7", 1e-7),
         (("reports",), "false", False),
-        (("records_per_job",), "null", None),
         (("pulse", "alternatives"), "4", 4),
     ],
 )
@@ -234,9 +229,8 @@ def test_what_a_study_is_told_by_stands_in_every_report_and_changes_no_number() 
     }
     assert {"study", "client", "author", "date", "project_number"} <= told.keys()
     settings = replace(Settings(), **{name: f"the {name}" for name in told})
-    for kind in ("record", "summary", "checks"):
-        printed = settings_for(kind, settings).for_pages.about
-        assert printed == tuple(Fact(label=label, text=f"the {name}") for name, label in told.items()), kind
+    printed = settings.for_pages.about
+    assert printed == tuple(Fact(label=label, text=f"the {name}") for name, label in told.items())
     numbers = Settings.changing_numbers()
     assert settings.values_of(numbers) == Settings().values_of(numbers)
     assert replace(settings, tolerance=1e-7).values_of(numbers) != settings.values_of(numbers)

@@ -1,0 +1,196 @@
+"""What a user of snakemake expects of a workflow, each on the real command in the folder of a study of one's own."""
+
+import csv
+import os
+import subprocess
+import sys
+import tarfile
+import time
+from pathlib import Path
+
+import pytest
+import yaml
+
+from rocking.study.cli import main
+from tests.workflow.conftest import ROOT, SmallStudy
+
+pytestmark = pytest.mark.process
+
+FEW = {"ensemble": {"members": 16, "reserve": 0}, "processing_variants": False, "candidates": 0}
+PIER = "- {name: pier, type: block, breadth_m: 0.5, height_m: 3.0}\n"
+
+
+@pytest.fixture(scope="module")
+def begun(tmp_path_factory: pytest.TempPathFactory) -> SmallStudy:
+    """A study as `rocking start` makes it, of one record and one structure, which has not been run."""
+    folder = tmp_path_factory.mktemp("conventions") / "study"
+    assert main(["start", str(folder)]) == 0
+    study = SmallStudy(folder, ROOT)
+    study.add_synthetic("good_1", 1)
+    (folder / "structures.yaml").write_text(PIER)
+    (folder / "config.yaml").write_text(yaml.safe_dump({"reports": False, **FEW}))
+    return study
+
+
+@pytest.fixture(scope="module")
+def done(begun: SmallStudy, tmp_path_factory: pytest.TempPathFactory) -> SmallStudy:
+    """The same after a run."""
+    study = begun.copy_to(tmp_path_factory.mktemp("done") / "study")
+    snakemake(study)
+    return study
+
+
+def snakemake(study: SmallStudy, *options: str, status: int = 0) -> str:
+    """Run the bare command in the folder of the study, by its own Snakefile and its own profile."""
+    command = [sys.executable, "-m", "snakemake", "--nocolor", *options]
+    ended = subprocess.run(command, capture_output=True, text=True, check=False, **study.surroundings)
+    told = ended.stdout + ended.stderr
+    assert ended.returncode == status, told
+    return told
+
+
+def failures(study: SmallStudy) -> list[dict[str, str]]:
+    with (study.results / "summary" / "failures.csv").open(encoding="utf-8", newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def test_no_flag_is_mandatory_and_a_second_run_makes_nothing_again(done) -> None:
+    """The profile of the study says the cores, and that dates of what the user writes mean nothing."""
+    assert not failures(done)
+    told = snakemake(done, "-n")
+    assert done.planned() == [] and "profiles/default" in told
+
+
+def test_a_configfile_replaces_keys_of_the_settings_and_no_others(done, tmp_path) -> None:
+    study = done.copy_to(tmp_path / "study")
+    (tmp_path / "few.yaml").write_text("study: A town\n")
+    snakemake(study, "--configfile", str(tmp_path / "few.yaml"))
+    provenance = yaml.safe_load((study.results / "summary" / "provenance.json").read_text())
+    assert provenance["settings"]["study"] == "A town"
+    assert provenance["settings"]["ensemble"]["members"] == 16 and not provenance["settings"]["reports"]
+    assert study.tables()["summary/verdicts.csv"] == done.tables()["summary/verdicts.csv"]
+
+
+def test_a_plan_demands_only_what_the_jobs_asked_for_need(begun, tmp_path) -> None:
+    study = begun.copy_to(tmp_path / "study")
+    settings = {"fragility": {"hazard": "nowhere.csv", "in_every_run": True}}
+    (study.folder / "config.yaml").write_text(yaml.safe_dump(settings))
+    assert "nowhere.csv" in snakemake(study, "-n", status=1)
+    snakemake(study, "-n", "results/good_1/report.pdf")
+
+
+def test_a_product_that_cannot_be_made_is_a_page_and_a_row_and_status_1(begun, tmp_path) -> None:
+    """A hazard curve with a column of another name; the summary and all other tables stand."""
+    study = begun.copy_to(tmp_path / "study")
+    study.add_synthetic("good_2", 2)
+    (study.folder / "hazard.csv").write_text("intensity,rate\n0.1,0.01\n1,0.0001\n")
+    fragility = {"hazard": "hazard.csv", "in_every_run": True, "members": False}
+    (study.folder / "config.yaml").write_text(
+        yaml.safe_dump({**FEW, "fragility": fragility, "trade": {"in_summary": False}})
+    )
+    told = snakemake(study, status=1)
+    assert "1 row of results/summary/failures.csv" in told
+    (failure,) = failures(study)
+    assert failure["stage"] == "fragility" and "hazard.csv" in failure["message"]
+    assert (study.results / "fragility" / "fragility.pdf").read_bytes().startswith(b"%PDF")
+    assert (study.results / "summary" / "summary.pdf").stat().st_size > 10_000
+    assert (study.results / "summary" / "verdicts.csv").read_text().count("\n") == 3
+
+
+def test_inputs_are_left_alone(begun, tmp_path) -> None:
+    """Also the blank hash of a file; the provenance holds it."""
+    study = begun.copy_to(tmp_path / "study")
+    study.write_catalogue([row | {"sha256": ""} for row in study.rows()])
+    before = {path: path.read_bytes() for path in study.folder.rglob("*") if path.is_file()}
+    snakemake(study)
+    assert {path: path.read_bytes() for path in before} == before
+    provenance = yaml.safe_load((study.results / "summary" / "provenance.json").read_text())
+    assert len(provenance["records"]["good_1"]) == 64
+
+
+def test_outputs_dated_ahead_of_the_clock_stop_nothing(done, tmp_path) -> None:
+    study = done.copy_to(tmp_path / "study")
+    ahead = time.time() + 1e6
+    for path in study.results.rglob("*"):
+        os.utime(path, (ahead, ahead))
+    (study.results / "summary" / "verdicts.csv").unlink()
+    snakemake(study)
+    assert study.tables() == done.tables()
+    assert study.planned() == []
+
+
+def test_a_link_to_itself_among_the_results_stops_nothing(done, tmp_path) -> None:
+    study = done.copy_to(tmp_path / "study")
+    (study.results / "summary" / "verdicts.csv").unlink()
+    (study.results / "again").symlink_to(study.results)
+    snakemake(study)
+    assert study.tables() == done.tables()
+
+
+def test_a_file_system_without_locks_is_a_warning(done, tmp_path) -> None:
+    study = done.copy_to(tmp_path / "study")
+    code = (
+        "import errno, fcntl, sys\n"
+        "def flock(*_): raise OSError(errno.ENOLCK, 'No locks available')\n"
+        "fcntl.flock = flock\n"
+        "from rocking.study.cli import main\n"
+        "sys.exit(main(['run', sys.argv[1]]))"
+    )
+    command = [sys.executable, "-c", code, str(study.folder)]
+    ended = subprocess.run(command, capture_output=True, text=True, check=False, **study.surroundings)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    assert "not locked, No locks available" in ended.stdout
+
+
+def test_a_module_of_another_snakefile_gives_the_same_status_and_files(begun, done, tmp_path) -> None:
+    study = begun.copy_to(tmp_path / "study")
+    (study.folder / "Snakefile").unlink()
+    (study.folder / "workflow").mkdir()
+    (study.folder / "workflow" / "Snakefile").write_text(
+        f'configfile: "config.yaml"\n\nmodule rocking:\n    snakefile: "{ROOT}/workflow/Snakefile"\n'
+        "    config: config\n\nuse rule * from rocking\n"
+    )
+    study.add("broken", b"no record")
+    told = snakemake(study, "--cores", "2", status=1)
+    assert "1 row of results/summary/failures.csv" in told
+    assert [failure["record"] for failure in failures(study)] == ["broken"]
+    assert study.rows_of("good_1") == done.rows_of("good_1")
+
+
+def test_an_archive_unpacks_to_a_study_that_runs(begun, done, tmp_path) -> None:
+    snakemake(begun, "--archive", str(tmp_path / "study.tar.gz"))
+    with tarfile.open(tmp_path / "study.tar.gz") as archive:
+        archive.extractall(tmp_path / "unpacked", filter="data")
+    study = SmallStudy(tmp_path / "unpacked", ROOT)
+    snakemake(study, "--cores", "2")
+    assert study.tables() == done.tables()
+
+
+def test_every_generated_unit_test_parses(done, tmp_path) -> None:
+    study = done.copy_to(tmp_path / "study")
+    snakemake(study, "--generate-unit-tests", "tests")
+    written = list((study.folder / "tests").rglob("test_*.py"))
+    assert {"test_record.py", "test_summary.py"} <= {path.name for path in written}
+    for path in written:
+        compile(path.read_text(encoding="utf-8"), path, "exec")
+
+
+@pytest.mark.slow
+def test_the_rules_are_free_of_lint() -> None:
+    command = [sys.executable, "-m", "snakemake", "--lint"]
+    ended = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert not ended.returncode and "Lints for" not in ended.stdout + ended.stderr, ended.stderr
+
+
+def test_the_catalogue_of_workflows_finds_the_main_file_and_how_it_is_used() -> None:
+    assert (ROOT / "workflow" / "Snakefile").is_file()
+    usage = yaml.safe_load((ROOT / ".snakemake-workflow-catalog.yml").read_text())["usage"]
+    assert set(usage) == {"software-stack-deployment", "report"}, "no flag is mandatory"
+    assert (ROOT / "profiles" / "default" / "config.yaml").samefile(
+        ROOT / "workflow" / "profiles" / "default" / "config.yaml"
+    )
+    told = subprocess.run(
+        [sys.executable, "-m", "snakemake", "-n"], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    assert told.returncode == 0 and "profiles/default" in told.stdout + told.stderr
+    assert Path(ROOT / "Snakefile").read_text().count("\n") < 20

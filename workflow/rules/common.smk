@@ -1,0 +1,80 @@
+"""What the rules are made of: the files that a job reads and gives, and how it is done in a process of its own."""
+
+import os
+from functools import cache
+from pathlib import Path
+
+# The files by which every job knows the study.
+LISTED = [ancient(path) for path in not_ahead(PLAN.listed)]
+
+
+def files(rule):
+    """The further files that a job reads."""
+    return lambda wildcards: [ancient(path) for path in not_ahead(PLAN.files(rule, *wildcards))]
+
+
+def contents(rule):
+    """The hash of what a job reads."""
+    return lambda wildcards: CONTENTS(rule, *wildcards)
+
+
+CONTENTS = cache(PLAN.contents)
+
+
+def gives(rule, record="{record}"):
+    """The files of a rule."""
+    return [in_report(output, str(path)) for output, path in outputs_of(rule, SETTINGS, record).items()]
+
+
+def in_report(output, path):
+    """A file, with its place in the page that snakemake --report makes."""
+    if output.is_store and not ELSEWHERE:
+        return update(path)  # there again when the job starts the next time
+    if not output.label:
+        return path
+    labels = {"document": output.label}
+    if output.category == "Records":
+        labels = {"record": "{record}", **labels}
+    elif output.category == "Tables":
+        labels = {"table": Path(path).name, "content": output.label}
+    return report(path, caption=f"../report/{output.caption}.rst", category=output.category, labels=labels)
+
+
+def targets(rule, record=""):
+    """The files of a rule that a study is asked for."""
+    return [str(path) for output, path in outputs_of(rule, SETTINGS, record).items() if not output.is_store]
+
+
+def cores_of_record(wildcards):
+    """The cores over the records that this run makes. A job on another machine has one."""
+    if workflow.remote_exec or not workflow.local_exec:
+        return 1
+    cores = min(workflow.resource_settings.cores or 1, os.cpu_count() or 1)
+    if not workflow.is_main_process:
+        return max(1, cores // len(PLAN.records))
+    return max(1, cores // (sum(job.rule.name == "record" for job in workflow.dag.needrun_jobs()) or 1))
+
+
+def memory_of_record(wildcards, input, attempt):
+    """MB of a record: by the largest file, and more at each further attempt.
+
+    A pair of 150 s at 100 Hz takes 310 MB, of 600 s, which is 0.9 MB a file as text, 370 MB; packed files hold up to ten
+    times as many samples a byte.
+    """
+    size_of = dict(zip(input, input.size_files_mb))
+    return attempt * round(500 + 1000 * max((size_of[file] for file in input.files), default=0))
+
+
+def work(rule, plan, input, output, params, log, cores=1):
+    """Do the job of a rule in a process of its own."""
+    folder = folder_of(input.listed[0], SETTINGS.catalogue) if ELSEWHERE else ""
+    made = [file for file in (*input, *output) if Path(file).is_relative_to(RESULTS)]
+    run_apart(
+        SETTINGS, log[0], "rocking.study.jobs:run", rule, plan, params.contents, log[0], made, cores, folder
+    )
+
+
+def research(rule, catalogues, output, log):
+    """Do the job of a target of the research, into the folder of its output."""
+    folder = os.path.dirname(output)
+    run_apart(SETTINGS, log, "docs.research.run:run", rule, list(catalogues), dict(config), folder)
