@@ -204,6 +204,85 @@ def refuse_spectrum(header: Sequence[str]) -> None:
         )
 
 
+_ABSCISSA = re.compile(r"(?i)\s*(period|freq(uency)?)\b.*|f(_hz)?|.*[(\[]\s*hz\s*[)\]]")
+_ORDINATE = re.compile(r"(?i)\s*(p?s[av]|sd|fas|fourier|spectr\w*)\b.*")
+_OTHER_TITLE = re.compile(
+    r"(?i)(?<![a-z])((?:shear |axial )?strains?|(?:shear |normal )?stress(?:es)?|forces?|moments?|fourier|"
+    r"(?:response |spectral |power )spectr\w*|psa|fas)(?![a-z])"
+)
+
+
+def refuse_other_columns(names: Sequence[str]) -> None:
+    """Raise RecordError when the names of the columns of a table are those of a spectrum."""
+    if names and (_ABSCISSA.fullmatch(names[0]) or any(map(_ORDINATE.fullmatch, names[1:]))):
+        raise RecordError(
+            f"this is a spectrum ({', '.join(names[:4])}); use the record of acceleration against time.",
+            quantity="spectrum",
+        )
+
+
+def refuse_title(above: str) -> None:
+    """Raise RecordError when the text above a table speaks of forces, strains or a spectrum, and of no motion."""
+    if (word := _OTHER_TITLE.search(above)) and not (_ACCELERATION.search(above) or _OF_MOTION.search(above)):
+        raise RecordError(
+            f"this is a file of {word[1].lower()}; use the acceleration of the same record.",
+            quantity=word[1].lower(),
+        )
+
+
+# The name of a column.
+
+WORDS_OF_ACCELERATION = r"acc\w*|acel\w*|beschl\w*|ivme\w*|加速度|ускорени\w*|επιτάχυνση"
+PLAIN_ACCELERATION = re.compile(r"(?i)ag?|a_g|ac|acc(el(eration)?)?|aceleraci[oó]n|accelerazione|επιτάχυνση")
+
+IN_BRACKETS = re.compile(r"[(\[]\s*([^)\]]+?)\s*[)\]]\s*$")
+_UNIT_AT_END = (
+    re.compile(r"(?i)\s+in\s+(\S+)\s*$"),
+    re.compile(r"(?i)\s*[/,]\s*(m?g|gals?|[mc]?m/s\S+)\s*$"),
+    re.compile(r"(?i)[\s_]+((?:[munc]?m|ft|in)\s?[/_ ]?s(?:ec)?(?:/s(?:ec)?|[_^]?2|\*\*2|²))\s*$"),
+    re.compile(r"(?i)[\s_]+(gals?)\s*$"),
+    re.compile(r"(?i)[\s_]+([munc]?m(?:[_ ]?per[_ ]?s(?:ec)?2|s2))\s*$"),
+)
+"""A unit that ends a label without brackets: "Acc/g", "NS, cm/s2", "ns_m_s2". A "g" after a blank is of ground, but
+after "in" it is a unit."""
+_WORDS_OF_OTHERS = re.compile(
+    r"(?i)(?<![a-z])(gyro(?:scope)?|angular|magnet(?:ic|ometer)|rotation|tilt|pressure|volt(?:age)?|counts?|drift|"
+    r"arias|husid|energy|power|jerk|slip|uplift|shear strain|strain|stress|forces?|moments?|shear|periods?|"
+    r"freq(?:uency)?|psa|p?sv|sa|sd|fas|fourier|spectr\w*|relative|rel|norm(?:ali[sz]ed)?|error|residual|resultant|srss|"
+    r"vector[ _]sum|rotd\d*|geo(?:metric)?[ _]?mean)(?![a-z])|[\[(](f|hz|mm|cm|m|in|ft|[mµu]?v|kn|k?pa|psi|-|%)[\])]$"
+)
+"""Other quantities, accelerations that are not those of the ground in one direction, and units of what is neither."""
+MULTIPLIED = re.compile(
+    r"(?i)(?<![\w.])(?:10+|\d+[./]\d+)\s*(?:gal\b|(?:[munc]?m|ft|in)\s*/\s*s)|[x×*]\s*1\d*(\.0*)?(e[+-]?\d+|\^|0\b)|\b1e[+-]?\d+\b|\b10\s*(\^|\*\*|-\d)|\b10+\s*[x×*]"
+)
+"""A power of ten by which a label says that its numbers are multiplied."""
+
+
+def unit_of_column(name: str) -> str | None:
+    """Return the unit of acceleration that the name of a column states, None of a power of ten next to it."""
+    if MULTIPLIED.search(name):
+        return None
+    if match := IN_BRACKETS.search(name):
+        return acceleration_unit(match[1])
+    found = (match[1] for pattern in _UNIT_AT_END if (match := pattern.search(name)))
+    return next((unit for word in found if (unit := acceleration_unit(word))), None)
+
+
+def without_unit(name: str) -> str:
+    """Return the name of a column without a unit that ends it without brackets."""
+    for pattern in _UNIT_AT_END:
+        name = pattern.sub("", name)
+    return name
+
+
+def other_of_column(name: str) -> str:
+    """Return what the name of a column states that is no acceleration of the ground, "" where it is or may be."""
+    if quantity := other_quantity(name):
+        return quantity
+    word = _WORDS_OF_OTHERS.search(name)
+    return (word[1] or f"in {word[2]}").lower() if word else ""
+
+
 # The name of a file.
 
 _ENDING = re.compile(r"\.(at2|txt|csv|asc|dat|acc|prn|out|th|tcl|gz|time_\w+|g3)$", re.I)

@@ -4,6 +4,7 @@ Every import of the package counts: at the top of a file, within a function and 
 """
 
 import ast
+import re
 import shutil
 import subprocess
 import sys
@@ -300,3 +301,27 @@ def test_what_computes_nothing_loads_neither_what_compiles_nor_what_draws(code, 
 
 
 HEAVY = {"numba", "matplotlib", "pandas", "obspy", "snakemake"}
+
+
+READERS = ("americas", "europe", "pacific", "volumes", "by_obspy", "workspace")
+"""The readers of formats of agencies, each of which states its unit and quantity in words of its own."""
+
+
+def test_units_and_quantities_are_read_by_one_vocabulary():
+    """So that a word which one door learns is known at all."""
+    homes = {PACKAGE / "records" / "claims.py", PACKAGE / "quantities.py"}
+    homes |= {PACKAGE / "records" / "formats" / f"{reader}.py" for reader in READERS}
+    words = re.compile(r"cm/s|m\]\?m/s|gals\?|\bvel|velo[ck]|displ|acel|beschl|fourier|spectr|einheit|unidad")
+    for part in ("records", "catalogue", "signal"):
+        for path in (PACKAGE / part).rglob("*.py"):
+            calls = (
+                node
+                for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+                if isinstance(node, ast.Call)
+            )
+            for call in calls:
+                is_pattern = ast.unparse(call.func).startswith("re.") and path not in homes
+                found = words.search(ast.unparse(call.args[0])) if is_pattern and call.args else None
+                assert not found, (
+                    f"{path.relative_to(PACKAGE)}:{call.lineno} reads {found[0]!r} outside records/claims.py"
+                )

@@ -5,8 +5,15 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from rocking.errors import RecordError
-from rocking.quantities import acceleration_unit
-from rocking.records.claims import other_quantity
+from rocking.records.claims import (
+    IN_BRACKETS,
+    MULTIPLIED,
+    PLAIN_ACCELERATION,
+    WORDS_OF_ACCELERATION,
+    other_of_column,
+    unit_of_column,
+    without_unit,
+)
 from rocking.records.direction import Direction
 
 _TIME = re.compile(
@@ -24,32 +31,12 @@ _TIMES = {
 }  # fmt: skip
 _TIME_UNIT = re.compile(r"[(\[]\s*([^)\]]*?)\s*[)\]]\s*$|[\s,_/]([A-Za-zµ]+)\s*$")
 """The unit of times, in brackets or as the last word."""
-_BRACKETS = re.compile(r"[(\[]\s*([^)\]]+?)\s*[)\]]\s*$")
-_BARE_UNIT = (
-    re.compile(r"(?i)\s+in\s+(\S+)\s*$"),
-    re.compile(r"(?i)\s*[/,]\s*(m?g|gals?|[mc]?m/s\S+)\s*$"),
-    re.compile(r"(?i)[\s_]+((?:[munc]?m|ft|in)\s?[/_ ]?s(?:ec)?(?:/s(?:ec)?|[_^]?2|\*\*2|²))\s*$"),
-    re.compile(r"(?i)[\s_]+(gals?)\s*$"),
-    re.compile(r"(?i)[\s_]+([munc]?m(?:[_ ]?per[_ ]?s(?:ec)?2|s2))\s*$"),
-)
-"""A unit that ends a label without brackets: "Acc/g", "NS, cm/s2", "ns_m_s2". A "g" after a blank is of ground, but
-after "in" it is a unit."""
-_WORDS_OF_OTHERS = re.compile(
-    r"(?i)(?<![a-z])(gyro(?:scope)?|angular|magnet(?:ic|ometer)|rotation|tilt|pressure|volt(?:age)?|counts?|drift|"
-    r"arias|husid|energy|power|jerk|slip|uplift|shear strain|strain|stress|forces?|moments?|shear|periods?|"
-    r"freq(?:uency)?|psa|p?sv|sa|sd|fas|fourier|spectr\w*|relative|rel|norm(?:ali[sz]ed)?|error|residual|resultant|srss|"
-    r"vector[ _]sum|rotd\d*|geo(?:metric)?[ _]?mean)(?![a-z])|[\[(](f|hz|mm|cm|m|in|ft|[mµu]?v|kn|k?pa|psi|-|%)[\])]$"
-)
-"""Other quantities, accelerations that are not those of the ground in one direction, and units of what is neither."""
-_MULTIPLIED = re.compile(
-    r"(?i)(?<![\w.])(?:10+|\d+[./]\d+)\s*(?:gal\b|(?:[munc]?m|ft|in)\s*/\s*s)|[x×*]\s*1\d*(\.0*)?(e[+-]?\d+|\^|0\b)|\b1e[+-]?\d+\b|\b10\s*(\^|\*\*|-\d)|\b10+\s*[x×*]"
-)
-"""A power of ten by which a label says that its numbers are multiplied."""
+
 _PARTS = re.compile(r"[\s_.,:;()\[\]]+|(?<=[a-z])(?=[A-Z])|成分|方向")
 """The places at which the words of a label part."""
 _NO_DIRECTION = re.compile(
-    r"(?i)linear|ground|input|raw|corr(ected)?|(un)?filt(ered)?|acc\w*|acel\w*|beschl\w*|ivme\w*|comp\w*|dir\w*|"
-    r"axis|eje|ch(an(nel)?)?\d{0,2}|canal|kanal|\d{1,2}|g|a|加速度|ускорени\w*|επιτάχυνση"
+    rf"(?i)linear|ground|input|raw|corr(ected)?|(un)?filt(ered)?|{WORDS_OF_ACCELERATION}|comp\w*|dir\w*|"
+    r"axis|eje|ch(an(nel)?)?\d{0,2}|canal|kanal|\d{1,2}|g|a"
 )
 """A word that says nothing of where a channel points."""
 _LEADING = re.compile(r"(?i)^(?:acc(?:el(?:eration)?)?|a)(?=(?:ns|ew|ud|up|[xyznev])$)")
@@ -95,20 +82,12 @@ class ColumnLabel:
     @cached_property
     def unit(self) -> str | None:
         """The unit of acceleration that it names, None where it names none, or a factor next to it."""
-        if _MULTIPLIED.search(self.text):
-            return None
-        if match := _BRACKETS.search(self.text):
-            return acceleration_unit(match[1])
-        found = (match[1] for pattern in _BARE_UNIT if (match := pattern.search(self.text)))
-        return next((unit for word in found if (unit := acceleration_unit(word))), None)
+        return unit_of_column(self.text)
 
     @property
     def other(self) -> str:
         """The quantity that it states, where that is no acceleration of the ground, "" else."""
-        if quantity := other_quantity(self.text):
-            return quantity
-        word = _WORDS_OF_OTHERS.search(self.text)
-        return (word[1] or f"in {word[2]}").lower() if word else ""
+        return other_of_column(self.text)
 
     @property
     def is_known(self) -> bool:
@@ -122,17 +101,15 @@ class ColumnLabel:
     @property
     def is_strange(self) -> bool:
         """Whether it holds a factor, or in brackets what is neither a unit of acceleration nor a direction."""
-        match = _BRACKETS.search(self.text)
+        match = IN_BRACKETS.search(self.text)
         is_foreign = match is not None and self.unit is None and not self._is_direction(match)
-        return is_foreign or bool(_MULTIPLIED.search(self.text))
+        return is_foreign or bool(MULTIPLIED.search(self.text))
 
     @property
     def is_plain_acceleration(self) -> bool:
         """Whether it names the quantity and no direction: "a", "Acc", "acceleration"."""
-        bare = _BRACKETS.sub("", self.text).strip()
-        return not self.is_strange and bool(
-            re.fullmatch(r"(?i)ag?|a_g|ac|acc(el(eration)?)?|aceleraci[oó]n|accelerazione|επιτάχυνση", bare)
-        )
+        bare = IN_BRACKETS.sub("", self.text).strip()
+        return not self.is_strange and bool(PLAIN_ACCELERATION.fullmatch(bare))
 
     @property
     def is_direction(self) -> bool:
@@ -145,13 +122,12 @@ class ColumnLabel:
     def component(self) -> str:
         """The name of the component: its one word that says where it points, else the label without unit."""
         name = self.text
-        match = _BRACKETS.search(name)
+        match = IN_BRACKETS.search(name)
         if match and self.unit is None and self._is_direction(match):
             return match[1].strip()
-        name = _BRACKETS.sub("", name)
+        name = IN_BRACKETS.sub("", name)
         if self.unit and not match:
-            for pattern in _BARE_UNIT:
-                name = pattern.sub("", name)
+            name = without_unit(name)
         name = name.strip()
         if code := _SEED_ID.fullmatch(name):
             name = code[2]

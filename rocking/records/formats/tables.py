@@ -28,7 +28,9 @@ from rocking.records.claims import (
     meaning,
     point_apart,
     refuse_by_name,
+    refuse_other_columns,
     refuse_other_quantity,
+    refuse_title,
     speaks_of_factor,
 )
 from rocking.records.direction import Direction, directed, names_acceleration
@@ -253,30 +255,12 @@ def _are_units(units: tuple[str, ...]) -> bool:
     return are_all and any(label.unit for label in given)
 
 
-_SPECTRAL = re.compile(r"(?i)\s*(period|freq(uency)?)\b.*|f(_hz)?|.*[(\[]\s*hz\s*[)\]]")
-_ORDINATE = re.compile(r"(?i)\s*(p?s[av]|sd|fas|fourier|spectr\w*)\b.*")
-_OTHER_TITLE = re.compile(
-    r"(?i)(?<![a-z])((?:shear |axial )?strains?|(?:shear |normal )?stress(?:es)?|forces?|moments?|fourier|"
-    r"(?:response |spectral |power )spectr\w*|psa|fas)(?![a-z])"
-)
-_SPEAKS_OF_MOTION = re.compile(r"(?i)(?<![a-z])(acc|acel|beschl|match)")
-
-
 def _refuse_others(table: NumberTable, file: str) -> None:
     """Refuse a table whose names, text or file name say that it holds no acceleration."""
-    names = [label.text for label in table.labels]
-    if names and (_SPECTRAL.fullmatch(names[0]) or any(map(_ORDINATE.fullmatch, names[1:]))):
-        heads = ", ".join(names[:4])
-        raise RecordError(
-            f"this is a spectrum ({heads}); use the record of acceleration against time.", quantity="spectrum"
-        )
     above = "\n".join((*table.comments, *table.words))
+    refuse_other_columns([label.text for label in table.labels])
     refuse_other_quantity(file, above)
-    if (word := _OTHER_TITLE.search(above)) and not _SPEAKS_OF_MOTION.search(above):
-        raise RecordError(
-            f"this is a file of {word[1].lower()}; use the acceleration of the same record.",
-            quantity=word[1].lower(),
-        )
+    refuse_title(above)
     if not any(label.unit for label in table.labels):
         refuse_by_name(file)
 
