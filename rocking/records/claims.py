@@ -223,7 +223,7 @@ def refuse_other_columns(names: Sequence[str]) -> None:
 
 def refuse_title(above: str) -> None:
     """Raise RecordError when the text above a table speaks of forces, strains or a spectrum, and of no motion."""
-    if (word := _OTHER_TITLE.search(above)) and not (_ACCELERATION.search(above) or _OF_MOTION.search(above)):
+    if (word := _OTHER_TITLE.search(above)) and not (_ACCELERATION.search(above) or "match" in above.lower()):
         raise RecordError(
             f"this is a file of {word[1].lower()}; use the acceleration of the same record.",
             quantity=word[1].lower(),
