@@ -314,7 +314,7 @@ PARTS: dict[str, BuildingPart] = {
         ),
         _part(
             "pinnacle",
-            "Pinnacle, a solid pyramid",
+            "Pinnacle, a solid pyramid; with a base that rocks it may fall where alone it stands",
             Spire,
             _pyramid,
             height=(3.0, 0.3, 20),

@@ -23,6 +23,7 @@ class OtherName(NamedTuple):
 
 
 _ROLLS = "a round one that rolls on its rim is not modelled"
+_ON_PEDESTAL = f"{_ROLLS}, nor that it falls with a pedestal on which it would stand alone (4 of 123)"
 _LEAVES = (
     "one that carries floors is a facade with leaves_m, and one whose top is free a free_wall with leaves_m"
 )
@@ -41,7 +42,7 @@ OTHER_NAMES: dict[str, OtherName] = {
     **dict.fromkeys(("finial",), OtherName("pinnacle")),
     **dict.fromkeys(("steeple", "fleche", "obelisk"), OtherName("spire")),
     **dict.fromkeys(("monolith", "stele", "tombstone", "gravestone", "cabinet"), OtherName("block")),
-    **dict.fromkeys(("statue", "sculpture", "vase", "bust"), OtherName("rigid_body", _ROLLS)),
+    **dict.fromkeys(("statue", "sculpture", "vase", "bust"), OtherName("rigid_body", _ON_PEDESTAL)),
     **dict.fromkeys(("column", "pillar", "pier"), OtherName("block", f"it rocks in one piece, and {_ROLLS}")),
     **dict.fromkeys(("facade wall", "front", "frontage"), OtherName("facade")),
     **dict.fromkeys(
