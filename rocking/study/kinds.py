@@ -17,6 +17,4 @@ class StudyKind(Kind):
     FILE_WITHOUT_RECORD = auto(), "{about} is not used: {why}"
     SIBLING_NOT_USED = auto(), """{other}, beside {about}, is a component of the same station and is not used:
         give it too."""
-    OUTDATED = auto(), """{about}: {why}, so that the summary leaves it out and its files go; measure it
-        again: rocking run . {about}."""
     # fmt: on

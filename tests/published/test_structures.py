@@ -70,5 +70,5 @@ def test_frame_of_makris_and_vassiliou(slenderness, ratio):
 def test_frequency_parameter_of_the_wall_grows_with_the_height_of_the_upper_block():
     """Not largest at h₂/h₁ = 0.74, as the misprinted Eq. 14 has it: at fixed height it only grows."""
     ratios = np.linspace(0.2, 5.0, 40)
-    walls = [Wall(6 / (1 + x), 6 * x / (1 + x), 0.3, 0.9) for x in ratios]
+    walls = [Wall(6 / (1 + x), 6 * x / (1 + x), 0.3, restitution=0.9) for x in ratios]
     assert (np.diff([wall.mechanism().positive.frequency_parameter for wall in walls]) > 0).all()

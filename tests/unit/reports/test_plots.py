@@ -149,7 +149,10 @@ def test_each_case_stands_in_the_quadrant_of_who_says_that_it_falls():
         for component, share in (("N", 0.2), ("E", 0.6))
     ]
     axes, key = prediction_scatter(cases, pulses).axes
-    light, dark = (line.get_xydata() for line in axes.lines if str(line.get_label()).startswith("cases"))
+    light, dark, late = (
+        line.get_xydata() for line in axes.lines if str(line.get_label()).startswith("cases")
+    )
+    assert late.size == 0  # where the sine begins before each fall
     zone = 0.25  # from here on it falls
     assert [tuple(point > zone) for point in light] == [(False, False), (True, True), (False, True)]
     assert [tuple(point > zone) for point in dark] == [

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from rocking.assessment.decide import ORDER, CrackFacts, Facts, decide
+from rocking.assessment.decide import ORDER, CrackFacts, Facts, Limit, decide
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.rows import PulseRow
 from rocking.quantities import listed
@@ -52,20 +52,20 @@ def crack(falls: int) -> CrackFacts:
 
 
 @pytest.mark.parametrize(
-    ("facts", "printed"),
+    ("facts", "limits", "printed"),
     [
-        (Facts(cracks=(crack(62),)), "△ 97 %"),
-        (Facts(cracks=(crack(64),)), "▲ 100 %"),
-        (Facts(cracks=(crack(0), crack(30))), "≈ 0–47 %"),
-        (Facts(cracks=(crack(8),), doubts=(Remark(AssessmentKind.CONTACTS_OPEN),)), "? ≥ 12 %"),
-        (Facts(cracks=(crack(0),), stacks=(20, 24)), "△ 0–83 %"),
-        (Facts(failures=("No.",)), "?"),
-        (Facts(cracks=(crack(0),), never_overturns_because="stays tied"), "■"),
-        (Facts(run_ratio=0.2), "○ one run"),
+        (Facts(cracks=(crack(62),)), (), "△ 97 %"),
+        (Facts(cracks=(crack(64),)), (), "▲ 100 %"),
+        (Facts(cracks=(crack(0), crack(30))), (), "≈ 0–47 %"),
+        (Facts(cracks=(crack(8),)), (Limit.untold(Remark(AssessmentKind.CONTACTS_OPEN)),), "? ≥ 12 %"),
+        (Facts(cracks=(crack(0),), stacks=(20, 24)), (), "△ 0–83 %"),
+        (Facts(failures=("No.",)), (), "?"),
+        (Facts(cracks=(crack(0),), never_overturns_because="stays tied"), (), "■"),
+        (Facts(run_ratio=0.2), (), "○ one run"),
     ],
 )
-def test_a_cell_holds_the_sign_and_the_share_of_its_decision(facts, printed):
-    assert printing.cell_text(decide(facts)).replace("\u00a0", " ") == printed
+def test_a_cell_holds_the_sign_and_the_share_of_its_decision(facts, limits, printed):
+    assert printing.cell_text(decide(facts, limits)).replace("\u00a0", " ") == printed
 
 
 def _contrast(one: str, other: str) -> float:

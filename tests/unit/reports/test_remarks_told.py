@@ -48,6 +48,7 @@ def slips(count: int):
             for one_attribute in form.fields
             if one_attribute.value.unit in UNITS
             and one_attribute.value.usual
+            and one_attribute.value.usual[0] > 0  # about zero no unit is unlikely
             and np.isscalar(one_attribute.value.example)
         ]
         size = sizes[chance.integers(len(sizes))]

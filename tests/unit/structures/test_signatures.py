@@ -37,7 +37,7 @@ def test_the_signature_of_a_structure_is_its_parameters_and_their_types(kind: ty
 
 def test_a_list_is_read_from_python_without_what_stands_on_a_support() -> None:
     scenes = load_scenes(LIST)
-    with pytest.warns(StructureWarning, match="left out is what stands on a support, parapet"):
+    with pytest.warns(StructureWarning, match="structures on a support are left out, parapet"):
         structures = rocking.read_structures(LIST)
     assert structures == {name: scene.structure for name, scene in scenes.items() if scene.place == GROUND}
     assert len(scenes) > len(structures) > 3

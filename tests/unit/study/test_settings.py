@@ -239,11 +239,3 @@ def test_what_a_study_is_told_by_stands_in_every_report_and_changes_no_number() 
 def test_a_key_in_a_section_beside_its_own_is_told_where_it_belongs() -> None:
     with pytest.raises(ConfigurationError, match=r"design_spectrum\.stations is 5, .*checks\.stations"):
         read_settings({"design_spectrum": {"stations": 5}})
-
-
-@pytest.mark.parametrize("name", ["client", "date", "display_units", "tolerance", "acceleration_scale"])
-def test_what_a_job_is_not_handed_no_page_prints_in_silence(name: str) -> None:
-    others = [setting.name for setting in fields(Settings) if setting.name != name]
-    assert Settings().restricted([*others, name]).for_pages == Settings().for_pages
-    with pytest.raises(ConfigurationError, match=f"setting {name}"):
-        _ = Settings().restricted(others).for_pages
