@@ -45,7 +45,7 @@ def folder(tmp_path_factory) -> Path:
 @pytest.mark.process
 def test_four_tables_say_one_share_of_a_pinnacle_whose_stacks_fall(folder: Path, monkeypatch) -> None:
     monkeypatch.setattr(
-        "rocking.assessment.one_case.MOST_RUNS", 16
+        "rocking.assessment.evidence.asked.MOST_RUNS", 16
     )  # as many stacks tell as much of one share
     settings = {
         "catalogue": str(folder / "catalogue.csv"),
