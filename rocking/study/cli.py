@@ -95,8 +95,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 _OF_UNIX = "fcntl"
 """The module of the standard library that locks files, which Windows lacks."""
 _NOT_HERE = (
-    "this command needs Linux or macOS; on Windows run it in WSL, or use `rocking read` and the functions of "
-    "`import rocking`, which work without."
+    "this command needs Linux or macOS; on Windows run it in WSL, or use the commands that run no study, such as "
+    "`rocking assess`, and the functions of `import rocking`, which need no locks."
 )
 
 

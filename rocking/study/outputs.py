@@ -105,6 +105,11 @@ def sums_of(rule: str, settings: Settings, record: str = "") -> dict[str, str]:
     return {path.relative_to(results).as_posix(): sha256_of_file(path) for path in paths if path.is_file()}
 
 
+def log_of(rule: str, record: str = "") -> str:
+    """Return the log of the job of a rule, from the folder of the results."""
+    return f"summary/logs/{f'{rule}/{record}' if record else rule}.log"
+
+
 def kept_of(results: Path, product: str) -> Path:
     """Return the file that keeps the rows of a product over all records."""
     return results / KEPT / "rows" / f"{product}.json"
@@ -126,15 +131,16 @@ def times_of(results: Path, record: str) -> Path:
 
 
 def former_files(settings: Settings, products: Iterable[str], records: Iterable[str]) -> list[Path]:
-    """Return the files in the results that a rule may give, but none does for these products and records.
+    """Return the files in the results that a rule may give, but none does for these products and records; also logs.
 
     A file of another name is the user's.
     """
     results = Path(settings.results)
     rules = {"summary", *products, *(product.name for product in PRODUCTS if product.stays)}
     owned = {path for rule in rules for path in outputs_of(rule, settings).values()}
+    owned |= {results / log_of(rule) for rule in rules}
     for record in records:
-        owned.update(outputs_of("record", settings, record).values())
+        owned |= {*outputs_of("record", settings, record).values(), results / log_of("record", record)}
     return [
         path
         for path in sorted(results.rglob("*"))
@@ -144,10 +150,12 @@ def former_files(settings: Settings, products: Iterable[str], records: Iterable[
 
 def _may_be_ours(path: str) -> bool:
     """Whether a rule can give a file of this path, from the folder of the results."""
-    for output in (output for outputs in OUTPUTS.values() for output in outputs):
-        begin, record, end = output.path.partition("{record}")
+    names = [output.path for outputs in OUTPUTS.values() for output in outputs]
+    names += [log_of("record", "{record}"), *(log_of(rule) for rule in OUTPUTS if rule != "record")]
+    for name in names:
+        begin, record, end = name.partition("{record}")
         found = re.fullmatch(f"{re.escape(begin)}([^/]+){re.escape(end)}", path) if record else None
-        if path == output.path or (found and is_safe_id(found[1])):
+        if path == name or (found and is_safe_id(found[1])):
             return True
     return False
 

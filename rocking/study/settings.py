@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import yaml
 
 from rocking.assessment.settings import AssessmentSettings, Heading
-from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.described import (
     Described,
     check_described,
@@ -36,6 +35,7 @@ from rocking.tables.yaml_file import scalar_value
 
 if TYPE_CHECKING:
     from rocking.assessment.scene import Scene
+    from rocking.codes.design_spectrum import DesignSpectrum
 
 _LARGEST_USUAL = 0.6
 """a_g beyond which a remark asks for the unit, g: what maps of hazard give for rock lies below nearly everywhere."""
@@ -95,10 +95,12 @@ class StudyDesign:
             type="a design level",
         )
 
-    def spectrum(self) -> DesignSpectrum | None:
+    def spectrum(self) -> "DesignSpectrum | None":
         """Return the spectrum; None where there is no design level. Raises ConfigurationError for its points."""
         if not self.is_given:
             return None
+        from rocking.codes.design_spectrum import DesignSpectrum
+
         if self.points is not None:
             return DesignSpectrum.read(Path(self.points), self.damping)
         assert self.ag is not None and self.f0 is not None and self.tc_star is not None  # checked at birth

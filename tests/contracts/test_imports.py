@@ -233,6 +233,7 @@ OTHERWISE = {
     "pooch": "0.03 s; downloads alone need it",
     "pydantic_core": "pydantic alone calls what imports it",
     "polib": "0.02 s; pages in Italian alone need it",
+    "rocking.codes": "a study without a design level runs without it",
     "rocking": "what draws or measures stands above what offers it as a method",
 }
 """What is imported within a function for another reason."""

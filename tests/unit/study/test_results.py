@@ -103,12 +103,13 @@ def test_the_tables_of_records_assessed_one_by_one_are_gathered(tmp_path: Path) 
 # fmt: off
 OURS = (
     "summary/structures.pdf", "summary/code_checks.csv", "gone/report.pdf", "gone/histories.csv", "kept/histories.csv",
-    ".kept/outcomes/gone.json", ".kept/rows/checks.json",
+    ".kept/outcomes/gone.json", ".kept/rows/checks.json", "summary/logs/checks.log", "summary/logs/record/gone.log",
 )
 """Files of products that the study does not make, and of records that it does not hold."""
 OF_A_USER = (
     "notes.txt", "summary/notes.pdf", "gone/notes.csv", "gone/deep/report.pdf", "summary/deep/record.csv",
     "mine.pdf", "fragility/my.csv", ".kept/mine.json", "a b/report.pdf", "summary/logs/run.log",
+    "summary/logs/fragility.log", "summary/logs/record/kept.log",
     "fragility/fragility.xml",
 )
 # fmt: on

@@ -19,13 +19,25 @@ def python(code: str, *arguments: str) -> subprocess.CompletedProcess[str]:
 
 
 @pytest.mark.process
-@pytest.mark.parametrize("verb", [
-    ["run", "."], ["trade", "."], ["catalogue", "records", "--output", "/nowhere/c.csv"], ["pulse", str(RECORD)],
-    ["assess", str(RECORD), "--structures", "{type: free_wall, height_m: 2, thickness_m: 0.3}"],
-])  # fmt: skip
-def test_without_locks_a_command_says_where_it_works(verb: list[str]) -> None:
+@pytest.mark.parametrize("verb", [["run", "."], ["trade", "."]])
+def test_without_locks_a_command_that_runs_a_study_says_where_it_works(verb: list[str]) -> None:
     done = python(f"{WITHOUT}from rocking.study.cli import main\nraise SystemExit(main(sys.argv[1:]))", *verb)
     assert done.returncode == 1 and done.stderr.count("\n") == 1 and "WSL" in done.stderr
+
+
+@pytest.mark.process
+@pytest.mark.parametrize(("verb", "words"), [
+    (["catalogue", "records"], "catalogue.csv: 1 record"), (["pulse", str(RECORD)], "period "),
+    (["assess", str(RECORD), "--structures", "{type: free_wall, height_m: 2, thickness_m: 0.3}"], "overturn"),
+])  # fmt: skip
+def test_without_locks_a_command_that_runs_no_study_works(
+    verb: list[str], words: str, tmp_path: Path
+) -> None:
+    (tmp_path / "records").mkdir()
+    (tmp_path / "records" / RECORD.name).write_bytes(RECORD.read_bytes())
+    verb = [str(tmp_path / each) if each == "records" else each for each in verb]
+    done = python(f"{WITHOUT}from rocking.study.cli import main\nraise SystemExit(main(sys.argv[1:]))", *verb)
+    assert done.returncode == 0 and words in done.stdout
 
 
 @pytest.mark.process
