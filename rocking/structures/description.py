@@ -214,7 +214,7 @@ def _form(of_type: Sequence[Form], keys_typed: Iterable[str], values: Mapping[st
                 raise ConfigurationError(
                     f"{key} is not a key of {kind}: a comma parts the entries within braces; write a number "
                     f"with a point, as in 3.{key}.",
-                    **{key: None},
+                    **{str(key): None},
                 )
             name = str(key) if len(str(key)) <= LONGEST_KEY else shown(key)
             raise ConfigurationError(
