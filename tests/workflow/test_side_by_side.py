@@ -15,6 +15,7 @@ import yaml
 
 from rocking.assessment.kinds import AssessmentKind
 from rocking.quantities import GRAVITY
+from rocking.reports.explore import RECORD_SCRIPT
 from rocking.structures.kinds import StructureKind
 from tests.workflow.conftest import ROOT, SmallStudy, new_study
 
@@ -209,4 +210,7 @@ def test_one_stream_of_remarks(made, pages, explored, told) -> None:
             for row in table(study, "remarks.csv", record)
             if row["kind"] == AssessmentKind.VERTICAL_MISSING
         )
-        assert row["sentence"] in missing and row["sentence"] in explored[0]
+        own = (study.results / record / RECORD_SCRIPT).read_text(encoding="utf-8")
+        content = json.loads(own.removeprefix("rockingRecord(").removesuffix(");\n"))
+        assert row["sentence"] in missing
+        assert row["sentence"] in content["warnings"], "which the page to explore loads"

@@ -102,8 +102,8 @@ def drawn_wall(draw):
         top_friction=None if draw.random() < 0.3 else float(draw.uniform(0.0, 0.5)),
     )
     courses = masonry(joints, (0.0, height), (thickness,), 19.0, wall.compressive_strength)
-    if wall.top_friction is not None:
-        courses.friction = wall.top_friction * load / 1e3
+    friction = wall.joints.friction if wall.top_friction is None else wall.top_friction
+    courses.friction = friction * load / 1e3
     courses.left, courses.right = courses.left + thickness / 2, courses.right + thickness / 2
     if wall.top_slab == "flat":
         courses.slab = load / 1e3, 0.0
