@@ -61,5 +61,4 @@ def test_a_terminal_shows_the_line_of_a_record_before_an_outcome_whose_lines_fit
 def test_a_long_target_shows_how_far_it_is(finished, tmp_path: Path) -> None:
     study = finished.copy_to(tmp_path / "study")
     done = study.rocking("run", str(study.folder), "trade")
-    assert "trade: 1 of 3: good_" in done.stdout and "trade: 3 of 3: good_" in done.stdout
-    assert "Finished: trade" in done.stdout
+    assert "trade: 1 of 3: good_" in done.stderr and "trade: 3 of 3: good_" in done.stderr
