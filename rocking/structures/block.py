@@ -117,7 +117,7 @@ class Block(Crushable):
         return result
 
     def _linkage(self, mirrored: bool) -> Turning:
-        inertia = (self.breadth**2 + self.height**2) / 12
+        inertia = (self.breadth**2 + self.height**2 * (1 + np.tan(self.lean) ** 2)) / 12
         weight = (self.unit_weight or 0.0) * self.breadth * self.height
         aside = inset(pressing=weight, strength=self.compressive_strength, breadth=self.breadth)
         centre = (1j + np.tan(-self.lean if mirrored else self.lean)) * self.height / 2

@@ -307,13 +307,12 @@ class Storey(NamedTuple):
             return (self.low + self.high) / 2
         return self.low + (self.high - self.low) * (1 + 2 * self.narrows) / (3 * (1 + self.narrows))
 
-    @property
-    def inertia(self) -> float:
-        """Its moment of inertia about its centre of mass, in weight, N m."""
+    def inertia(self, lean: float) -> float:
+        """Its moment of inertia about its centre of mass, sheared by `lean`, in weight, N m."""
         across = (self.right - self.left) ** 2 / 12
         # ∫ b z² − M z_m² of a breadth that runs from 1 to n: h²/18 (1 + 4n + n²)/(1 + n)², h²/12 of a rectangle.
         slope = (1 + 4 * self.narrows + self.narrows**2) / (1 + self.narrows) ** 2 / 18
-        return self.total * ((self.high - self.low) ** 2 * slope + across)
+        return self.total * ((self.high - self.low) ** 2 * slope * (1 + lean**2) + across)
 
 
 class Load(NamedTuple):
@@ -833,7 +832,7 @@ class HeldWall:
         centres = [
             self._seen((piece.left + piece.right) / 2, piece.middle, opening.outwards) for piece in moving
         ]
-        inertias = [piece.inertia for piece in moving]
+        inertias = [piece.inertia(self.lean) for piece in moving]
         parts = Parts(weights, centres, inertias)
         points = [self._edge(height, turn) for height, turn in opening.kinks]
         if opening.hold is not None and not opening.upright:
@@ -868,7 +867,8 @@ class HeldWall:
                 if low < piece.high:
                     centre = self._seen((piece.left + piece.right) / 2, (low + piece.high) / 2) + shift
                     mass = share * piece.weight * (piece.high - low)
-                    own = ((piece.high - low) ** 2 + (piece.right - piece.left) ** 2) / 12
+                    high = (piece.high - low) ** 2 * (1 + self.lean**2)
+                    own = (high + (piece.right - piece.left) ** 2) / 12
                     moments[place] += mass, mass * centre, mass * (abs(centre - corner) ** 2 + own)
             for place, load in enumerate(hung, start=len(moving)):
                 if load.start.imag > foot and not load.tie:

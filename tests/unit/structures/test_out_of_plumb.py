@@ -8,6 +8,7 @@ import pytest
 import rocking
 from rocking import Block, Facade
 from rocking.errors import DoesNotStandError
+from rocking.quantities import GRAVITY
 from rocking.structures.building_parts import FreeWall
 
 FRONT = Facade(
@@ -42,6 +43,12 @@ def test_a_body_that_leans_lifts_and_falls_at_what_is_left_of_its_slenderness(de
         (course,) = (
             replace(body, crack="known").stack().courses if isinstance(body, Facade) else body.stack().courses
         )
+        # p² = g R / I_O, with I_O by Gauss points over the height of the sheared section: exact for its cubic.
+        level = high / 2 * (1 + np.array([-1, 1]) / np.sqrt(3))
+        from_edge = level * np.tan(lean) - wide / 2
+        about_edge = np.mean(from_edge**2 + level**2) + wide**2 / 12
+        radius = np.hypot(from_edge.mean(), high / 2)
+        assert sides[0].frequency_parameter ** 2 == pytest.approx(GRAVITY * radius / about_edge, rel=1e-12)
         across = course.bottom[1] - course.centre[0]
         assert across / course.centre[1] == pytest.approx(outwards, rel=1e-12)
 
