@@ -46,7 +46,9 @@ class Variant:
     @property
     def shows_difference(self) -> bool:
         """Whether its share differs from that of the first by more than both err for their number of members."""
-        both = [each.conclusion.verdict for each in (self, self.first) if each and each.conclusion]
+        both = [
+            variant.conclusion.verdict for variant in (self, self.first) if variant and variant.conclusion
+        ]
         error = sum(share_error(falls=row.overturning_members, members=row.members) for row in both)
         return abs(self.share_difference) > error
 

@@ -254,7 +254,7 @@ def trials(listed: Sequence[ListedFile], lines: Mapping[str, int], layouts: Layo
     """
     peaks: dict[int, list[float]] = {}
     for file in listed:
-        known = [float(each.peak_acceleration) for each in file.channels if each.peak_acceleration]
+        known = [float(channel.peak_acceleration) for channel in file.channels if channel.peak_acceleration]
         if known and not file.refusal and file.file in lines:
             peaks.setdefault(lines[file.file], []).append(max(known))
     found = {}

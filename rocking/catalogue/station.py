@@ -167,7 +167,9 @@ def _counted_once(
     The vertical one may be among the horizontal ones, where the row names it as such: that is no copy.
     """
     distinct: list[Accelerogram] = []
-    is_apart = vertical is not None and vertical.component not in {each.component for each in horizontal}
+    is_apart = vertical is not None and vertical.component not in {
+        component.component for component in horizontal
+    }
     for channel in (*horizontal, *filter(None, [vertical if is_apart else None])):
         place = next((at for at, other in enumerate(distinct) if same_motion(channel, other)), None)
         if place is None:

@@ -140,25 +140,27 @@ def calibrated(trace: Any, inventory: Any, response: str) -> Calibrated:
 
 def _channels_at(trace: Any, inventory: Any) -> Any:
     """Return the descriptions of a trace that hold at its start."""
-    network, station, location, channel = trace.id.split(".")
-    stations = (each for net in inventory if net.code == network for each in net if each.code == station)
+    network, station, location, code = trace.id.split(".")
     return [
-        each
-        for of_station in stations
-        for each in of_station
-        if (each.code, each.location_code) == (channel, location)
-        and each.is_active(time=trace.stats.starttime)
+        channel
+        for net in inventory
+        if net.code == network
+        for site in net
+        if site.code == station
+        for channel in site
+        if (channel.code, channel.location_code) == (code, location)
+        and channel.is_active(time=trace.stats.starttime)
     ]
 
 
 def _check_epochs(trace: Any, inventory: Any) -> None:
     """Raise RecordError where a StationXML gives a channel two sensitivities or directions at one time."""
     said: dict[str, str] = {}
-    for each in _channels_at(trace, inventory):
-        if each.response and (of := each.response.instrument_sensitivity):
-            points = f"azimuth {each.azimuth:g}°" if each.azimuth is not None else "no azimuth"
+    for described in _channels_at(trace, inventory):
+        if described.response and (of := described.response.instrument_sensitivity):
+            points = f"azimuth {described.azimuth:g}°" if described.azimuth is not None else "no azimuth"
             words = f"{of.value:g} counts per {of.input_units}, {points}"
-            said.setdefault(words, f"{words} (from {each.start_date})")
+            said.setdefault(words, f"{words} (from {described.start_date})")
     if len(said) > 1:
         raise RecordError(
             f"the StationXML describes {trace.id} at {trace.stats.starttime} twice, as "
@@ -265,7 +267,9 @@ def site(trace: Any, inventory: Any) -> dict[str, Any]:
     """
     facts: dict[str, Any] = {}
     with suppress(Exception):  # obspy raises what it likes for what is not there
-        said = " ".join(note.value for each in _channels_at(trace, inventory) for note in each.comments)
+        said = " ".join(
+            note.value for described in _channels_at(trace, inventory) for note in described.comments
+        )
         is_unknown = bool(_NO_ORIENTATION.search(said))
         orientation = inventory.get_orientation(trace.id, trace.stats.starttime)
         dip = float(orientation.get("dip") or 0.0)

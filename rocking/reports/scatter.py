@@ -163,7 +163,9 @@ def _write_counts(axes: Axes, predicted: np.ndarray, integrated: np.ndarray, lat
     axes.text(_ZONE + 0.05, _END - 0.05, f"{int((falls & sees & ~late).sum())} right", va="top", **large)
     if late.any():
         note = f"{int(late.sum())} by a sine\nafter the fall"
-        axes.text(_END - 0.05, _ZONE + 0.05, note, fontsize=8.5, va="bottom", **to_the_right)
+        # Below the count, as the points fill the quadrant from its lower left corner.
+        below: dict[str, Any] = {"xytext": (0, -16), "textcoords": "offset points", "va": "top"}
+        axes.annotate(note, (_ZONE + 0.05, _END - 0.05), fontsize=8.5, bbox=paper, **below)
     axes.text(
         _ZONE + 0.05,
         low + 0.4,

@@ -429,7 +429,11 @@ class Layouts:
 
     def line_of(self, signature: Signature | None) -> int | None:
         """Return the line of layouts.csv that alone answers for tables of a signature, None where there is none."""
-        own = [] if signature is None else [each for each in self._matching(signature) if each.whose == NAME]
+        own = (
+            []
+            if signature is None
+            else [layout for layout in self._matching(signature) if layout.whose == NAME]
+        )
         return own[0].line if len(own) == 1 else None
 
     def insists(self, line: int, why: str) -> bool:

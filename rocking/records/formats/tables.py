@@ -746,7 +746,7 @@ def _claims(
         *(("time_step", rate, Where.SPOKEN, "") for rate in said.stated_steps if is_answer),
     )
     named = () if options.is_stand_in else claims_of_name(options.file)
-    return (*(Claim(*each) for each in told if each[1]), *said.claims(), *named)
+    return (*(Claim(*words) for words in told if words[1]), *said.claims(), *named)
 
 
 _MEANT = {"n": "the number of samples", "dt": "the time step", "hz": "the rate", "-": "the number of series"}
