@@ -164,7 +164,10 @@ def test_storey_of_a_gable_is_a_triangle_of_masonry():
     middle = (weights * z).sum() / total
     assert storey.total == pytest.approx(total, rel=1e-6)
     assert storey.middle == pytest.approx(middle, rel=1e-6)
-    assert storey.inertia == pytest.approx((weights * ((z - middle) ** 2 + (x + 0.2) ** 2)).sum(), rel=1e-3)
+    for lean in (0.0, 0.3):
+        across = x + 0.2 + lean * (z - middle)
+        inertia = (weights * ((z - middle) ** 2 + across**2)).sum()
+        assert storey.inertia(lean) == pytest.approx(inertia, rel=1e-3)
 
 
 @pytest.mark.parametrize("kind", SIZES)
