@@ -47,7 +47,7 @@ _OF_DIRECTION = (RecordKind.DIRECTION_UNKNOWN, RecordKind.VERTICAL_BY_NAME, Reco
 class ListedChannel:
     """One channel of a listed file, as the fields of an Accelerogram say it, without its samples.
 
-    samples: their number; shaking: up to which of them 98 % of its energy has come. peak_acceleration, peak_velocity:
+    samples: their number; shaking: those up to the end of its D5–95. peak_acceleration, peak_velocity:
     as they are listed, in g and m/s; "" where the unit or the time step is not known; PGV as a study clears the record
     by default, "" where it is too short for that.
     """

@@ -139,8 +139,8 @@ class RecordKind(Kind):
     STEPS_UNLIKE = auto(), "their time steps are {least_s:g} and {most_s:g} s"
     BEGINNINGS_UNKNOWN = auto(), "they hold {least} and {most} samples and do not all say when they begin"
     LENGTHS_UNLIKE = auto(), """The components of this record hold {least} to {most} samples, and none says when
-        it begins: they are taken to begin together, and are cut to the shortest; compare where their shaking
-        begins."""
+        it begins: they are taken to begin together, and are cut to the shortest; if they end together instead,
+        they are out of step by up to {apart_s:.3g} s, and so is what is rotated of them to another direction."""
     COMPONENT_NOT_NAMED = auto(), "{about} does not name its component"
     TOO_MANY_COMPONENTS = auto(), "it has {horizontal} horizontal and {vertical} vertical components"
     POINT_THE_SAME_WAY = auto(), "components {first} and {second} point the same way"

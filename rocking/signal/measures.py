@@ -218,9 +218,9 @@ def _largest_displacement(accelerogram: Accelerogram, period: float, damping: fl
 
 
 def end_of_shaking(acceleration: np.ndarray) -> int:
-    """Return the number of samples by which 98 % of the energy ∫a² of an `acceleration`, (n,), has come."""
+    """Return the number of samples of an `acceleration`, (n,), up to the end of its significant duration D5–95."""
     spent = np.cumsum(np.square(acceleration))
-    return int(np.searchsorted(spent, 0.98 * spent[-1])) + 1
+    return int(np.searchsorted(spent, SIGNIFICANT_SHARES[1] * spent[-1])) + 1
 
 
 LEAST_DAMPING_FACTOR = 0.55
