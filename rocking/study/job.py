@@ -129,8 +129,8 @@ class Study:
         return accelerogram
 
 
-def prepare(settings: Settings) -> None:
-    """Make what depends on each structure of a study alone, for jobs that are forked from this process.
+def prepare(settings: Settings) -> Iterator[None]:
+    """Make what depends on each structure of a study alone, one after another, for jobs forked from this process.
 
     Structures keep what they compute, and `scenes_of` gives a fork those of this process where the list is the same.
     What is wrong with the study its jobs say.
@@ -139,6 +139,7 @@ def prepare(settings: Settings) -> None:
         warnings.simplefilter("ignore")
         study = Study(scenes_of(settings.structures), settings)
         for scene in study.scenes.values():
+            yield
             with contextlib.suppress(RockingError):
                 prepare_structure(scene.structure, study.assessment, vertical=settings.vertical)
 

@@ -6,6 +6,7 @@ It is imported for what its import does: multiprocessing's fork server takes the
 import contextlib
 import gc
 import os
+import sys
 
 import yaml
 
@@ -21,6 +22,7 @@ from rocking.study.products import PRODUCTS
 from rocking.study.settings import package_sha256, read_settings
 from rocking.study.work import work_of
 
+_SCHEDULER = os.getppid()
 for product in PRODUCTS:
     with contextlib.suppress(ImportError):  # the other jobs run without its folder
         work_of(product)
@@ -29,5 +31,7 @@ with contextlib.suppress(RockingError):  # each job would compile by itself
     compile_all()
     load_all()
 with contextlib.suppress(Exception):  # what is wrong with a study its jobs report
-    prepare(read_settings(yaml.safe_load(os.environ.pop(PREPARED))))
+    for _ in prepare(read_settings(yaml.safe_load(os.environ.pop(PREPARED)))):
+        if os.getppid() != _SCHEDULER:
+            sys.exit()  # it had nothing to do
 gc.freeze()  # what stands here stays: to look for garbage in it takes a twelfth of a job

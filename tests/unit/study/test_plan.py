@@ -40,14 +40,14 @@ def _write(folder: Path, rows: str, structures: str = "", **settings: object) ->
 def test_a_job_takes_what_was_prepared_unless_the_list_was_edited(tmp_path: Path) -> None:
     settings = _write(tmp_path, "a,a.AT2,\n", "[{name: wall, type: wall, height_m: 3, thickness_m: 0.25}]")
     plan = make_plan(settings)
-    prepare(plan.settings)
+    list(prepare(plan.settings))
     wall = plan.scenes["wall"].structure
     assert wall.__dict__["_candidates"], "it keeps its cracks"
     assert make_plan(settings).scenes["wall"].structure is wall
     listed = tmp_path / "structures.yaml"
     listed.write_text(listed.read_text().replace("0.25", "0.35"))
     assert make_plan(settings).scenes["wall"].structure.thickness == 0.35  # type: ignore[attr-defined]
-    prepare(read_settings(settings | {"structures": str(tmp_path / "none.yaml")}))  # its jobs tell
+    list(prepare(read_settings(settings | {"structures": str(tmp_path / "none.yaml")})))  # its jobs tell
 
 
 def _refusal(settings: dict[str, object]) -> str:
