@@ -29,6 +29,7 @@
   const LONG = 24; // letters from which on a name has a wider column
   const SHOWN = "button:not([hidden])";
   const caseOf = (record, structure) => record.cases[structure.name];
+  const verdictOf = (each) => content.verdicts[each.cell[0]];
 
   // A new last child of `parent`, of its namespace: HTML or SVG
   function add(parent, name, attributes = {}, text = "") {
@@ -108,7 +109,8 @@
       if (!turned) [each.pga, each.pgv].forEach((peak) => add(row, "td", { class: "peak" }, rounded(peak)));
       columnOrder.forEach((c) => {
         const [record, structure] = placesOf(r, c);
-        const { verdict, cell } = caseAt(r, c);
+        const { cell } = caseAt(r, c);
+        const verdict = verdictOf(caseAt(r, c));
         const [sign, ...share] = cell.replace("\u00a0%", "").split(" ");
         const told = [verdict, ...(share.length ? [`${share.join(" ")} %`] : [])].join(", ");
         const title = `${structures[structure].name} under ${records[record].id}: ${told}`;
@@ -401,8 +403,8 @@
     const labels = [];
     ordered.forEach((each) => {
       const [east, north] = plane(each.place);
-      const { verdict, cell, text } = caseOf(each, structure);
-      const look = `${verdict.replaceAll(" ", "-")}${each === record ? " chosen" : ""}`;
+      const { cell, text } = caseOf(each, structure);
+      const look = `${verdictOf(caseOf(each, structure)).replaceAll(" ", "-")}${each === record ? " chosen" : ""}`;
       const circle = add(svg, "circle", { cx: x(east), cy: y(north), r: here.length > FEW ? 5 : 8, class: look, "data-record": records.indexOf(each) });
       add(circle, "title", {}, `${each.id} ${each.station}: ${text}`);
       labels.unshift([x(east) + 11, y(north) + 4, `${each.id} ${cell}`]);
@@ -482,7 +484,8 @@
       const script = add(document.head, "script", { src: `../${encodeURIComponent(record.id)}/RECORD_SCRIPT` });
       script.onload = done;
       script.onerror = () => {
-        Object.assign(record, { motions: {}, span: [], at_rest: "", warnings: [`Its file ${record.id}/RECORD_SCRIPT is not beside this page.`] });
+        const lost = `The folder ${record.id} is not next to that of this page, so its motions and its report cannot be shown: open summary/study.html in the folder of the results, not a copy or the page of snakemake --report.`;
+        Object.assign(record, { motions: {}, span: [], at_rest: "", warnings: [lost], lost: true });
         done();
       };
     });
@@ -512,9 +515,9 @@
     at("moves").hidden = failed;
     const still = !failed && !each.history ? "It does not lift enough to be drawn, or its motion was not kept." : "";
     // A number keeps its unit on its line
-    const facts = [each.text || each.verdict + ".", ...structure.remarks, still, ...record.warnings, ""].join(" ");
+    const facts = [each.text || verdictOf(each) + ".", ...structure.remarks, still, ...record.warnings, ""].join(" ");
     at("facts").textContent = facts.replace(/(\d) (?=[%×]|m\/s|[gms]\b)/g, "$1\u00a0");
-    add(at("facts"), "a", { href: `../${encodeURIComponent(record.id)}/report.pdf` }, "report.pdf");
+    if (!record.lost) add(at("facts"), "a", { href: `../${encodeURIComponent(record.id)}/report.pdf` }, "report.pdf");
     if (failed) return;
     const motion = record.motions[each.component];
     const span = each.history ? each.history.span : [0, motion ? motion.duration : 1];

@@ -72,7 +72,7 @@ def _cells(
             words,
             [
                 *notes.get(variant.name, ()),
-                *_changes(structures.get(variant.structure), structures[variant.name]),
+                *_changes(structures.get(variant.structure), structures[variant.name], words),
             ],
         )
         for variant in row
@@ -113,14 +113,14 @@ def _cell(
     )
 
 
-def _changes(first: Structure | None, own: Structure) -> Iterator[str]:
+def _changes(first: Structure | None, own: Structure, words: Sentences) -> Iterator[str]:
     """Yield what a variant changes of the first, as it was typed; nothing of the first itself."""
     if first is None or first is own:
         return
     before = {given.field.key: given.text for given in first.described.values}
     now = {given.field.key: given for given in own.described.values}
-    changed = [given.field.phrased(given.text) for key, given in now.items() if before.get(key) != given.text]
-    left = [f"no {key}" for key in before if key not in now]
+    changed = [words.described(given) for key, given in now.items() if before.get(key) != given.text]
+    left = [words("no {key}", key=key) for key in before if key not in now]
     if changed or left:
         yield ", ".join([*changed, *left])
 

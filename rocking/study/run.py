@@ -185,7 +185,8 @@ def _plan(folder: Path) -> Plan:
     close_doors(folder)
     if find_spec("snakemake") is None:
         raise RockingError(
-            "a study runs with snakemake, which is not installed: pip install rocking[workflow]"
+            "a study runs with snakemake, which is not installed; install the extra that has it: "
+            "pip install 'rocking[workflow]'"
         )
     settings = check_config_file(config)
     with contextlib.chdir(folder):

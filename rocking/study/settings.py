@@ -294,7 +294,8 @@ class Settings(AssessmentSettings):
     trade: StudyTrade = StudyTrade()
     reports: bool = described(
         True,
-        "whether PDF reports are written in addition to the tables",
+        "whether PDF reports are written in addition to the tables; without them a run makes no map, which rocking map "
+        "then does",
         heading=Heading.OUTPUT,
         changes_numbers=False,
     )

@@ -43,7 +43,10 @@ def start(folder: Path) -> list[Path]:
 def _with_schema(name: str, content: bytes) -> bytes:
     """Return a file of YAML below the line by which an editor finds the schema that completes and checks it."""
     schema = (workflow_folder() / "workflow" / "schemas" / f"{name}.schema.yaml").resolve()
-    return f"# yaml-language-server: $schema={schema.as_uri()}\n".encode() + content
+    note = (
+        "The line above is for editors on this machine alone; remove it where the study is moved to another."
+    )
+    return f"# yaml-language-server: $schema={schema.as_uri()}\n# {note}\n".encode() + content
 
 
 CATALOGUE = Document("catalogue", ".csv", lambda _: True)

@@ -116,16 +116,15 @@ def test_a_table_in_the_page_is_the_file(page, browser, study):
     assert [row["structure"] for row in csv.DictReader(content.decode().splitlines())] == ["pier"]
 
 
-def test_each_record_leads_to_its_strips(page, browser):
-    """Prediction against integration of a record, from the page to explore, which the page carries once."""
-    eye = button("synthetic_strong_pulse", 2)
-    link = "//a[contains(normalize-space(), 'Prediction against integration')]"
-    opened(page, browser, entry("Records"), eye, link)[0].click()
+def test_the_page_to_explore_says_where_motions_and_reports_of_records_are(page, browser):
+    """It stands within the page without the folders of the records, of which each has its motions and its report."""
     (frame,) = page("//iframe")
     browser.switch_to.frame(frame)
     try:
-        (row,) = page("//*[@id='strips']//tbody/tr[.//b[normalize-space()='pier']]")
-        assert [element.text for element in row.find_elements("css selector", "td")[1:]][2]
+        (facts,) = page(
+            "//*[@id='facts'][contains(., 'open summary/study.html in the folder of the results')]"
+        )
+        assert not facts.find_elements("css selector", "a")
     finally:
         browser.switch_to.default_content()
 

@@ -70,6 +70,7 @@ def test_the_strip_says_it_in_words(made):
     assert (first.notes, thicker.notes) == ((), ("It is checked.", "breadth 0.6 m"))
     (italian,) = strips(made, STRUCTURES, Sentences("it"))
     assert italian.cells[1].difference == "margine × 1,8, −50 punti percentuali"
+    assert italian.cells[1].notes == ("larghezza 0,6 m",), "a list would have its commas as semicolons"
     assert italian.cells[0].chip.word == "probab. ribalta"
 
 

@@ -1,6 +1,9 @@
 """What newcomers type by mistake: each is read as it was meant, or refused in one sentence that says what to do."""
 
 import pickle
+import subprocess
+import sys
+from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
@@ -14,8 +17,11 @@ from rocking.errors import CatalogueError, ConfigurationError, RecordError
 from rocking.quantities import GRAVITY
 from rocking.records import read
 from rocking.structures.kinds import StructureKind
+from rocking.study import run
 from rocking.study.cli import main
 from rocking.study.own_files import Declared, read_files
+from rocking.study.products import BY_NAME
+from rocking.study.settings import Settings
 
 STEP = 0.01
 COUNT = 4.71e-6
@@ -234,3 +240,35 @@ def test_a_pickle_is_called_one_and_obspy_is_not_advised(tmp_path: Path, protoco
     with pytest.raises(RecordError, match="pickled Python object") as caught:
         read(path)
     assert "obspy" not in str(caught.value)
+
+
+@pytest.mark.process
+def test_the_rules_of_a_study_are_those_of_a_study(study: Path, counts: Path) -> None:
+    """The package has some thirty more, about its documentation and its research."""
+    counts.rename(study / "records" / counts.name)
+    assert main(["catalogue", str(study), "--unit", f"{COUNT} m/s2"]) == 0
+    listed = subprocess.run(
+        [sys.executable, "-m", "snakemake", "--list"], cwd=study, capture_output=True, text=True, check=True
+    )
+    assert set(listed.stdout.split()) == {"all", "results", "record", "summary", *BY_NAME}
+
+
+def test_a_study_without_snakemake_names_the_extra_that_has_it(
+    study: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(run, "find_spec", lambda _name: None)
+    extra = "pip install 'rocking[workflow]'"
+    assert extra in refusal(["run", str(study)], capsys)
+    assert extra in Path("README.md").read_text(encoding="utf-8")
+
+
+def test_a_new_study_says_that_its_schemas_are_on_this_machine(study: Path) -> None:
+    for name in ("config.yaml", "structures.yaml"):
+        schema, note, *_ = (study / name).read_text(encoding="utf-8").splitlines()
+        assert "$schema=file:" in schema and "remove it where the study is moved" in note
+
+
+def test_a_study_without_reports_says_how_to_make_its_map() -> None:
+    meaning = next(item.metadata for item in fields(Settings) if item.name == "reports")
+    assert "without them a run makes no map, which rocking map then does" in str(meaning)
+    assert [name for name, product in BY_NAME.items() if product.in_every_run(Settings(reports=False))] == []
