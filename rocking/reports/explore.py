@@ -124,12 +124,7 @@ def record_content(result: RecordResult, rows: RecordRows, structures: Mapping[s
 def cells_of(content: Content) -> Content:
     """Return what a study's page holds of a `record_content`: what its cells show, and where its station is."""
     cells = {
-        name: {
-            "verdict": case["verdict"],
-            "cell": case["cell"],
-            "severity": case["severity"],
-            "moves": "history" in case,
-        }
+        name: {key: case[key] for key in ("verdict", "cell", "severity")} | {"moves": "history" in case}
         for name, case in content["cases"].items()
     }
     return {key: part for key, part in content.items() if key not in _OF_CASES} | {"cases": cells}
@@ -207,10 +202,13 @@ def explore_page(
     ]
     both: Content = {
         "against": {"title": TITLE, "heads": [[head.name, head.below] for head in HEADS]},
-        "records": _ranked(of_records, "id", worst_first((record, key) for record, _, key in cases)),
+        "verdicts": {sign: verdict for verdict, (sign, *_) in LOOKS.items()},
+        "records": _ranked(
+            map(_without_verdicts, of_records), "id", worst_first((record, key) for record, _, key in cases)
+        ),
         "structures": _ranked(of_structures, "name", worst_first((name, key) for _, name, key in cases)),
     }
-    content = json.dumps(both, allow_nan=False, separators=(",", ":"))
+    content = json.dumps(both, allow_nan=False, separators=(",", ":"), ensure_ascii=False)
     colours = "".join(
         f".{_css(verdict)} {{ background: {fill}; fill: {fill}; color: {ink};"
         f"{' border-style: dashed; stroke-dasharray: 3 2;' if hatch else ''} }}\n"
@@ -236,7 +234,8 @@ def explore_page(
         "content": content.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029"),
     }
     page = (_HERE / "explore.html").read_text(encoding="utf-8")
-    return re.sub(r"{{ (\w+) }}", lambda name: pieces[name[1]], page).encode()
+    filled = re.sub(r"{{ (\w+) }}", lambda name: pieces[name[1]], page)
+    return filled.encode(errors="backslashreplace")  # half a letter of a name becomes its escape in JSON
 
 
 def _conclusion(records: Sequence[Content]) -> str:
@@ -260,10 +259,19 @@ def _judged(records: Sequence[Content]) -> list[Content]:
     ]
 
 
-def _ranked(contents: Sequence[Content], key: str, worst: Sequence[str]) -> list[Content]:
+def _ranked(contents: Iterable[Content], key: str, worst: Sequence[str]) -> list[Content]:
     """The records or structures, each with the place of its name among the `worst` first."""
     ranks = {name: rank for rank, name in enumerate(worst)}
     return [{**content, "rank": ranks.get(content[key], len(ranks))} for content in contents]
+
+
+def _without_verdicts(record: Content) -> Content:
+    """A record without what the sign of each cell says: of many thousand cells the verdicts are a quarter of a page."""
+    cases = {
+        name: {key: value for key, value in case.items() if key != "verdict"}
+        for name, case in record["cases"].items()
+    }
+    return {**record, "cases": cases}
 
 
 def _css(verdict: Verdict) -> str:

@@ -129,7 +129,11 @@ def _documents(
     from rocking.reports.explore import explore_page  # matplotlib takes half a second to import
 
     study = job.study
-    sheets = {row_class: rows for row_class, rows in shown.items() if row_class not in _NOT_IN_THE_WORKBOOK}
+    sheets: dict[type[Row], Path | Sequence[Row]] = {
+        row_class: target / row_class.table.file_name
+        for row_class in SUMMARY_TABLES
+        if row_class not in _NOT_IN_THE_WORKBOOK
+    }
     notes: dict[str, list[str]] = {}
     for product in made:
         sheets |= {of_sheet: [*rows] for of_sheet in product.work.sheets if (rows := product.rows[of_sheet])}

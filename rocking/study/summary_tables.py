@@ -15,9 +15,11 @@ from rocking.assessment.rows import (
     ExpectedFallsRow,
     FailedCase,
     FailureRow,
+    PulseRow,
     RecordRow,
     RemarkRow,
     StructureRow,
+    SupportRow,
     VerdictRow,
     agreement_rows,
     capacity_rows,
@@ -41,6 +43,9 @@ from rocking.tables import (
     written_together,
 )
 
+ON_PAGES = (RecordRow, PulseRow, ComparisonRow, SupportRow, VerdictRow)
+"""The tables of records that the documents over all of them show; the others, far longer, are in no memory whole."""
+
 
 def write_summary(
     outcomes: Iterable[RecordOutcome],
@@ -55,8 +60,8 @@ def write_summary(
 ) -> tuple[dict[type[Row], list[Row]], list[dict[str, Any]], list[Sequence[float]], dict[str, str]]:
     """Write the tables of the summary into `target`, record by record.
 
-    reports: whether the rows, and what the page to explore and the spectra show of each record, are returned as well:
-    of thousands of records, which have no reports, they would fill the memory. variants: names of structures that
+    reports: whether the rows of ON_PAGES, and what the page to explore and the spectra show of each record, are
+    returned as well. variants: names of structures that
     stand for another one. faults: of what else stands over all records. each_unnamed: whether records that name no
     earthquake are of one each. remarks: on the study itself. scale: the block that predicts. Returned as the last are
     the hashes of the files of the records.
@@ -79,8 +84,8 @@ def write_summary(
         for outcome in outcomes:
             for row_class in of_records:
                 write[row_class](outcome.rows[row_class])
-                if reports:
-                    kept[row_class] += outcome.rows[row_class]
+            for row_class in ON_PAGES if reports else ():
+                kept[row_class] += outcome.rows[row_class]
             read += rows_of(RecordRow, outcome.rows)[:1]
             verdicts = rows_of(VerdictRow, outcome.rows)
             cases += counted_cases(rows_of(ComparisonRow, outcome.rows), verdicts)

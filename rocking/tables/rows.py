@@ -349,6 +349,17 @@ def _read_values(row_class: type[Row], path: Path, names: Collection[str]) -> It
             yield values
 
 
+def values_of(
+    row_class: type[Row], source: Path | str | Iterable[Row], names: Collection[str] | None = None
+) -> Iterator[Sequence[Any]]:
+    """Yield the values of each row of a table, from its CSV file or from rows; `names`: of these columns alone."""
+    names = row_class.table.column_names if names is None else names
+    if isinstance(source, Path | str):
+        yield from _read_values(row_class, Path(source), names)
+    else:
+        yield from ([getattr(row, name) for name in names] for row in source)
+
+
 @contextmanager
 def readable(path: Path) -> Iterator[Any]:
     """Yield the text of a regular file. Raises RockingError where it cannot be read."""
@@ -445,10 +456,7 @@ def frame(
 
     chosen = [column for column in row_class.table.columns if columns is None or column.name in set(columns)]
     names = [column.name for column in chosen]
-    if isinstance(source, Path | str):
-        rows = list(_read_values(row_class, Path(source), names))
-    else:
-        rows = [[getattr(row, name) for name in names] for row in source]
+    rows = list(values_of(row_class, source, names))
     table = pd.DataFrame(index=range(len(rows)))
     for place, column in enumerate(chosen):
         values = [row[place] for row in rows]

@@ -4,13 +4,15 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from datetime import datetime
 from io import BytesIO
+from pathlib import Path
 from typing import Any
 
 from xlsxwriter import Workbook
 
 from rocking.described import Described
 from rocking.quantities import escaped
-from rocking.tables.rows import Row
+from rocking.tables.files import regular_file
+from rocking.tables.rows import Row, values_of
 
 MOST_ROWS = 1_048_575
 """Rows below the head of a sheet; the format holds no more."""
@@ -23,10 +25,11 @@ _MADE = datetime(2000, 1, 1)
 
 
 def workbook(
-    tables: Mapping[type[Row], Sequence[Row]], title: str = "", opens_on: type[Row] | None = None
+    tables: Mapping[type[Row], Path | Sequence[Row]], title: str = "", opens_on: type[Row] | None = None
 ) -> bytes:
-    """Return a workbook of the rows of `tables`, one sheet each, behind a sheet that says what every column means.
+    """Return a workbook of `tables`, one sheet each, behind a sheet that says what every column means.
 
+    A table is its rows, or the CSV file that holds them, which is read row by row.
     A number is a number, a truth a truth, overturning (inf) the text INF, and what is missing an empty cell. A table of
     more rows than a sheet holds is left out, and the first sheet says so. opens_on: the table that is shown first; None
     for the sheet of the columns.
@@ -43,13 +46,14 @@ def workbook(
         about.set_column(place, place, width)
     about.freeze_panes(1, 0)
     line = 1
-    for kind, rows in tables.items():
-        if len(rows) > MOST_ROWS:
+    for kind, source in tables.items():
+        count = _count(source)
+        if count > MOST_ROWS:
             file = kind.table.file_name
             about.write_string(line, 0, f"{kind.table.name} has more rows than a sheet holds; read {file}.")
             line += 1
             continue
-        sheet = _add_sheet(book, bold, kind, rows)
+        sheet = _add_sheet(book, bold, kind, values_of(kind, source), count)
         if kind is opens_on:
             sheet.activate()
         for column in kind.table.columns:
@@ -67,7 +71,15 @@ def _head(column: Described) -> str:
     return f"{column.attribute} [{column.unit}]" if column.unit else column.attribute
 
 
-def _add_sheet(book: Any, bold: Any, kind: type[Row], rows: Sequence[Row]) -> Any:
+def _count(source: Path | Sequence[Row]) -> int:
+    """The number of rows of a table; in a CSV file of this package each has one line."""
+    if not isinstance(source, Path):
+        return len(source)
+    with regular_file(source) as lines:
+        return sum(1 for _ in lines) - 1
+
+
+def _add_sheet(book: Any, bold: Any, kind: type[Row], rows: Iterable[Sequence[object]], count: int) -> Any:
     columns = kind.table.columns
     sheet = book.add_worksheet(kind.table.name[:31])
     for place, column in enumerate(columns):
@@ -75,9 +87,9 @@ def _add_sheet(book: Any, bold: Any, kind: type[Row], rows: Sequence[Row]) -> An
         sheet.write_string(0, place, head, bold)
         sheet.set_column(place, place, min(len(head) + 2, _WIDEST))
     sheet.freeze_panes(1, 1)
-    for number, row in enumerate(rows, start=1):
-        _write_row(sheet, number, (getattr(row, column.name) for column in columns))
-    sheet.autofilter(0, 0, len(rows), len(columns) - 1)
+    for number, values in enumerate(rows, start=1):
+        _write_row(sheet, number, values)
+    sheet.autofilter(0, 0, count, len(columns) - 1)
     return sheet
 
 
