@@ -19,7 +19,6 @@ from rocking.assessment.decide import step as step_of
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.contacts.dynamics import STEP, follow_stack
-from rocking.contacts.dynamics import expected_seconds as seconds_of_run
 from rocking.errors import RockingError
 from rocking.records import Accelerogram
 from rocking.signal.measures import peak_velocity
@@ -193,26 +192,6 @@ def _share_of(
     except RockingError as error:
         return ContactShare(reason=str(error))
     return ContactShare(falls=falls, runs=followed)
-
-
-def expected_seconds(
-    structure: Structure, components: Sequence[Accelerogram], settings: AssessmentSettings
-) -> float:
-    """Return the processor time of contact dynamics of a structure, should it be asked, s; 0 where it never is.
-
-    components: the horizontal ones of a record, in place of the directions between them.
-    """
-    if settings.fidelity == "quick" or not stackable(structure):
-        return 0.0
-    runs = MOST_RUNS if settings.fidelity == "contact" else RUNS
-    once = [
-        seconds_of_run(stack, motion, min(step, stack.longest_step * step / STEP))
-        for part in _parts(structure)
-        for stack in _laid(part)
-        for motion in components
-        for step in STEPS
-    ]
-    return runs * float(np.mean(once)) * len(_parts(structure))
 
 
 def _laid(structure: Laid) -> Sequence[Stack | Stones]:

@@ -9,7 +9,7 @@ from pathlib import Path, PurePosixPath
 from typing import IO
 from urllib.parse import quote
 
-from rocking.catalogue.catalogue import CatalogueRecord, RecordFile, catalogue_text, load_catalogue, read_rows
+from rocking.catalogue.catalogue import CatalogueRecord, RecordFile
 from rocking.errors import RecordError
 from rocking.hashes import sha256_of_bytes
 from rocking.records.archive import archive_of, ending_of
@@ -17,7 +17,7 @@ from rocking.records.formats.by_obspy import may_be_counts
 from rocking.records.formats.layouts import NAME, Layouts
 from rocking.records.read import LARGEST_FILE, bytes_of, signature_in
 from rocking.records.traces import first_line
-from rocking.tables import read_start, write_whole
+from rocking.tables import read_start
 
 _RETRIES = 3
 _PIECE = 2**16
@@ -195,25 +195,8 @@ class _Downloader:
         return min(remaining, _SILENCE)
 
 
-def fill_hashes(path: str | Path, mirror: str | Path | None = None) -> tuple[str, ...]:
-    """Write the sha256 of each file into the rows of the catalogue at `path` that leave it blank; return their ids.
-
-    A file that is not there stays blank: opening it says so. The other cells stay as they are, and nothing is written
-    when nothing is to be filled. Raises CatalogueError for a catalogue with defects.
-    """
-    path = Path(path)
-    records = {record.id: (record, with_hashes(record, mirror)) for record in load_catalogue(path)}
-    cells = {name: {"sha256": new.sha256} for name, (old, new) in records.items() if new != old}
-    if cells:
-        rows = [row for _, row in read_rows(path)]
-        columns = list(dict.fromkeys([*rows[0], "sha256"]))
-        text = catalogue_text((row | cells.get(row["id"].strip(), {}) for row in rows), columns, like=path)
-        write_whole(path, text.encode())
-    return tuple(cells)
-
-
 def with_hashes(record: CatalogueRecord, mirror: str | Path | None = None) -> CatalogueRecord:
-    """Return `record` as it stands in the catalogue once fill_hashes has been there."""
+    """Return `record` with the sha256 of its files, also of those for which the catalogue states none."""
     hashes = [file.sha256 for file in record.files]
     for i, file in enumerate(record.files):
         with suppress(RecordError):

@@ -20,8 +20,6 @@ STEP = 5e-4
 """Time step, s: the target `stack` of docs/research says how far a rotation is then from its limit."""
 AFTERWARDS = 20.0
 """The longest time that a stack is followed on still ground, s: it then rocks by what no longer overturns it."""
-SECONDS_A_STEP = 3.5e-7
-"""Processor time of a time step for each body, s, or less; the cost announced before a run follows from it."""
 SHORTEST = 1e-6
 """Shortest time step, s."""
 
@@ -145,15 +143,6 @@ def follow_stack(
         unsolved_steps=swept,
     )
     return _with_history(response, kept[:, 1 : stack.count + 1], step, every) if every else response
-
-
-def expected_seconds(stack: Stack | Stones, motion: Accelerogram, step: float = STEP) -> float:
-    """Return the processor time of following `stack` through `motion`, at most, but for its rocking afterwards, s.
-
-    A measured time for each body and step while the ground may lift it. step: time step, s.
-    """
-    first, last = _strong(stack, motion, step)
-    return SECONDS_A_STEP * stack.count * max(last - first, 0)
 
 
 def _with_history(response: StackResponse, kept: np.ndarray, step: float, every: int) -> StackResponse:

@@ -42,8 +42,6 @@ TIME = "time [s]"
 ACCELERATION = "ground acceleration [m/s²]"
 ZERO: dict[str, Any] = {"color": "0.8", "linewidth": 0.6, "zorder": 0}
 _POINTS = 400
-_CLOSE = 0.08, 0.16
-"""Share of the map's width and height within which the ranks of pulses would stand on each other."""
 _PAPER = {"facecolor": "white", "edgecolor": "none", "pad": 0.4, "alpha": 0.85}
 """Behind a text that stands on a dark picture."""
 _STILL = 0.01

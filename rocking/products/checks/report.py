@@ -42,8 +42,6 @@ from rocking.structures import Structure
 from rocking.structures.crackable import Crackable
 from rocking.structures.structure import AS_DESCRIBED, Candidate
 
-_QUANTILE = 1.645
-"""The deviation of the normal distribution within which nine tenths lie."""
 _OFTEN = 0.1
 """Share of the records beyond which a structure that is verified is said to contradict it."""
 

@@ -8,12 +8,10 @@ import pytest
 import rocking
 from rocking import Accelerogram, Arch, ArchOnPiers, Block, Frame, LoadedWall, Spire, Verdict, Wall
 from rocking.assessment.contacts import (
-    MANY_COURSES,
     MOST_RUNS,
     RUNS,
     ContactShare,
     contact_share,
-    expected_seconds,
     stackable,
 )
 from rocking.assessment.decide import Decision, decide, step
@@ -24,11 +22,10 @@ from rocking.assessment.motions import GroundMotions, Motion, ground_motions
 from rocking.assessment.one_case import compute_case
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
-from rocking.contacts.dynamics import SECONDS_A_STEP, STEP, follow_stack
+from rocking.contacts.dynamics import STEP, follow_stack
 from rocking.errors import MotionError, StructureError
 from rocking.quantities import GRAVITY
 from rocking.structures.joints import Joints
-from rocking.structures.stack import COURSES
 from rocking.structures.structure import Candidate
 from rocking.structures.unknown_geometry import as_structure
 
@@ -311,25 +308,6 @@ def test_a_tie_that_is_too_stiff_for_the_usual_step_is_followed_at_a_shorter_one
     assert front.stack().longest_step < STEP
     share = contact_share(front, GroundMotions.of(sine(3.0)), runs=2)
     assert share.runs and not share.reason
-
-
-def test_the_cost_that_is_told_beforehand_is_that_of_its_bodies_and_steps():
-    """Of still ground none, of twice the runs twice, of what is no stack or is not asked none."""
-    motion = sine(2.0)
-    standard, contact, quick = (
-        AssessmentSettings(fidelity=choice) for choice in ("standard", "contact", "quick")
-    )
-    cost = expected_seconds(SPIRE, [motion], standard)
-    steps = round(np.ptp(np.flatnonzero(motion.acceleration)) * motion.time_step / STEP)
-    mean = (COURSES + MANY_COURSES) / 2 * (7 + 2) / 8  # courses; every eighth run has twice the steps
-    assert cost == pytest.approx(
-        RUNS * SECONDS_A_STEP * mean * steps, rel=0.1
-    )  # weak ends of the motion count as still
-    assert expected_seconds(SPIRE, [motion], contact) == pytest.approx(cost * MOST_RUNS / RUNS)
-    assert expected_seconds(SPIRE, [motion.scaled(1e-6)], standard) == 0
-    assert (
-        expected_seconds(SPIRE, [motion], quick) == expected_seconds(Block(2.0, 0.2), [motion], standard) == 0
-    )
 
 
 def test_one_rigid_body_is_left_to_its_members():

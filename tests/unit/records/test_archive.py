@@ -11,7 +11,7 @@ import pytest
 
 from rocking.catalogue import load_catalogue
 from rocking.catalogue.catalogue import catalogue_text
-from rocking.catalogue.files import fill_hashes, local_files
+from rocking.catalogue.files import local_files, with_hashes
 from rocking.catalogue.folder import catalogue_of_folder, list_folder
 from rocking.catalogue.station import open_station
 from rocking.errors import RecordError
@@ -53,8 +53,7 @@ def test_a_catalogue_names_the_members_and_a_study_opens_them(tmp_path):
     assert [file.file for file in listed] == names and rows[0]["file"] == ";".join(names)
     catalogue = tmp_path / "catalogue.csv"
     catalogue.write_text(catalogue_text([row | {"sha256": ""} for row in rows]), encoding="utf-8")
-    assert fill_hashes(catalogue)
-    (record,) = load_catalogue(catalogue)
+    record = with_hashes(load_catalogue(catalogue)[0])
     assert record.sha256 == rows[0]["sha256"]
     assert len(open_station(record).horizontal) == 2
     assert local_files(record) == [tmp_path / "peer.zip"]
