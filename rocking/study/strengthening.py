@@ -4,7 +4,6 @@ import math
 import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import chdir
-from dataclasses import dataclass
 from pathlib import Path
 
 from rocking.assessment.scene import Scene
@@ -18,16 +17,16 @@ from rocking.quantities import counted, shown
 from rocking.records import Accelerogram
 from rocking.reports.panels import svg_of
 from rocking.reports.style import PICTURE
-from rocking.strengthening import Strengthening, Tried, size_named, sizes, strengthen_scene
+from rocking.strengthening import Strengthening, size_named, sizes, strengthen_scene
 from rocking.structures.fields import Field
 from rocking.study.job import Study
 from rocking.study.plan import check_config_file, config_file, make_plan
 from rocking.study.selection import joined_by_station, opened, pool_of
 from rocking.tables import (
-    Columns,
     Document,
-    RowOf,
+    Row,
     check_target,
+    column,
     document_of,
     row,
     write_rows,
@@ -38,103 +37,37 @@ from rocking.tables import (
 _RANGE = re.compile(r"\s*([^.\s][^\s]*?)\s*\.\.\s*(\S+)\s*")
 
 
-@dataclass(frozen=True)
-class _TriedValue:
-    """One value of a structure that was tried. found: what was found of all of them."""
-
-    structure: str
-    found: Strengthening
-    tried: Tried
-
-    @property
-    def is_given(self) -> bool:
-        """Whether it is that of the structure as it is given."""
-        return self.tried is self.found.given
-
-    @property
-    def slides(self) -> bool:
-        """Whether it is left out because it slides."""
-        return not self.is_given and self.tried not in self.found.decided
-
-    @property
-    def holds(self) -> bool:
-        """Whether it and all larger ones that are decided can be shown to hold."""
-        return self.found.holds(self.tried)
-
-    @property
-    def stations(self) -> int:
-        """The number of stations under which it was followed."""
-        return int(self.tried.followed.sum())
-
-    @property
-    def earthquakes(self) -> int:
-        """The number of earthquakes of all that count."""
-        return self.found.sample.earthquakes
-
-    @property
-    def still_stations(self) -> int:
-        """The number of those at which nothing lifts it."""
-        return self.found.still
-
-    @property
-    def share_low(self) -> float:
-        """The lower bound of the share that overturns."""
-        return self.tried.interval[0]
-
-    @property
-    def share_high(self) -> float:
-        """Its upper bound."""
-        return self.tried.interval[1]
-
-
-of_tried = Columns(_TriedValue)
-
-
 @row("strengthening")
-class StrengtheningRow(RowOf[_TriedValue]):
+class StrengtheningRow(Row):
     """One row per value that was tried, below the structure as it is given; written by rocking strengthen."""
 
-    structure: str = of_tried("Name of the structure", lambda of: of.structure)
-    key: str = of_tried("Key of the list of structures that is varied", lambda of: of.found.field.key)
-    value: float = of_tried(
+    structure: str = column("Name of the structure")
+    key: str = column("Key of the list of structures that is varied")
+    value: float = column(
         "Value, in the unit at the end of its key; empty where the structure states none",
-        lambda of: float(of.found.field.outward(of.tried.value)),
         unit="that of the key",
     )
-    is_given: bool = of_tried("Whether this is the structure as it is given", lambda of: of.is_given)
-    holds: bool = of_tried(
-        "Whether this value and all larger ones can be shown to hold",
-        lambda of: of.holds,
+    is_given: bool = column("Whether this is the structure as it is given")
+    holds: bool = column("Whether this value and all larger ones can be shown to hold")
+    overturning_share: float = column(
+        "Share that overturns, the mean over the stations; what cannot be told counts as 1"
     )
-    overturning_share: float = of_tried(
-        "Share that overturns, the mean over the stations; what cannot be told counts as 1",
-        lambda of: of.tried.share,
+    share_low: float = column("Its lower one-sided 90 % bound, by earthquakes")
+    share_high: float = column("Its upper one-sided 90 % bound, by earthquakes")
+    target_share: float = column("Share that may overturn")
+    stations: int = column(
+        "Number of stations under which this value was followed; one that cannot be shown to hold any more is given up"
     )
-    share_low: float = of_tried("Its lower one-sided 90 % bound, by earthquakes", lambda of: of.share_low)
-    share_high: float = of_tried("Its upper one-sided 90 % bound, by earthquakes", lambda of: of.share_high)
-    target_share: float = of_tried("Share that may overturn", lambda of: of.found.target)
-    stations: int = of_tried(
-        "Number of stations under which this value was followed; one that cannot be shown to hold any more is given up",
-        lambda of: of.stations,
+    earthquakes: int = column("Number of earthquakes of all stations that count")
+    still_stations: int = column(
+        "Number of further stations at which nothing lifts it with any value, which do not count"
     )
-    earthquakes: int = of_tried("Number of earthquakes of all stations that count", lambda of: of.earthquakes)
-    still_stations: int = of_tried(
-        "Number of further stations at which nothing lifts it with any value, which do not count",
-        lambda of: of.still_stations,
+    slides: bool = column(
+        "Whether the value is left out because it slides before it lifts and nothing can be shown"
     )
-    slides: bool = of_tried(
-        "Whether the value is left out because it slides before it lifts and nothing can be shown",
-        lambda of: of.slides,
-    )
-    undecided: int = of_tried(
-        "Number of components under which it cannot be told", lambda of: of.tried.undecided
-    )
-    governing: str = of_tried("The crack that overturns most often", lambda of: of.tried.governing)
-    static_tie: float = of_tried(
-        "Least strength of a tie by the linear check of the code",
-        lambda of: of.found.static_tie / 1e3,
-        unit="kN/m",
-    )
+    undecided: int = column("Number of components under which it cannot be told")
+    governing: str = column("The crack that overturns most often")
+    static_tie: float = column("Least strength of a tie by the linear check of the code", unit="kN/m")
 
 
 _CASES = Document(
@@ -199,8 +132,27 @@ def write_strengthening(
 
 
 def _rows(structure: str, found: Strengthening) -> Iterator[StrengtheningRow]:
-    for trial in (found.given, *found.tried):
-        yield StrengtheningRow.of(_TriedValue(structure, found, trial))
+    for tried in (found.given, *found.tried):
+        is_given = tried is found.given
+        share_low, share_high = tried.interval
+        yield StrengtheningRow(
+            structure=structure,
+            key=found.field.key,
+            value=float(found.field.outward(tried.value)),
+            is_given=is_given,
+            holds=found.holds(tried),
+            overturning_share=tried.share,
+            share_low=share_low,
+            share_high=share_high,
+            target_share=found.target,
+            stations=int(tried.followed.sum()),
+            earthquakes=found.sample.earthquakes,
+            still_stations=found.still,
+            slides=not is_given and tried not in found.decided,
+            undecided=tried.undecided,
+            governing=tried.governing,
+            static_tie=found.static_tie / 1e3,
+        )
 
 
 def _scene(scenes: Mapping[str, Scene], name: str, path: str) -> Scene:

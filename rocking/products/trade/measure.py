@@ -18,7 +18,7 @@ from rocking.assessment.settings import AssessmentSettings
 from rocking.earthquakes.sample import Sample, interval_words
 from rocking.errors import PulseError, RockingError
 from rocking.motion import integrate
-from rocking.products.trade.rows import TimedAnswer, TradeMethod, TradeRow, TriedMethod
+from rocking.products.trade.rows import TimedAnswer, TradeMethod, TradeRow, trade_row
 from rocking.pulses import DEMAND_CANDIDATES, PulseEvidence, extract_pulses
 from rocking.pulses.pulse import DOMINATES
 from rocking.quantities import counted
@@ -106,7 +106,7 @@ def trade(
     machine = machine_in_words()
     sample = Sample.of(tried, each_unnamed=each_unnamed)
     return [
-        TradeRow.of(TriedMethod(method, structure, answers[method, structure], machine, sample))
+        trade_row(method, structure, answers[method, structure], machine, sample)
         for structure in ("", *mechanisms)
         for method in TradeMethod
         if (method, structure) in answers
