@@ -5,8 +5,7 @@ from html import escape
 from pathlib import Path
 from traceback import print_exception
 
-from rocking.assessment.case import Failure
-from rocking.assessment.rows import FailedCase, FailureRow
+from rocking.assessment.rows import FailureRow
 from rocking.errors import fault_in_words
 from rocking.reports.pages import Part, PlainPage
 from rocking.reports.printing import Figures, write_document
@@ -36,7 +35,7 @@ def made_or_failed(
         print_exception(fault)
         sentence = fault_in_words(fault, log, path.name)
         write_reason(path, [sentence], figures)
-        return [FailureRow.of(FailedCase(record, "", "", Failure("document", sentence)))]
+        return [FailureRow(record=record, stage="document", message=sentence)]
 
 
 def write_reason(path: Path, sentences: list[str], figures: Figures = "none") -> None:
@@ -47,9 +46,7 @@ def write_reason(path: Path, sentences: list[str], figures: Figures = "none") ->
     elif path.suffix == ".svg":
         write_whole(path, svg(new_figure(20)).encode())
     elif path.suffix == ".xlsx":
-        rows = [
-            FailureRow.of(FailedCase("", "", "", Failure("document", sentence))) for sentence in sentences
-        ]
+        rows = [FailureRow(stage="document", message=sentence) for sentence in sentences]
         write_whole(path, workbook({FailureRow: rows}))
     else:
         parts = (Part(sentences=tuple(sentences)),)

@@ -16,7 +16,6 @@ from rocking.assessment.cracks import prepare_structure
 from rocking.assessment.methods import NEGLIGIBLE
 from rocking.assessment.one_case import Clock
 from rocking.assessment.rows import (
-    FailedCase,
     FailureRow,
     HistoryRow,
     RecordRows,
@@ -199,8 +198,8 @@ def costs_no_other(
         raise
     except Exception as fault:
         print_exception(fault)
-        failure = Failure("fault", fault_in_words(fault, log, where))
-        faults.append(FailureRow.of(FailedCase(record, "", structure, failure)))
+        sentence = fault_in_words(fault, log, where)
+        faults.append(FailureRow(record=record, structure=structure, stage="fault", message=sentence))
 
 
 def write_record(result: RecordResult, record: CatalogueRecord, study: Study, log: Path) -> None:

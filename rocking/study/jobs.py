@@ -11,7 +11,7 @@ from traceback import print_exception
 from rocking.assessment.case import Failure, RecordResult
 from rocking.assessment.cores import on_cores
 from rocking.assessment.one_case import Clock
-from rocking.assessment.rows import FailedCase, FailureRow
+from rocking.assessment.rows import FailureRow
 from rocking.assessment.store import RecordStore
 from rocking.catalogue import CatalogueRecord
 from rocking.errors import RockingError, fault_in_words
@@ -133,5 +133,5 @@ def _say_why_not(job: Job, sentence: str) -> None:
             write_reason(path, [sentence])
         else:
             write_whole(path, b"")
-    fault = FailureRow.of(FailedCase("", "", "", Failure(job.rule, sentence)))
+    fault = FailureRow(stage=job.rule, message=sentence)
     keep_rows(job.kept, {row_class: [] for row_class in work.shown} | {FailureRow: [fault]})

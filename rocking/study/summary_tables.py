@@ -5,7 +5,6 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
-from rocking.assessment.case import Failure
 from rocking.assessment.rows import (
     RECORD_TABLES,
     SUMMARY_TABLES,
@@ -13,7 +12,6 @@ from rocking.assessment.rows import (
     CapacityRow,
     ComparisonRow,
     ExpectedFallsRow,
-    FailedCase,
     FailureRow,
     PulseRow,
     RecordRow,
@@ -122,4 +120,4 @@ def failures_of_structure(faults: list[Row], name: str) -> Iterator[None]:
         with one_structure(name):
             yield
     except RockingError as error:
-        faults.append(FailureRow.of(FailedCase("", "", name, Failure("summary", str(error)))))
+        faults.append(FailureRow(structure=name, stage="summary", message=str(error)))

@@ -21,7 +21,6 @@ from rocking.assessment.rows.of_record import RATIO_COLUMNS as RATIO_COLUMNS
 from rocking.assessment.rows.of_record import RECORD_TABLES as RECORD_TABLES
 from rocking.assessment.rows.of_record import ComparedCase as ComparedCase
 from rocking.assessment.rows.of_record import ComparisonRow as ComparisonRow
-from rocking.assessment.rows.of_record import FailedCase as FailedCase
 from rocking.assessment.rows.of_record import FailureRow as FailureRow
 from rocking.assessment.rows.of_record import HistoryRow as HistoryRow
 from rocking.assessment.rows.of_record import MechanismRow as MechanismRow
@@ -29,7 +28,6 @@ from rocking.assessment.rows.of_record import OfStructure as OfStructure
 from rocking.assessment.rows.of_record import RecordRows as RecordRows
 from rocking.assessment.rows.of_record import RemarkRow as RemarkRow
 from rocking.assessment.rows.of_record import SupportRow as SupportRow
-from rocking.assessment.rows.of_record import TimedStage as TimedStage
 from rocking.assessment.rows.of_record import TimingRow as TimingRow
 from rocking.assessment.rows.of_record import VariationRow as VariationRow
 from rocking.assessment.rows.of_record import VerdictRow as VerdictRow
@@ -39,7 +37,6 @@ from rocking.assessment.rows.of_record import rows_of_record as rows_of_record
 from rocking.assessment.rows.of_record import worst_period_each as worst_period_each
 from rocking.assessment.rows.of_study import SUMMARY_TABLES as SUMMARY_TABLES
 from rocking.assessment.rows.of_study import AgreementRow as AgreementRow
-from rocking.assessment.rows.of_study import CountedFalls as CountedFalls
 from rocking.assessment.rows.of_study import ExpectedFallsRow as ExpectedFallsRow
 from rocking.assessment.rows.of_study import SpectrumRow as SpectrumRow
 from rocking.assessment.rows.of_study import agreement_rows as agreement_rows

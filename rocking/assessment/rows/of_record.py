@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
@@ -40,12 +40,11 @@ from rocking.remarks import Kind, Remark
 from rocking.sine_pulse import Regime
 from rocking.structures.linkage import Reaction
 from rocking.structures.structure import Candidate
-from rocking.tables import Columns, Row, RowOf, row
+from rocking.tables import Columns, Row, column, row
 
 if TYPE_CHECKING:  # else who reads a table would load numba
     from rocking.assessment.case import (
         CaseResult,
-        Failure,
         PeriodResult,
         RecordResult,
         Variation,
@@ -661,53 +660,23 @@ def candidate_cases(period_result: "PeriodResult", identity: Identity) -> Iterat
             yield CandidateCase(identity, period_result, candidate, governs, own, check, hold, place)
 
 
-@dataclass(frozen=True)
-class OfCase:
-    """Anything about one structure under one component of one record; each of the three is "" for all."""
-
-    record: str
-    component: str
-    structure: str
-    support_period: float | None = field(default=None, kw_only=True)
-
-
-P = TypeVar("P", bound=OfCase)
-of_any_case = Columns(OfCase)
-
-
 @row()
-class AnyCaseRow(RowOf[P]):
-    """A row about a case, which may not have begun."""
+class AnyCaseRow(Row):
+    """A row about a case, which may not have begun; of each of the first three "" for all."""
 
-    record: str = of_any_case(RECORD, lambda of: of.record)
-    component: str = of_any_case(COMPONENT, lambda of: of.component)
-    structure: str = of_any_case(STRUCTURE, lambda of: of.structure)
-    support_period_s: float | None = of_any_case(SUPPORT_PERIOD, lambda of: of.support_period)
-
-
-@dataclass(frozen=True, kw_only=True)
-class HistoryStep(OfCase):
-    """One step of a response that keeps its history."""
-
-    time: float
-    rotation: float
-    angular_velocity: float
-
-
-of_step = Columns(HistoryStep)
+    record: str = column(RECORD, default="")
+    component: str = column(COMPONENT, default="")
+    structure: str = column(STRUCTURE, default="")
+    support_period_s: float | None = column(SUPPORT_PERIOD, default=None)
 
 
 @row("histories")
-class HistoryRow(AnyCaseRow[HistoryStep]):
+class HistoryRow(AnyCaseRow):
     """One row per component, structure and step: the rotation as it was integrated, until it overturns."""
 
-    time_s: float = of_step("Time after the first sample", lambda step: step.time)
-    rotation_rad: float = of_step(
-        "Rotation, signed by the side; zero before uplift", lambda step: step.rotation
-    )
-    angular_velocity_rad_s: float = of_step(
-        "Angular velocity, at an impact the one after it", lambda step: step.angular_velocity
-    )
+    time_s: float = column("Time after the first sample")
+    rotation_rad: float = column("Rotation, signed by the side; zero before uplift")
+    angular_velocity_rad_s: float = column("Angular velocity, at an impact the one after it")
 
 
 def history_rows(
@@ -724,93 +693,52 @@ def history_rows(
             strict=True,
         )
         for time, rotation, angular_velocity in steps:
-            step = HistoryStep(
-                record,
-                component,
-                structure,
-                support_period=period,
-                time=time,
-                rotation=rotation,
-                angular_velocity=angular_velocity,
+            yield HistoryRow(
+                record=record,
+                component=component,
+                structure=structure,
+                support_period_s=period,
+                time_s=time,
+                rotation_rad=rotation,
+                angular_velocity_rad_s=angular_velocity,
             )
-            yield HistoryRow.of(step)
-
-
-@dataclass(frozen=True)
-class FailedCase(OfCase):
-    """A stage that gave no result."""
-
-    failure: "Failure"
-
-
-of_failure = Columns(FailedCase)
 
 
 @row("failures")
-class FailureRow(AnyCaseRow[FailedCase]):
+class FailureRow(AnyCaseRow):
     """One row per record or structure that gave no result, and why."""
 
-    stage: str = of_failure("Stage that failed", lambda of: of.failure.stage)
-    message: str = of_failure(
-        "Sentence: what is wrong, what is allowed, what to do", lambda of: of.failure.message
-    )
-
-
-@dataclass(frozen=True)
-class Remarked:
-    """A remark in a study. record: under which; "" of the study itself. about: what the table says it is about."""
-
-    record: str
-    about: str
-    remark: Remark
-
-    @property
-    def sentence(self) -> str:
-        """The remark in words."""
-        return str(self.remark)
-
-
-of_remark = Columns(Remarked)
+    stage: str = column("Stage that failed")
+    message: str = column("Sentence: what is wrong, what is allowed, what to do")
 
 
 @row("remarks")
-class RemarkRow(RowOf[Remarked]):
+class RemarkRow(Row):
     """One row per remark on a record, a structure or a setting; those of the study itself name no record."""
 
-    record: str = of_remark(f"{RECORD}; empty: of the study itself", lambda of: of.record)
-    about: str = of_remark(
-        "What it is about: a component, a structure, a size of it or a setting", lambda of: of.about
-    )
-    kind: Kind = of_remark("Kind of the remark", lambda of: of.remark.kind)
-    sentence: str = of_remark("The remark in words", lambda of: of.sentence)
+    record: str = column(f"{RECORD}; empty: of the study itself")
+    about: str = column("What it is about: a component, a structure, a size of it or a setting")
+    kind: Kind = column("Kind of the remark")
+    sentence: str = column("The remark in words")
+
+    @classmethod
+    def on(cls, remark: Remark, record: str = "", about: str = "") -> "RemarkRow":
+        """Return the row of a remark. about: where this is not what the remark itself says."""
+        return cls(record=record, about=about or remark.about, kind=remark.kind, sentence=str(remark))
 
     @classmethod
     def of_study(cls, remarks: Iterable[Remark]) -> "list[RemarkRow]":
         """Return the rows of what there is to say of a study before it meets a record."""
-        return [cls.of(Remarked("", remark.about, remark)) for remark in remarks]
-
-
-@dataclass(frozen=True)
-class TimedStage:
-    """The CPU time of one stage of a record, s."""
-
-    record: str
-    stage: str
-    duration: float
-
-
-of_stage = Columns(TimedStage)
+        return [cls.on(remark) for remark in remarks]
 
 
 @row("timings")
-class TimingRow(RowOf[TimedStage]):
+class TimingRow(Row):
     """One row per record and stage; differs between runs of the same input."""
 
-    record: str = of_stage(RECORD, lambda timed: timed.record)
-    stage: str = of_stage(
-        "Stage of the work, or a method within the stage responses", lambda timed: timed.stage
-    )
-    duration_s: float = of_stage("CPU time", lambda timed: timed.duration)
+    record: str = column(RECORD)
+    stage: str = column("Stage of the work, or a method within the stage responses")
+    duration_s: float = column("CPU time")
 
 
 @dataclass(frozen=True)
@@ -851,40 +779,41 @@ RECORD_TABLES: tuple[type[Row], ...] = tuple(RecordRows().tables)
 
 @contextmanager
 def _as_failures(
-    failures: list[FailedCase], identity: Identity, period_result: "PeriodResult"
+    failures: list[FailureRow], identity: Identity, period_result: "PeriodResult"
 ) -> Iterator[None]:
     """Add why the rows of one structure that are made within could not be, to `failures`."""
     try:
         with one_structure(period_result.structure):
             yield
     except RockingError as error:
-        from rocking.assessment.case import Failure  # as above
-
-        failure = Failure("rows", str(error))
-        period = period_result.support_period_s
-        of_case = FailedCase(
-            identity.record, identity.component, period_result.structure, failure, support_period=period
+        failures.append(
+            FailureRow(
+                record=identity.record,
+                component=identity.component,
+                structure=period_result.structure,
+                support_period_s=period_result.support_period_s,
+                stage="rows",
+                message=str(error),
+            )
         )
-        failures.append(of_case)
 
 
-def _remarked(result: "RecordResult", vertical: bool) -> list[Remarked]:
+def _remarked(result: "RecordResult", vertical: bool) -> list[RemarkRow]:
     """The remarks on the files of a record and on what was integrated under it, each once."""
     record = result.record
     remarked = [
-        Remarked(record, remark.about or name, remark)
+        RemarkRow.on(remark, record, remark.about or name)
         for name, accelerogram in zip(result.names, result.accelerograms, strict=True)
         for remark in accelerogram.warnings
     ]
     if vertical and result.components and not any(component.vertical for component in result.components):
-        remarked.append(Remarked(record, "vertical", Remark(AssessmentKind.VERTICAL_MISSING, record)))
+        remarked.append(RemarkRow.on(Remark(AssessmentKind.VERTICAL_MISSING, record), record, "vertical"))
     remarked += [
-        Remarked(record, structure, response.warning)
+        RemarkRow.on(response.warning, record, structure)
         for (_, structure, _), response in result.responses.items()
         if response.warning
     ]
-    first = {(remark.about, str(remark.remark)): remark for remark in reversed(remarked)}
-    return [remark for remark in remarked if first[remark.about, str(remark.remark)] is remark]
+    return list(dict.fromkeys(remarked))
 
 
 def rows_of_record(
@@ -912,7 +841,10 @@ def rows_of_record(
     by_component = dict(zip(result.names, identities, strict=True))
     comparison: list[ComparisonRow] = []
     variations: list[VariationRow] = []
-    failures = [FailedCase(record, component, "", failure) for component, failure in result.failures]
+    failures = [
+        FailureRow(record=record, component=component, stage=failure.stage, message=failure.message)
+        for component, failure in result.failures
+    ]
     if identities:
         by_component[BOTH_COMPONENTS] = replace(identities[0], component=BOTH_COMPONENTS)
     for component, identity in by_component.items():
@@ -926,12 +858,13 @@ def rows_of_record(
                     for variation in case.variations
                 ]
             failures += [
-                FailedCase(
-                    record,
-                    identity.component,
-                    period_result.structure,
-                    failure,
-                    support_period=period_result.support_period_s,
+                FailureRow(
+                    record=record,
+                    component=identity.component,
+                    structure=period_result.structure,
+                    support_period_s=period_result.support_period_s,
+                    stage=failure.stage,
+                    message=failure.message,
                 )
                 for failure in case.failures
             ]
@@ -950,9 +883,11 @@ def rows_of_record(
         pulses=[PulseRow.of(found) for component in components for found in pulses_found(*component)],
         comparison=comparison,
         variations=variations,
-        failures=[FailureRow.of(failure) for failure in failures],
-        remarks=[RemarkRow.of(remark) for remark in _remarked(result, vertical)],
-        timings=[TimingRow.of(TimedStage(record, *stage)) for stage in result.durations.items()],
+        failures=failures,
+        remarks=_remarked(result, vertical),
+        timings=[
+            TimingRow(record=record, stage=stage, duration_s=cpu) for stage, cpu in result.durations.items()
+        ],
         verdicts=verdicts,
         mechanisms=mechanisms,
         supports=[SupportRow.of(support) for support in structures_carried(result, by_component)],

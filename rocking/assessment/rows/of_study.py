@@ -1,10 +1,7 @@
 """Rows about a whole study: its counts and its spectrum."""
 
 import math
-from collections import Counter
 from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from functools import cached_property
 from itertools import product
 from statistics import median
 
@@ -14,7 +11,7 @@ from rocking.assessment.rows import of_inputs as inputs
 from rocking.assessment.rows import of_record as rows
 from rocking.earthquakes.sample import MADE, TAIL, UNNAMED, Sample
 from rocking.records import Accelerogram
-from rocking.tables import Columns, Row, RowOf, row
+from rocking.tables import Row, column, row
 
 
 def named_records(
@@ -51,128 +48,34 @@ def counted_apart(
     return (recorded, beside) if recorded else (beside, [])
 
 
-@dataclass(frozen=True, eq=False)
-class CountedCases:
-    """The cases of one structure ("": of all) that have both ratios.
-
-    names: station and earthquake of each record. made: whether they are those under made records.
-    """
-
-    structure: str
-    cases: Sequence[rows.ComparisonRow]
-    names: Mapping[str, tuple[str, str]]
-    made: bool = False
-
-    @cached_property
-    def sample(self) -> Sample:
-        """Of the cases."""
-        return Sample.named(self.names.get(row.record, (row.record, UNNAMED)) for row in self.cases)
-
-    @cached_property
-    def within_bounds(self) -> tuple[float, float]:
-        """The 90 % interval, by earthquakes, of the share of those that rock in both with a ratio from 1/2 to 2."""
-        both_rock = [place for place, row in enumerate(self.cases) if row.within_factor_two is not None]
-        if not both_rock:
-            return math.nan, math.nan
-        sample = self.sample.of_records(np.array(both_rock))
-        within = sample.by_station(
-            np.array([float(bool(self.cases[place].within_factor_two)) for place in both_rock])
-        )
-        low, high = sample.share_bounds(within)
-        return float(low), float(high)
-
-    @property
-    def within_factor_two_low(self) -> float:
-        """The lower end."""
-        return self.within_bounds[0]
-
-    @property
-    def within_factor_two_high(self) -> float:
-        """The upper end."""
-        return self.within_bounds[1]
-
-    @property
-    def stations(self) -> int:
-        """The number of stations of these cases."""
-        return self.sample.count
-
-    @property
-    def earthquakes(self) -> int:
-        """The number of their earthquakes."""
-        return self.sample.earthquakes
-
-    @property
-    def overturning(self) -> int:
-        """How many overturn in the integration."""
-        return sum(math.isinf(row.integrated_rotation_ratio) for row in self.cases)
-
-    @cached_property
-    def agreements(self) -> Counter[str]:
-        """How many falls the closed form sees (hits), how many not (misses); how many it sees alone (false_alarms)."""
-        hits = sum(row.sees_fall for row in self.cases)
-        false = sum(
-            row.integrated_rotation_ratio < row.predicted_rotation_ratio == math.inf for row in self.cases
-        )
-        return Counter(hits=hits, misses=self.overturning - hits, false_alarms=false)
-
-    @property
-    def rock_ratios(self) -> list[float]:
-        """Predicted over integrated rotation of those that rock in both."""
-        both_rock = (row for row in self.cases if row.within_factor_two is not None)
-        return [row.predicted_rotation_ratio / row.integrated_rotation_ratio for row in both_rock]
-
-
-of_cases = Columns(CountedCases)
-
-
 @row("agreement")
-class AgreementRow(RowOf[CountedCases]):
+class AgreementRow(Row):
     """One row per structure and one for all: the closed form under the dominant pulse against the full integration.
 
     A structure on a support counts once under each component, at the period that its verdict takes.
     """
 
-    structure: str = of_cases(
-        "Name of the structure in the structure list; empty for all together", lambda of: of.structure
+    structure: str = column("Name of the structure in the structure list; empty for all together")
+    made: bool = column(
+        "Whether of the made records alone, which no other row counts together with recorded ones"
     )
-    made: bool = of_cases(
-        "Whether of the made records alone, which no other row counts together with recorded ones",
-        lambda of: of.made,
+    records: int = column("Number of records")
+    stations: int = column("Number of stations of these")
+    earthquakes: int = column("Number of earthquakes of these; what names none counts as of one")
+    cases: int = column("Number of cases with a prediction and an integration")
+    both_rock: int = column("Number of cases in which both rock")
+    within_factor_two: int = column("Number of these with a ratio between 1/2 and 2")
+    within_factor_two_low: float = column(
+        "Lower end of the 90 % interval of the share of these, by earthquakes; 0 to 1 of one earthquake"
     )
-    records: int = of_cases("Number of records", lambda of: len({row.record for row in of.cases}))
-    stations: int = of_cases("Number of stations of these", lambda of: of.stations)
-    earthquakes: int = of_cases(
-        "Number of earthquakes of these; what names none counts as of one", lambda of: of.earthquakes
+    within_factor_two_high: float = column("Its upper end")
+    median_ratio: float = column("Median of predicted over integrated rotation where both rock")
+    overturning: int = column("Number of cases that overturn in the integration")
+    overturning_hits: int = column(
+        "Number of these that the closed form sees: it overturns by a pulse that begins before the fall"
     )
-    cases: int = of_cases("Number of cases with a prediction and an integration", lambda of: len(of.cases))
-    both_rock: int = of_cases("Number of cases in which both rock", lambda of: len(of.rock_ratios))
-    within_factor_two: int = of_cases(
-        "Number of these with a ratio between 1/2 and 2",
-        lambda of: sum(bool(row.within_factor_two) for row in of.cases),
-    )
-    within_factor_two_low: float = of_cases(
-        "Lower end of the 90 % interval of the share of these, by earthquakes; 0 to 1 of one earthquake",
-        lambda of: of.within_factor_two_low,
-    )
-    within_factor_two_high: float = of_cases("Its upper end", lambda of: of.within_factor_two_high)
-    median_ratio: float = of_cases(
-        "Median of predicted over integrated rotation where both rock",
-        lambda of: median(of.rock_ratios) if of.rock_ratios else math.nan,
-    )
-    overturning: int = of_cases(
-        "Number of cases that overturn in the integration",
-        lambda of: of.overturning,
-    )
-    overturning_hits: int = of_cases(
-        "Number of these that the closed form sees: it overturns by a pulse that begins before the fall",
-        lambda of: of.agreements["hits"],
-    )
-    overturning_misses: int = of_cases(
-        "Number of these that it does not see", lambda of: of.agreements["misses"]
-    )
-    overturning_false_alarms: int = of_cases(
-        "Number of cases that overturn in the closed form alone", lambda of: of.agreements["false_alarms"]
-    )
+    overturning_misses: int = column("Number of these that it does not see")
+    overturning_false_alarms: int = column("Number of cases that overturn in the closed form alone")
 
 
 def agreement_rows(
@@ -191,47 +94,66 @@ def agreement_rows(
         if not (math.isnan(row.predicted_rotation_ratio) or math.isnan(row.integrated_rotation_ratio))
     ]
     recorded, of_made = counted_apart(compared, made)
-    yield AgreementRow.of(CountedCases("", recorded, names))
+    yield _agreement("", recorded, names)
     if of_made:
-        yield AgreementRow.of(CountedCases("", of_made, names, made=True))
+        yield _agreement("", of_made, names, made=True)
     of_each: dict[str, list[rows.ComparisonRow]] = {}
     for case in recorded:
         of_each.setdefault(case.structure, []).append(case)
     for structure, cases in of_each.items():
-        yield AgreementRow.of(CountedCases(structure, cases, names))
+        yield _agreement(structure, cases, names)
 
 
-@dataclass(frozen=True, kw_only=True)
-class BlockUnderRecord:
-    """One equivalent block under one component of a whole record."""
-
-    accelerogram: Accelerogram
-    frequency_parameter: float
-    uplift_multiplier: float
-    restitution: float
-    rotation_ratio: float
-
-
-of_spectrum = Columns(BlockUnderRecord)
+def _agreement(
+    structure: str,
+    cases: Sequence[rows.ComparisonRow],
+    names: Mapping[str, tuple[str, str]],
+    made: bool = False,
+) -> AgreementRow:
+    """The counts of the cases of one structure ("": of all) that have both ratios; the rest as of `agreement_rows`."""
+    sample = Sample.named(names.get(row.record, (row.record, UNNAMED)) for row in cases)
+    both_rock = [place for place, row in enumerate(cases) if row.within_factor_two is not None]
+    within = np.array([float(bool(cases[place].within_factor_two)) for place in both_rock])
+    low = high = math.nan
+    if both_rock:
+        of_both = sample.of_records(np.array(both_rock))
+        low, high = map(float, of_both.share_bounds(of_both.by_station(within)))
+    ratios = [
+        cases[place].predicted_rotation_ratio / cases[place].integrated_rotation_ratio for place in both_rock
+    ]
+    overturning = sum(math.isinf(row.integrated_rotation_ratio) for row in cases)
+    hits = sum(row.sees_fall for row in cases)
+    alone = sum(row.integrated_rotation_ratio < row.predicted_rotation_ratio == math.inf for row in cases)
+    return AgreementRow(
+        structure=structure,
+        made=made,
+        records=len({row.record for row in cases}),
+        stations=sample.count,
+        earthquakes=sample.earthquakes,
+        cases=len(cases),
+        both_rock=len(both_rock),
+        within_factor_two=int(within.sum()),
+        within_factor_two_low=low,
+        within_factor_two_high=high,
+        median_ratio=median(ratios) if ratios else math.nan,
+        overturning=overturning,
+        overturning_hits=hits,
+        overturning_misses=overturning - hits,
+        overturning_false_alarms=alone,
+    )
 
 
 @row("spectrum")
-class SpectrumRow(RowOf[BlockUnderRecord]):
+class SpectrumRow(Row):
     """One row per component and equivalent block under the whole record; written by rocking spectrum."""
 
-    component: str = of_spectrum(inputs.COMPONENT, lambda of: of.accelerogram.component)
-    frequency_parameter_rad_s: float = of_spectrum(
-        inputs.FREQUENCY_PARAMETER, lambda of: of.frequency_parameter, equation="Eq. 11"
-    )
-    uplift_multiplier: float = of_spectrum(
-        "Uplift acceleration of the equivalent block in g", lambda of: of.uplift_multiplier, equation="Eq. 12"
-    )
-    restitution: float = of_spectrum(inputs.RESTITUTION, lambda of: of.restitution, equation="Eq. 2")
-    rotation_ratio: float = of_spectrum(
-        "Largest rotation over critical rotation; INF if it overturns", lambda of: of.rotation_ratio
-    )
-    scale_factor: float = of_spectrum(inputs.SCALE_FACTOR, lambda of: of.accelerogram.scale_factor)
-    record_sha256: str = of_spectrum(inputs.RECORD_SHA256, lambda of: of.accelerogram.source.sha256)
+    component: str = column(inputs.COMPONENT)
+    frequency_parameter_rad_s: float = column(inputs.FREQUENCY_PARAMETER, equation="Eq. 11")
+    uplift_multiplier: float = column("Uplift acceleration of the equivalent block in g", equation="Eq. 12")
+    restitution: float = column(inputs.RESTITUTION, equation="Eq. 2")
+    rotation_ratio: float = column("Largest rotation over critical rotation; INF if it overturns")
+    scale_factor: float = column(inputs.SCALE_FACTOR)
+    record_sha256: str = column(inputs.RECORD_SHA256)
 
 
 def spectrum_rows(
@@ -249,64 +171,37 @@ def spectrum_rows(
         for (frequency_parameter, uplift_multiplier), rotation_ratio in zip(
             blocks, np.ravel(ratios).tolist(), strict=True
         ):
-            yield SpectrumRow.of(
-                BlockUnderRecord(
-                    accelerogram=accelerogram,
-                    frequency_parameter=frequency_parameter,
-                    uplift_multiplier=uplift_multiplier,
-                    restitution=restitution,
-                    rotation_ratio=rotation_ratio,
-                )
+            yield SpectrumRow(
+                component=accelerogram.component,
+                frequency_parameter_rad_s=frequency_parameter,
+                uplift_multiplier=uplift_multiplier,
+                restitution=restitution,
+                rotation_ratio=rotation_ratio,
+                scale_factor=accelerogram.scale_factor,
+                record_sha256=accelerogram.source.sha256,
             )
 
 
-@dataclass(frozen=True, kw_only=True)
-class CountedFalls:
-    """How many structures are expected to fall under one record, or on average under several.
-
-    record: its identifier; "" for the mean over all. expected_falls: the sum of the shares of those that have one;
-    its low and high ends: of the 90 % interval of the mean. without_share: how many have none. still: of one record 1
-    where nothing lifts any of the structures, of all the stations of which that holds.
-    """
-
-    record: str
-    structures: int
-    expected_falls: float
-    without_share: float
-    expected_falls_low: float = math.nan
-    expected_falls_high: float = math.nan
-    stations: int = 1
-    earthquakes: int = 1
-    still: int = 0
-
-
-of_falls = Columns(CountedFalls)
-
-
 @row("expected_falls")
-class ExpectedFallsRow(RowOf[CountedFalls]):
+class ExpectedFallsRow(Row):
     """One row per record and one for all: how many of the structures, variants apart, are expected to fall."""
 
-    record: str = of_falls("Record; empty for the mean over all records", lambda of: of.record)
-    structures: int = of_falls("Number of structures", lambda of: of.structures)
-    expected_falls: float = of_falls(
-        "Sum of the shares that overturn, of the structures that have one", lambda of: of.expected_falls
-    )
-    expected_falls_low: float = of_falls(
+    record: str = column("Record; empty for the mean over all records")
+    structures: int = column("Number of structures")
+    expected_falls: float = column("Sum of the shares that overturn, of the structures that have one")
+    expected_falls_low: float = column(
         "Low end of the 90 % interval of the mean over more such earthquakes; where none, or all, are expected to fall "
         "under most of them it holds for any, and is wide",
-        lambda of: of.expected_falls_low,
+        default=math.nan,
     )
-    expected_falls_high: float = of_falls("High end of that interval", lambda of: of.expected_falls_high)
-    without_share: float = of_falls("Number of structures that have no share", lambda of: of.without_share)
-    stations: int = of_falls("Number of stations", lambda of: of.stations)
-    earthquakes: int = of_falls(
-        "Number of earthquakes of these; what names none counts as of one", lambda of: of.earthquakes
-    )
-    still: int = of_falls(
+    expected_falls_high: float = column("High end of that interval", default=math.nan)
+    without_share: float = column("Number of structures that have no share")
+    stations: int = column("Number of stations", default=1)
+    earthquakes: int = column("Number of earthquakes of these; what names none counts as of one", default=1)
+    still: int = column(
         "Number of these stations at which nothing lifts any structure, so that they say nothing about stronger "
         "shaking",
-        lambda of: of.still,
+        default=0,
     )
 
 
@@ -324,14 +219,12 @@ def falls_under(
     shares = [row.overturning_share for row in worst]
     without_share = sum(math.isnan(row.overturning_share) and not row.decision.word.stays_up for row in worst)
     still = all(row.rotation_ratio == 0 for row in worst)
-    return ExpectedFallsRow.of(
-        CountedFalls(
-            record=worst[0].record,
-            structures=len(worst),
-            expected_falls=float(np.nansum(shares)),
-            without_share=without_share,
-            still=int(still),
-        )
+    return ExpectedFallsRow(
+        record=worst[0].record,
+        structures=len(worst),
+        expected_falls=float(np.nansum(shares)),
+        without_share=without_share,
+        still=int(still),
     )
 
 
@@ -350,18 +243,16 @@ def falls_over(records: Sequence[ExpectedFallsRow], sample: Sample) -> ExpectedF
     low = high = math.nan
     if len(records) > 1:
         low, high = interval_of_mean(falls, structures, sample)
-    return ExpectedFallsRow.of(
-        CountedFalls(
-            record="",
-            structures=structures,
-            expected_falls=float(falls.mean()),
-            without_share=without_share,
-            expected_falls_low=low,
-            expected_falls_high=high,
-            stations=sample.count,
-            earthquakes=sample.earthquakes,
-            still=int((still == 1).sum()),
-        )
+    return ExpectedFallsRow(
+        record="",
+        structures=structures,
+        expected_falls=float(falls.mean()),
+        without_share=without_share,
+        expected_falls_low=low,
+        expected_falls_high=high,
+        stations=sample.count,
+        earthquakes=sample.earthquakes,
+        still=int((still == 1).sum()),
     )
 
 

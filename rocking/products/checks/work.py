@@ -10,11 +10,10 @@ from pathlib import Path
 
 import numpy as np
 
-from rocking.assessment.case import Failure
 from rocking.assessment.conclusion import conclusions, worst_of_each
 from rocking.assessment.cracks import mechanisms_of
 from rocking.assessment.decide import Verdict, worse
-from rocking.assessment.rows import FailedCase, FailureRow, MechanismRow, RecordRow, VerdictRow, named_records
+from rocking.assessment.rows import FailureRow, MechanismRow, RecordRow, VerdictRow, named_records
 from rocking.assessment.scene import Scene, placed
 from rocking.catalogue import load_catalogue
 from rocking.codes.check import CodeTerms, StructureCheck
@@ -192,8 +191,7 @@ def write_checks(
 
     faults = made_or_failed(pdf, write, "the log", figures)
     faults += [
-        FailureRow.of(FailedCase("", "", remark.about, Failure("document", str(remark))))
-        for remark in of_pages
+        FailureRow(structure=remark.about, stage="document", message=str(remark)) for remark in of_pages
     ]
     for fault in faults:
         tell(fault.message)

@@ -19,7 +19,6 @@ from rocking.assessment.methods import BOTH_COMPONENTS, Method
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import (
     ComparisonRow,
-    FailedCase,
     FailureRow,
     Identity,
     OfStructure,
@@ -124,4 +123,6 @@ def verdicts(stations: Sequence[PeriodResult], record: str = "a") -> list[Verdic
 
 
 def failure(component: str, structure: str = "pier", message: str = "No.", record: str = "a") -> FailureRow:
-    return FailureRow.of(FailedCase(record, component, structure, Failure("responses", message)))
+    return FailureRow(
+        record=record, component=component, structure=structure, stage="responses", message=message
+    )

@@ -8,7 +8,6 @@ from scipy.stats import binomtest, norm
 
 from rocking.assessment.conclusion import CLASS, falls_in_words
 from rocking.assessment.rows import (
-    CountedFalls,
     ExpectedFallsRow,
     falls_over,
     falls_under,
@@ -20,13 +19,11 @@ from tests.unit.assessment.made_rows import broken, case, station, verdicts
 
 def under(shares: list[float], structures: int) -> list[ExpectedFallsRow]:
     return [
-        ExpectedFallsRow.of(
-            CountedFalls(
-                record=f"record {number}",
-                structures=structures,
-                expected_falls=share * structures,
-                without_share=0.0,
-            )
+        ExpectedFallsRow(
+            record=f"record {number}",
+            structures=structures,
+            expected_falls=share * structures,
+            without_share=0.0,
         )
         for number, share in enumerate(shares)
     ]
@@ -117,15 +114,7 @@ def test_a_class_is_told_in_one_sentence() -> None:
         "still": 3,
     }
     rows = [
-        ExpectedFallsRow.of(
-            CountedFalls(
-                record=name,
-                structures=300,
-                expected_falls=falls,
-                without_share=untold,
-                **interval,
-            )
-        )
+        ExpectedFallsRow(record=name, structures=300, expected_falls=falls, without_share=untold, **interval)
         for name, falls, untold, interval in (
             ("a", 30.0, 12.0, {}),
             ("b", 52.0, 11.0, {}),

@@ -18,7 +18,6 @@ from rocking.assessment.rows import (
     FailureRow,
     RecordRow,
     RecordRows,
-    TimedStage,
     TimingRow,
     VerdictRow,
     agreement_rows,
@@ -187,7 +186,7 @@ def test_of_many_records_each_has_a_line_of_the_map_and_the_worst_stand_on_the_f
 def test_each_method_is_held_against_the_integration_and_no_time_is_told(example):
     """Two runs of the same study would else differ."""
     tables = summarised(example.tables, example.structures)
-    timings = [TimingRow.of(TimedStage("one", "closed form", 0.002))]
+    timings = [TimingRow(record="one", stage="closed form", duration_s=0.002)]
     assert summary_report(tables | {TimingRow: timings}, SETTINGS) == summary_report(tables, SETTINGS)
     table = summary_data(tables, SETTINGS).methods.table
     rows = {row[0]: row[1:] for row in table.rows}

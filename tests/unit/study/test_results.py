@@ -13,7 +13,6 @@ from rocking.assessment.rows import (
     RECORD_TABLES,
     SUMMARY_TABLES,
     StructureRow,
-    TimedStage,
     TimingRow,
     VerdictRow,
 )
@@ -29,7 +28,7 @@ from tests.unit.assessment.made_rows import case, station, verdicts
 
 
 def _timing(record: str) -> TimingRow:
-    return TimingRow.of(TimedStage(record, "read", 0.5))
+    return TimingRow(record=record, stage="read", duration_s=0.5)
 
 
 @pytest.fixture
