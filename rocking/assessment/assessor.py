@@ -36,7 +36,7 @@ from rocking.assessment.one_case import (
     predict,
 )
 from rocking.assessment.reserve import Reserve
-from rocking.assessment.scene import Scene
+from rocking.assessment.scene import Scene, variants_of
 from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import FaultError, RockingError, one_structure
 from rocking.hashes import sha256_of
@@ -117,7 +117,41 @@ class Assessor:
         """
         components = self.pulses(horizontal, vertical)
         predictions = self.predict(components, scenes)
-        return self.compare(self.integrate(record, components, scenes, predictions, vertical))
+        result = self.integrate(record, components, scenes, predictions, vertical)
+        return self.compare(self._sharing_members(result, scenes, predictions, vertical))
+
+    def _sharing_members(
+        self,
+        result: RecordResult,
+        scenes: Mapping[str, Scene],
+        predictions: Predictions,
+        vertical: Accelerogram | None,
+    ) -> RecordResult:
+        """The result with as many members of each variant of a structure as of the one that needs most.
+
+        Their shares are compared, and then have the same error. One whose members all agree has none and is left.
+        """
+        for structure, names in variants_of(scenes).items():
+            of_variants = {
+                name: result.scenes[name].worst.ensemble
+                for name in (structure, *names)
+                if name in result.scenes
+            }
+            most = max((members.rotation_ratios.size for members in of_variants.values()), default=0)
+            fewer = {
+                name: scenes[name]
+                for name, members in of_variants.items()
+                if 0 < members.rotation_ratios.size < most and members.facts().share_error
+            }
+            if fewer:
+                ensemble = replace(self.settings.ensemble, members=most)
+                assessor = replace(self, settings=replace(self.settings, ensemble=ensemble))
+                again = assessor.integrate(result.record, result.components, fewer, predictions, vertical)
+                failures = tuple(dict.fromkeys((*result.failures, *again.failures)))
+                result = replace(result, scenes={**result.scenes, **again.scenes}, failures=failures)
+                # With more members one may need more still.
+                return self._sharing_members(result, scenes, predictions, vertical)
+        return result
 
     def pulses(
         self, horizontal: Sequence[Accelerogram], vertical: Accelerogram | None = None

@@ -179,15 +179,19 @@ class CrackFacts:
             risk=risk,
         )
 
-    def is_near_an_edge(self, risk: float) -> bool:
-        """Whether one of the four edges between words lies within the error, so that more members may change it."""
-        error = share_error(
+    @property
+    def share_error(self) -> float:
+        """The most by which the share differs from that of very many members."""
+        return share_error(
             falls=self.falls + self.failed,
             members=self.members,
             farthest=math.inf if self.failed else self.farthest,
         )
+
+    def is_near_an_edge(self, risk: float) -> bool:
+        """Whether one of the four edges between words lies within the error, so that more members may change it."""
         edges = risk, 1 / 3, 2 / 3, 1 - risk  # those of `step`
-        return error > 0 and any(abs(self.share - edge) <= error for edge in edges)
+        return self.share_error > 0 and any(abs(self.share - edge) <= self.share_error for edge in edges)
 
     def step_of_followed(self, risk: float) -> Verdict:
         """Return the word of those that were followed alone.

@@ -4,21 +4,24 @@ import copy
 import math
 import pickle
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import rocking
 from rocking.assessment.assess import assess
+from rocking.assessment.assessor import Assessor
 from rocking.assessment.decide import Verdict
 from rocking.assessment.ensemble import CAUSES, Ensemble, drawn, ensemble, lattice
 from rocking.assessment.methods import ratio_in_words
 from rocking.assessment.motions import GroundMotions, processed
+from rocking.assessment.scene import Scene
 from rocking.assessment.settings import SIZES, AssessmentSettings, EnsembleSettings
 from rocking.errors import ConfigurationError
 from rocking.motion import integrate
 from rocking.motion.integration import follow_runs
-from rocking.records import Accelerogram
+from rocking.records import Accelerogram, read
 from rocking.signal.accelerogram import Source
 from rocking.signal.processing import Processing, process
 from rocking.structures import Arch, Block, Wall
@@ -359,3 +362,27 @@ def test_an_ensemble_that_begins_with_few_costs_no_more_than_one_of_64():
         assert few <= usual
         sizes[few] = amplitude
     assert len(sizes) >= 2
+
+
+def test_variants_have_as_many_members_as_the_one_that_needs_most():
+    """So that shares that are compared have one error; members that all agree have none, and are left."""
+    record = read(Path(rocking.__file__).parents[1] / "records" / "synthetic_strong_pulse.AT2")[0].scaled(0.6)
+    walls = {f"wall: {breadth}": Scene("", Block.of_size(breadth, 4.0)) for breadth in (0.92, 0.95, 1.0)}
+    walls = {"wall": Scene("", Block.of_size(0.9, 4.0)), **walls}
+    apart = {name: replace(scene, name=name) for name, scene in walls.items()}
+    together = {
+        name: replace(scene, variant_of="" if name == "wall" else "wall") for name, scene in apart.items()
+    }
+
+    def members(scenes, **settings):
+        quick = AssessmentSettings(fidelity="quick", **settings)
+        result = Assessor(quick).assess("record", [record], scenes)
+        return [
+            (followed.members, followed.overturning_members)
+            for followed in (scene.worst.ensemble for scene in result.scenes.values())
+        ]
+
+    assert members(apart) == [(256, 239), (64, 48), (64, 26), (64, 0)]
+    shared = members(together)
+    assert shared[:3] == members(apart, ensemble=EnsembleSettings(members=256))[:3]
+    assert [number for number, _ in shared] == [256, 256, 256, 64]
