@@ -5,6 +5,7 @@ bounce; and courses that stand on a rocking body are thrown by its impacts, whic
 bounds (theory: section 11). "Stands" is then not said.
 """
 
+import math
 from collections.abc import Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
@@ -36,6 +37,8 @@ MOST_RUNS = UNANIMOUS
 """Runs with fidelity: contact, none of which falls where the word is "stands"."""
 STEPS = (*7 * (STEP,), STEP / 2)
 """Time steps of contact dynamics, s, which its runs take in turn: every eighth one at a finer step."""
+GOLDEN = (math.sqrt(5) - 1) / 2
+"""Multiples of it, modulo 1, put the runs in an order of which every beginning lies evenly among all."""
 
 
 class Laid(Protocol):
@@ -82,8 +85,8 @@ MANY_COURSES = 12
 class ContactShare:
     """The number of stacks of courses, or of chains of stones, that fall, of those that contact dynamics followed.
 
-    falls, runs: over amplitudes, time steps, directions and signs, the strongest motions first, as far as they were
-    followed. reason: why none was; "" where they were.
+    falls, runs: over amplitudes, time steps, directions and signs, as far as they were followed. reason: why none was;
+    "" where they were.
     """
 
     falls: int = 0
@@ -130,7 +133,7 @@ def contact_share(
     """Return how many stacks of the structure fall, of a wall whose leaves may part those of the part that falls most.
 
     Of a part that is one body its mechanism says more. until_sure: whether runs end once the rest cannot change the
-    word, which the strongest come first for; the share of all is asked else.
+    word; the share of all is asked else.
     """
     parts = _parts(structure)
     laid = [part for part in parts if len(parts) == 1 or _courses_of(part) != 1]
@@ -150,8 +153,8 @@ def _share_of(
     """Return how many stacks of one part fall, between AMPLITUDES and at STEPS.
 
     Every direction of a pair, of unlike sides every other one with both signs of the motion, is followed at as many
-    amplitudes, at which steps and stacks take turns: so that there are `runs` in all. The strongest come first, and
-    until_sure no more are followed once the rest cannot change the word. The bodies are those of the mechanism where
+    amplitudes, at which steps and stacks take turns: so that there are `runs` in all. until_sure no more are followed
+    once the rest cannot change the word. The bodies are those of the mechanism where
     the crack is known and nothing holds it, else the courses that `Structure.stack` gives; a tapering member that does
     not state its courses is followed with COURSES and MANY_COURSES in turn. An arch or a portal is followed as its
     stones.
@@ -160,11 +163,14 @@ def _share_of(
     every = [motions.horizontal[direction] for direction in directions(motions)[:: len(both)]]
     ways = [(motion, sign) for motion in sorted(every, key=peak_velocity, reverse=True) for sign in both]
     amplitudes = np.linspace(*AMPLITUDES, max(runs // len(ways), 1))[::-1]
-    cases = [
+    strongest_first = [
         (amplitude, motion, sign, turn + way)
         for turn, amplitude in enumerate(amplitudes.tolist())
         for way, (motion, sign) in enumerate(ways)
     ]
+    # As many of them as are followed lie evenly among all: the share of the strongest alone would be too large.
+    order = sorted(range(len(strongest_first)), key=lambda place: place * GOLDEN % 1.0)
+    cases = [strongest_first[place] for place in order]
     falls = followed = 0
     try:
         stacks = _laid(structure)
