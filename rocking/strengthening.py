@@ -31,6 +31,7 @@ from rocking.drawn import Drawn
 from rocking.earthquakes.sample import Sample
 from rocking.errors import ConfigurationError, DoesNotStandError, RockingError, StructureError
 from rocking.hashes import sha256_of_content
+from rocking.progress import bar
 from rocking.quantities import GRAVITY, counted, finite, kind_of, percents, shown
 from rocking.records import Accelerogram
 from rocking.structures import Structure, structure_from_config
@@ -605,7 +606,7 @@ class _Following:
         open_scenes = dict(self.scenes)
         cases = len(self.scenes) * len(self.records)
         with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-            for first in range(0, order.size, _BATCH):
+            for first in bar(range(0, order.size, _BATCH), "round"):
                 started = process_time()
                 batch = np.flatnonzero(np.isin(self.sample.of_record, order[first : first + _BATCH])).tolist()
                 under = partial(self._under, scenes=open_scenes)

@@ -32,6 +32,7 @@ from rocking.fragility.measures import IntensityMeasure, check_name, per_velocit
 from rocking.fragility.measures import intensity_measure as measure_named
 from rocking.motion.batch import integrate_batch
 from rocking.motion.integration import Rocking, reduce
+from rocking.progress import bar
 from rocking.quantities import GRAVITY, counted, listed
 from rocking.records import Accelerogram
 from rocking.signal.measures import peak_velocity
@@ -581,7 +582,8 @@ def fragility(
     falls: list[list[Falls | None]] = []
     if over_cracks:
         with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-            falls = list(pool.map(told, carried, factors, ratios if worst is None else worst))
+            found = pool.map(told, carried, factors, ratios if worst is None else worst)
+            falls = list(bar(found, "record", len(carried)))
     analysis = IncrementalDynamicAnalysis(measure, chosen, ratios, intensities, sample, worst, falls)
     beyond = () if levels is None else tuple(float(level) for level in levels if level > chosen[-1])
     return replace(analysis.fragility(threshold, governing=True), unreached=beyond)
@@ -649,7 +651,8 @@ def _rotation_ratios(
         return highest
 
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-        return np.array(list(pool.map(follow, records, factors, least)))
+        followed = pool.map(follow, records, factors, least)
+        return np.array(list(bar(followed, "record", len(records))))
 
 
 def factors_to(levels: np.ndarray, intensities: np.ndarray, power: int) -> np.ndarray:

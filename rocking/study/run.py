@@ -19,6 +19,7 @@ from rocking.assessment.rows import (
     made_records,
 )
 from rocking.errors import ConfigurationError, RockingError
+from rocking.progress import fitting
 from rocking.quantities import counted, shown
 from rocking.study import close_doors
 from rocking.study.apart import warm_up
@@ -29,7 +30,6 @@ from rocking.study.outputs import kept_of
 from rocking.study.plan import Plan, check_config_file, check_files, config_file, make_plan
 from rocking.study.product import Product
 from rocking.study.products import BY_NAME, PRODUCTS
-from rocking.study.progress import fitting
 from rocking.study.terminal import (
     check_any_read,
     closing_lines,

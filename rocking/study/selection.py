@@ -9,13 +9,13 @@ from rocking.catalogue import CatalogueRecord, load_catalogue
 from rocking.catalogue.catalogue import COLUMNS, catalogue_text, read_rows
 from rocking.codes.selection import Selection, select
 from rocking.errors import ConfigurationError, RecordError, RockingError
+from rocking.progress import bar
 from rocking.quantities import four_digits
 from rocking.records import Accelerogram
 from rocking.reports.panels import svg_of
 from rocking.reports.style import PICTURE
 from rocking.study.job import Study
 from rocking.study.plan import check_config_file, config_file
-from rocking.study.progress import bar
 from rocking.study.settings import Settings, read_settings
 from rocking.tables import Document, check_target, write_whole
 

@@ -8,11 +8,11 @@ from rocking.catalogue.catalogue import COLUMNS, catalogue_text, read_rows
 from rocking.catalogue.folder import catalogue_of_folder
 from rocking.catalogue.listing import listing_text
 from rocking.errors import ConfigurationError, RecordError
+from rocking.progress import bar
 from rocking.quantities import counted
 from rocking.records.formats.layouts import NAME
 from rocking.study.flow import OWN_SNAKEFILE, PROFILE, workflow_folder
 from rocking.study.plan import check_config_file, config_file
-from rocking.study.progress import bar
 from rocking.study.settings import Settings, first_yaml, named_files
 from rocking.tables import Document, check_target, write_whole
 

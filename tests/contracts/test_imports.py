@@ -20,7 +20,7 @@ PACKAGE = Path(rocking.__file__).parent
 FLOORS = [
     {"remarks"},
     {"errors"},
-    {"quantities", "drawn", "hashes"},
+    {"quantities", "drawn", "hashes", "progress"},
     {"described"},
     {"tables"},
     {"signal", "earthquakes"},
