@@ -42,7 +42,7 @@ from .pulses import PulseAnalysis as PulseAnalysis
 from .pulses import PulseSettings as PulseSettings
 from .pulses import extract_pulses as extract_pulses
 from .records import read as read
-from .records.obspy_stream import from_obspy as from_obspy
+from .records.obspy.stream import from_obspy as from_obspy
 from .remarks import Remark as Remark
 from .reports.panels import plot as plot
 from .signal import Accelerogram as Accelerogram

@@ -4,7 +4,7 @@ import numpy as np
 
 from rocking.codes.selection import Selection
 from rocking.records import Accelerogram
-from rocking.records.synthetic import SyntheticRecord, noise, pulse
+from tests.synthetic import SyntheticRecord, noise, pulse
 
 LEVEL = {"ag_g": 0.2, "f0": 2.5, "tc_star_s": 0.4}
 SETS = {"stations": 3, "shortest_period_s": 0.6, "longest_period_s": 0.9}

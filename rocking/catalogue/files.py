@@ -15,8 +15,8 @@ from rocking.hashes import sha256_of_bytes
 from rocking.records.archive import archive_of, ending_of
 from rocking.records.formats.by_obspy import may_be_counts
 from rocking.records.formats.layouts import NAME, Layouts
+from rocking.records.obspy.traces import first_line
 from rocking.records.read import LARGEST_FILE, bytes_of, signature_in
-from rocking.records.traces import first_line
 from rocking.tables import read_start
 
 _RETRIES = 3

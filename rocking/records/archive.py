@@ -17,8 +17,8 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from rocking.errors import RecordError
-from rocking.records.formats import workspace
 from rocking.records.formats.format import plain
+from rocking.records.obspy import workspace
 from rocking.tables import read_start
 
 _WORKSPACES = ".h5", ".hdf5", ".asdf"

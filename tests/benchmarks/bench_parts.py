@@ -42,11 +42,11 @@ from rocking.catalogue import load_catalogue
 from rocking.codes.static_check import kinematic_check
 from rocking.pulses import extract_pulses
 from rocking.records import read
-from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.reports.record import RecordReport
 from rocking.sine_pulse import predict_maxima, pulse_spectrum
 from rocking.structures.mechanism import Mechanism
 from rocking.study.job import Study, assess_catalogued, rows_of
+from tests.synthetic import SyntheticRecord, at2_text
 
 RATIOS = np.linspace(0.2, 12, 200)
 STRUCTURES = Path(__file__).parents[2] / "config" / "structures.yaml"

@@ -9,7 +9,8 @@ import numpy as np
 import obspy
 
 from rocking.records import Accelerogram
-from rocking.records.formats import Options, workspace
+from rocking.records.formats import Options
+from rocking.records.obspy import workspace
 from rocking.records.read import read_content
 
 N = 40

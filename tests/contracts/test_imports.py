@@ -53,7 +53,7 @@ UPWARDS = {
     ("rocking.drawn", "rocking.reports.panels"),
     ("rocking.structures.structure", "rocking.reports.panels"),
     ("rocking.signal.accelerogram", "rocking.signal.measures"),
-    ("rocking.signal.accelerogram", "rocking.records.obspy_stream"),
+    ("rocking.signal.accelerogram", "rocking.records.obspy.stream"),
 }
 """Methods that a person calls on an object and that a module above it does: `wall.plot()`, `record.spectrum()`.
 
@@ -228,7 +228,7 @@ module of the package stands for several. Measured in a process that has importe
 `rocking.structures` and the rows of an assessment, on one core of 2026."""
 OTHERWISE = {
     "h5py": "it comes with the extra asdf, without which the package runs",
-    "obspy": "0.05 s; it loads obspy_plugin.py itself",
+    "obspy": "0.05 s; it loads records/obspy/plugin.py itself",
     "openpyxl": "0.08 s; workbooks alone need it",
     "pooch": "0.03 s; downloads alone need it",
     "pydantic_core": "pydantic alone calls what imports it",

@@ -14,8 +14,8 @@ from docs.research.ensembles import EnsembleTrial
 from docs.research.scores import Score
 from docs.research.validation import PredictionRow
 from rocking.quantities import GRAVITY
-from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.tables import read_table
+from tests.synthetic import SyntheticRecord, at2_text
 from tests.workflow.conftest import SmallStudy, new_study
 
 pytestmark = pytest.mark.slow

@@ -18,7 +18,7 @@ from typing import Any
 import pytest
 import yaml
 
-from rocking.records.synthetic import SyntheticRecord, at2_text
+from tests.synthetic import SyntheticRecord, at2_text
 from tests.workflow.forked import run_snakemake
 
 ROOT = Path(__file__).parents[2]

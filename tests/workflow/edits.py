@@ -7,10 +7,10 @@ from pathlib import Path
 
 import yaml
 
-from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.study.outputs import outputs_of
 from rocking.study.plan import make_plan
 from rocking.study.products import PRODUCTS
+from tests.synthetic import SyntheticRecord, at2_text
 
 STRUCTURES = [
     {"name": "block", "type": "block", "breadth_m": 0.5, "height_m": 3.0},

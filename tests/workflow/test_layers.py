@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import rocking
-from rocking.records.synthetic import SyntheticRecord, at2_text
+from tests.synthetic import SyntheticRecord, at2_text
 
 pytestmark = pytest.mark.process
 TREE = Path(rocking.__file__).parents[1]

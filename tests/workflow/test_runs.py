@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from rocking.records.synthetic import SyntheticRecord, at2_text
+from tests.synthetic import SyntheticRecord, at2_text
 
 OTHER = at2_text(
     SyntheticRecord(

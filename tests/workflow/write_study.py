@@ -9,7 +9,7 @@ import numpy as np
 import yaml
 
 from rocking.quantities import GRAVITY
-from rocking.records.synthetic import SyntheticRecord, at2_text
+from tests.synthetic import SyntheticRecord, at2_text
 
 ROOT = Path(__file__).parents[2]
 

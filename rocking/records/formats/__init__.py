@@ -7,7 +7,7 @@ from importlib import import_module
 
 from rocking.records.formats.format import Format, Options
 
-_FILES = "peer", "volumes", "europe", "americas", "pacific", "by_obspy", "workspace", "tables"
+_FILES = "peer", "volumes", "europe", "americas", "pacific", "by_obspy", "tables"
 _MODULES = [import_module(f"{__name__}.{file}") for file in _FILES]
 
 FORMATS = tuple(form for module in _MODULES for form in vars(module).values() if isinstance(form, Format))

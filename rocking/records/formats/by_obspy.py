@@ -8,12 +8,10 @@ import io
 import re
 import struct
 import warnings
-from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 from datetime import datetime
-from functools import lru_cache, partial
-from pathlib import Path
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -26,11 +24,12 @@ from rocking.records.formats import text
 from rocking.records.formats.format import Format, Layout, Options, required
 from rocking.records.formats.text import LARGEST_SERIES
 from rocking.records.kinds import RecordKind
-from rocking.records.one_trace import as_stated, from_traces, header
-from rocking.records.traces import first_line, joined, printed
+from rocking.records.obspy import workspace
+from rocking.records.obspy.inventories import inventory_for
+from rocking.records.obspy.one_trace import as_stated, from_traces, header
+from rocking.records.obspy.traces import first_line, joined, printed
 from rocking.remarks import Remark
 from rocking.signal.accelerogram import Accelerogram
-from rocking.tables import read_whole
 
 _DAMAGE = re.compile(r"integrity|not a SEED record|unexpected end|will not be read|corrupt|mismatch", re.I)
 """The warnings of libmseed when the numbers are not those that were written."""
@@ -172,7 +171,7 @@ def _read_sac(content: bytes, options: Options) -> list[Accelerogram]:
         # The step in the file has single precision: 0.02 is stored as 0.0199999996.
         _check_sac(header, trace.data, float(f"{trace.stats.delta:.6g}"))
         try:
-            inventory = None if options.unit else _inventory(trace.stats, options)
+            inventory = None if options.unit else inventory_for(trace.stats, options)
         except UndeclaredError as error:
             raise UndeclaredError(_SAC_SILENT.format(error), unit=None) from None
         unit = None if inventory else options.unit_of(None)
@@ -254,7 +253,6 @@ def _check_frames(content: bytes) -> None:
 
 
 _FIXED_HEADER = re.compile(rb"[0-9 \0]{6}[DRQM][ \0]")
-_LARGEST_XML = 32 * 2**20
 
 
 def _read_counts(form: str, content: bytes, options: Options) -> list[Accelerogram]:
@@ -272,7 +270,7 @@ def _read_counts(form: str, content: bytes, options: Options) -> list[Accelerogr
                 samples=trace.stats.npts,
             )
     unit = _stated_unit(traces, options)
-    inventory = None if unit else _inventory(traces[0].stats, options)
+    inventory = None if unit else inventory_for(traces[0].stats, options)
     unit = options.unit_of(unit) if inventory is None else None
     return _taken(traces, inventory, unit, options, warnings)
 
@@ -339,77 +337,6 @@ def _stated_unit(traces: Any, options: Options) -> str | None:
                 unit=unit,
             )
     return next((unit for unit in units if acceleration_unit(unit)), None)
-
-
-def _inventory(stats: Any, options: Options) -> Any:
-    """Return the inventory given, else the one in the folder that names this network and station, or None."""
-    if (given := inventory_of(options)) is not None:
-        return given
-    if options.unit is not None or options.folder is None:
-        return None
-    naming = _naming(stats, options.described) or _naming(stats, sorted(options.folder.glob("*.xml")))
-    if len(naming) != 1:
-        several = f"several do: {', '.join(p.name for p in naming)}" if naming else "none beside it does"
-        missing = f"no single StationXML describes {stats.network}.{stats.station} ({several})"
-        raise UndeclaredError(
-            f"{missing}; {advice('inventory')}; if the samples are acceleration, {advice('unit')}.",
-            unit=None,
-        )
-    return _parse(naming[0])
-
-
-def _naming(stats: Any, paths: Sequence[Path]) -> list[Path]:
-    """Return those of XML files that name the network and the station of a trace."""
-    naming = []
-    for path in paths:
-        with suppress(OSError):
-            state = path.stat()
-            codes = _codes_in(str(path), state.st_mtime_ns, state.st_size)
-            if ("Network", stats.network) in codes and ("Station", stats.station) in codes:
-                naming.append(path)
-    return naming
-
-
-_CODE = re.compile(r'<(?:\w+:)?(Network|Station)\b[^>]*\bcode="([^"]*)"')
-
-
-@lru_cache(maxsize=1000)
-def _codes_in(path: str, _changed: int, _size: int) -> frozenset[tuple[str, str]]:
-    """Return the networks and stations that an XML file describes, none where it is no StationXML.
-
-    changed, size: its state, by which each file of a folder is looked through once, and not for each record in it.
-    """
-    try:
-        text = read_whole(Path(path), _LARGEST_XML, RecordError).decode("utf-8", "replace")
-    except RecordError:
-        return frozenset()
-    return frozenset(_CODE.findall(text)) if "FDSNStationXML" in text[:2000] else frozenset()
-
-
-def _parse(path: Path) -> Any:
-    return parsed_inventory(read_whole(path, _LARGEST_XML, RecordError, path.name), path.name)
-
-
-def inventory_of(options: Options) -> Any:
-    """Return obspy's inventory of the StationXML that the caller names, None where he names none."""
-    return _parse(options.inventory) if options.inventory is not None else None
-
-
-@lru_cache(maxsize=4)
-def parsed_inventory(content: bytes, name: str) -> Any:
-    """Return obspy's inventory of a StationXML, which the channels of a station ask for one after another."""
-    from obspy import read_inventory  # which takes a second to import
-
-    if b"FDSNStationXML" not in content[:2000] or b"<!DOCTYPE" in content:
-        raise RecordError(f"{name} is not a plain StationXML file; give one.", inventory=name)
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            return read_inventory(io.BytesIO(content), format="STATIONXML")
-    except Exception as error:
-        raise RecordError(
-            f"damaged StationXML {name}, {str(error)[:200]}; fetch it again.", inventory=name
-        ) from error
 
 
 def may_be_counts(head: bytes) -> bool:
@@ -560,6 +487,14 @@ KNET = Format(
     "header that starts with Origin Time, Lat., Long., Depth. (km)",
     _KNET_FIRST,
     _read_knet,
+)
+ASDF = Format(
+    "ASDF station",
+    "gmprocess (USGS)",
+    "station of an ASDF workspace",
+    lambda content: content.startswith(workspace.STATION),
+    workspace.read_station,
+    binary=True,
 )
 STATIONXML = Format(
     "StationXML",

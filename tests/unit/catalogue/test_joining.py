@@ -115,7 +115,7 @@ def test_components_of_unlike_length_are_joined_from_the_first_sample(tmp_path: 
 
 
 def test_peer_components_of_unlike_length_are_one_record_and_reported(tmp_path: Path) -> None:
-    """Of Erzincan 1992 one component is 106 samples of 4262 longer, .53 s, and its shaking comes later by about that."""
+    """Of Erzincan 1992 one component is 106 samples of 4262 longer, .53 s, and its shaking comes later by so much."""
     for name, component, size in (("a", "000", 3700), ("b", "090", 4000), ("v", "UP", 3800)):
         peer(tmp_path, f"{name}.AT2", component, size)
     assert list(rows(tmp_path)) == ["a.AT2;b.AT2;v.AT2"]

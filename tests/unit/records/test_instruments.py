@@ -19,7 +19,7 @@ from rocking.records import Accelerogram, read
 from rocking.records.direction import Direction
 from rocking.records.formats import FORMATS
 from rocking.records.kinds import RecordKind
-from rocking.records.obspy_plugin import PLUGINS
+from rocking.records.obspy.plugin import PLUGINS
 from rocking.remarks import Remark
 from tests.refusals import refused
 

@@ -17,8 +17,8 @@ from rocking.catalogue.station import open_station
 from rocking.errors import RecordError, UndeclaredError
 from rocking.records import read
 from rocking.records.archive import members
-from rocking.records.formats import workspace
 from rocking.records.kinds import RecordKind
+from rocking.records.obspy import workspace
 from tests.contracts.made_files import STEP, TRUE
 from tests.refusals import refused
 

@@ -10,10 +10,10 @@ from scipy.signal import butter, sosfiltfilt
 
 from rocking.errors import RecordError
 from rocking.records import Accelerogram
-from rocking.records.synthetic import SHIPPED, synthetic_record
 from rocking.signal import processing as steps
 from rocking.signal.processing import Processing, adaptive_baseline, displacement, process, velocity
 from tests.refusals import refused
+from tests.synthetic import SHIPPED, synthetic_record
 
 DT = 0.01
 

@@ -24,7 +24,6 @@ from rocking.products.fragility.rows import FRAGILITY_TABLES, FragilityRow, Frag
 from rocking.products.fragility.work import write_fragility
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
-from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.structures import Block, Spire
 from rocking.study.job import Study
 from rocking.study.settings import Settings, StudyFragility
@@ -32,6 +31,7 @@ from rocking.study.work import write_documents
 from rocking.tables import read_rows, read_table
 from tests.made_structures import HELD
 from tests.refusals import refused
+from tests.synthetic import SyntheticRecord, at2_text
 from tests.unit.study.made_jobs import made_job
 
 ALONE = HELD.mechanism()

@@ -27,7 +27,6 @@ from rocking.errors import RockingError
 from rocking.motion import integrate
 from rocking.products.trade.rows import TradeMethod, TradeRow
 from rocking.records import Accelerogram
-from rocking.records.synthetic import SHIPPED, SyntheticRecord, at2_text
 from rocking.reports.explore import RECORD_SCRIPT
 from rocking.structures import Block
 from rocking.study import jobs
@@ -41,6 +40,7 @@ from rocking.study.summary import summarise
 from rocking.study.summary_tables import write_summary
 from rocking.tables import csv_lines, frame, read_rows, write_tables
 from tests.refusals import refused
+from tests.synthetic import SHIPPED, SyntheticRecord, at2_text
 from tests.unit.assessment.made_rows import Impossible, filled
 from tests.unit.study.made_jobs import keep_nothing, made_job, outcomes_in, worked
 

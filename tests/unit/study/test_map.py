@@ -17,12 +17,12 @@ from rocking.products.map.geojson import geojson
 from rocking.products.map.report import drawn_together, map_figure, map_panel, origin_of, plane
 from rocking.products.map.rows import StationRow
 from rocking.products.map.work import Map
-from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.structures import Block
 from rocking.study.job import Study
 from rocking.study.settings import Settings
 from rocking.study.work import Rows
 from rocking.tables import read_table, rows_of
+from tests.synthetic import SyntheticRecord, at2_text
 from tests.unit.study.made_jobs import made_job, worked
 
 EPICENTRE = {"epicentre_latitude": 42.35, "epicentre_longitude": 13.38}

@@ -13,7 +13,6 @@ from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import EnsembleSettings
 from rocking.catalogue import CatalogueRecord
 from rocking.catalogue.catalogue import is_safe_id
-from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.study.job import Study
 from rocking.study.kept import keep_rows, kept_conclusion, kept_rows
 from rocking.study.outputs import outputs_of
@@ -23,6 +22,7 @@ from rocking.study.results import open_results, rows_of_table
 from rocking.study.settings import Settings, StudyDesign
 from rocking.study.work import Work, work_of
 from rocking.tables import write_rows
+from tests.synthetic import SyntheticRecord, at2_text
 from tests.unit.study.made_jobs import made_job, worked
 
 HEAVY = {"numpy", "yaml", "pandas", "matplotlib", "numba", "scipy", "pydantic"}

@@ -1,6 +1,6 @@
 """Synthetic near-fault accelerograms: one pulse plus filtered noise, seeded, and plainly called synthetic.
 
-`python -m rocking.records.synthetic FOLDER` writes the shipped file, byte for byte the same each time.
+`python -m tests.synthetic FOLDER` writes the shipped file, byte for byte the same each time.
 """
 
 import sys

@@ -8,9 +8,9 @@ import pytest
 
 from rocking.quantities import GRAVITY
 from rocking.records import read
-from rocking.records.synthetic import SHIPPED, SyntheticRecord, at2_text, noise, pulse, synthetic_record
+from tests.synthetic import SHIPPED, SyntheticRecord, at2_text, noise, pulse, synthetic_record
 
-FILE = Path(__file__).parents[3] / "records" / f"{SHIPPED.name}.AT2"
+FILE = Path(__file__).parents[2] / "records" / f"{SHIPPED.name}.AT2"
 
 
 def test_the_shipped_file_is_what_the_generator_makes_and_calls_itself_synthetic() -> None:

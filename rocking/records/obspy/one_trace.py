@@ -11,8 +11,8 @@ from rocking.quantities import GRAVITY, acceleration_factor
 from rocking.records.direction import Direction, directed
 from rocking.records.formats.format import plain, without_offset
 from rocking.records.kinds import RecordKind
+from rocking.records.obspy.traces import STEEP, calibrated, names, quantity_order, site, unit_left_by
 from rocking.records.plausibility import BURIED
-from rocking.records.traces import STEEP, calibrated, names, quantity_order, site, unit_left_by
 from rocking.remarks import Remark
 from rocking.signal.accelerogram import OBSPY_EXTRAS, SAME_STEP, Accelerogram, Calibration, Source
 

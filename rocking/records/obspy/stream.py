@@ -3,9 +3,9 @@
 from typing import Any
 
 from rocking.errors import RecordError
-from rocking.records.one_trace import from_traces
+from rocking.records.obspy.one_trace import from_traces
+from rocking.records.obspy.traces import joined
 from rocking.records.read import checked_channels
-from rocking.records.traces import joined
 from rocking.signal.accelerogram import Accelerogram, Calibration
 
 

@@ -22,17 +22,17 @@ from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import acceleration_unit
 from rocking.records.claims import refuse_other_quantity
 from rocking.records.doors import advice
-from rocking.records.formats.by_obspy import inventory_of, parsed_inventory
-from rocking.records.formats.format import Format, Options
+from rocking.records.formats.format import Options
 from rocking.records.kinds import RecordKind
-from rocking.records.one_trace import from_traces
-from rocking.records.traces import joined
+from rocking.records.obspy.inventories import inventory_of, parsed_inventory
+from rocking.records.obspy.one_trace import from_traces
+from rocking.records.obspy.traces import joined
 from rocking.remarks import Remark
 from rocking.signal.accelerogram import Accelerogram
 
 MARK = b"\x89HDF\r\n\x1a\n"
 """The begin of an HDF5 file."""
-_STATION = b"\0ASDF station\0"
+STATION = b"\0ASDF station\0"
 """The begin of the content of a member."""
 _BEGIN = struct.Struct("<II")
 """Bytes of the facts, and the checksum of all that follows."""
@@ -117,7 +117,7 @@ def packed(facts: dict[str, Any], stationxml: bytes, samples: bytes) -> bytes:
     # As text of another alphabet, or the StationXML within would make a StationXML of the whole.
     text = json.dumps(facts | {"stationxml": b64encode(stationxml).decode()}, sort_keys=True).encode()
     body = text + samples
-    return _STATION + _BEGIN.pack(len(text), zlib.crc32(body)) + body
+    return STATION + _BEGIN.pack(len(text), zlib.crc32(body)) + body
 
 
 def _is_raw(tag: str) -> bool:
@@ -219,7 +219,7 @@ def _earthquake(file: Any, name: str) -> dict[str, Any]:
     }
 
 
-def _read(content: bytes, options: Options) -> list[Accelerogram]:
+def read_station(content: bytes, options: Options) -> list[Accelerogram]:
     """The channels of a station: raw counts by the response, and processed motion in the unit that is noted of it."""
     facts, stationxml, samples = _parted(content)
     is_raw = _is_raw(facts["tag"])
@@ -259,8 +259,8 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
 
 def _parted(content: bytes) -> tuple[dict[str, Any], bytes, bytes]:
     """Return what packed() put together. Raises RecordError where something is missing or changed."""
-    begin = len(_STATION) + _BEGIN.size
-    length, checksum = _BEGIN.unpack_from(content.ljust(begin, b"\0"), len(_STATION))
+    begin = len(STATION) + _BEGIN.size
+    length, checksum = _BEGIN.unpack_from(content.ljust(begin, b"\0"), len(STATION))
     body = content[begin:]
     if not body or zlib.crc32(body) != checksum:
         raise RecordError(
@@ -330,13 +330,3 @@ def _leave_out_stand_ins(inventory: Any) -> None:
             for channel in station:
                 if channel.azimuth is not None and float(channel.azimuth) == 0 and channel.dip is None:
                     channel.azimuth = None
-
-
-ASDF = Format(
-    "ASDF station",
-    "gmprocess (USGS)",
-    "station of an ASDF workspace",
-    lambda content: content.startswith(_STATION),
-    _read,
-    binary=True,
-)

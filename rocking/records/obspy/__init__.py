@@ -1,0 +1,1 @@
+"""What goes through obspy: its traces and streams, inventories, workspaces, the plug-in that gives it our formats."""

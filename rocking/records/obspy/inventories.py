@@ -1,0 +1,89 @@
+"""Inventories: the descriptions of instruments that turn counts into acceleration, found and parsed once."""
+
+import io
+import re
+import warnings
+from collections.abc import Sequence
+from contextlib import suppress
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from rocking.errors import RecordError, UndeclaredError
+from rocking.records.doors import advice
+from rocking.records.formats.format import Options
+from rocking.tables import read_whole
+
+_LARGEST_XML = 32 * 2**20
+"""Bytes."""
+
+
+def inventory_for(stats: Any, options: Options) -> Any:
+    """Return the inventory given, else the one in the folder that names this network and station, or None."""
+    if (given := inventory_of(options)) is not None:
+        return given
+    if options.unit is not None or options.folder is None:
+        return None
+    naming = _naming(stats, options.described) or _naming(stats, sorted(options.folder.glob("*.xml")))
+    if len(naming) != 1:
+        several = f"several do: {', '.join(p.name for p in naming)}" if naming else "none beside it does"
+        missing = f"no single StationXML describes {stats.network}.{stats.station} ({several})"
+        raise UndeclaredError(
+            f"{missing}; {advice('inventory')}; if the samples are acceleration, {advice('unit')}.",
+            unit=None,
+        )
+    return _parse(naming[0])
+
+
+def _naming(stats: Any, paths: Sequence[Path]) -> list[Path]:
+    """Return those of XML files that name the network and the station of a trace."""
+    naming = []
+    for path in paths:
+        with suppress(OSError):
+            state = path.stat()
+            codes = _codes_in(str(path), state.st_mtime_ns, state.st_size)
+            if ("Network", stats.network) in codes and ("Station", stats.station) in codes:
+                naming.append(path)
+    return naming
+
+
+_CODE = re.compile(r'<(?:\w+:)?(Network|Station)\b[^>]*\bcode="([^"]*)"')
+
+
+@lru_cache(maxsize=1000)
+def _codes_in(path: str, _changed: int, _size: int) -> frozenset[tuple[str, str]]:
+    """Return the networks and stations that an XML file describes, none where it is no StationXML.
+
+    changed, size: its state, by which each file of a folder is looked through once, and not for each record in it.
+    """
+    try:
+        text = read_whole(Path(path), _LARGEST_XML, RecordError).decode("utf-8", "replace")
+    except RecordError:
+        return frozenset()
+    return frozenset(_CODE.findall(text)) if "FDSNStationXML" in text[:2000] else frozenset()
+
+
+def _parse(path: Path) -> Any:
+    return parsed_inventory(read_whole(path, _LARGEST_XML, RecordError, path.name), path.name)
+
+
+def inventory_of(options: Options) -> Any:
+    """Return obspy's inventory of the StationXML that the caller names, None where he names none."""
+    return _parse(options.inventory) if options.inventory is not None else None
+
+
+@lru_cache(maxsize=4)
+def parsed_inventory(content: bytes, name: str) -> Any:
+    """Return obspy's inventory of a StationXML, which the channels of a station ask for one after another."""
+    from obspy import read_inventory  # which takes a second to import
+
+    if b"FDSNStationXML" not in content[:2000] or b"<!DOCTYPE" in content:
+        raise RecordError(f"{name} is not a plain StationXML file; give one.", inventory=name)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return read_inventory(io.BytesIO(content), format="STATIONXML")
+    except Exception as error:
+        raise RecordError(
+            f"damaged StationXML {name}, {str(error)[:200]}; fetch it again.", inventory=name
+        ) from error
