@@ -19,7 +19,7 @@ import numpy as np
 from rocking.earthquakes.kinds import SampleKind
 from rocking.errors import ConfigurationError
 from rocking.quantities import counted
-from rocking.remarks import Remark
+from rocking.remarks import Phrase, Remark
 
 FEWEST = 5
 """Earthquakes below which nothing is resampled: the interval is then Student's, or Clopper and Pearson's, on them."""
@@ -223,8 +223,12 @@ class Spread:
         return students(freedom=self.count - 1, tail=tail) * self.error
 
 
-def interval_words(earthquakes: int) -> str:
-    """Return what an interval over so many earthquakes is called, wherever one is printed.
+INTERVAL = f"interval (90 % from {FEWEST} earthquakes on)"
+"""What the columns of tables call an interval, which do not know over how many earthquakes it will be."""
+
+
+def interval_words(earthquakes: int, noun: str = "interval") -> Phrase:
+    """Return what an interval, or its bounds, over so many earthquakes is called, wherever one is printed.
 
     From FEWEST on it holds nine times in ten; of fewer it is computed alike, and holds less often; of one there is
     none.
@@ -233,10 +237,11 @@ def interval_words(earthquakes: int) -> str:
     ('interval of 3 earthquakes, which holds less than nine times in ten', '90 % interval')
     """
     if earthquakes >= FEWEST:
-        return "90 % interval"
+        return Phrase(f"90 % {noun}")
     if earthquakes < 2:
-        return "interval, which one earthquake does not give"
-    return f"interval of {earthquakes} earthquakes, which holds less than nine times in ten"
+        return Phrase(f"{noun}, which one earthquake does not give")
+    text = f"{noun} of {{earthquakes}} earthquakes, which holds less than nine times in ten"
+    return Phrase(text, earthquakes=earthquakes)
 
 
 def students(*, freedom: float, tail: float = TAIL) -> float:

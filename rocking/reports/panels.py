@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from rocking.earthquakes.sample import interval_words
 from rocking.errors import MotionError, RockingError
 from rocking.quantities import percent, shown
 from rocking.reports.drawings import MOST_POINTS, draw_bay, draw_dimensions, draw_structure, thinned
@@ -303,9 +304,8 @@ def _plot_strengthening(strengthening: Strengthening, axes: Axes) -> None:
     values = [outward(trial.value) for trial in tried]
     low, high = zip(*(trial.interval for trial in tried), strict=True)
     label = f"share of {strengthening.sample.words}"
-    axes.fill_between(
-        values, low, high, color="C0", alpha=0.2, linewidth=0, label="one-sided 90 % bounds, by earthquake"
-    )
+    bounds = f"one-sided {interval_words(strengthening.sample.earthquakes, 'bound')}, by earthquakes"
+    axes.fill_between(values, low, high, color="C0", alpha=0.2, linewidth=0, label=bounds)
     axes.plot(values, [trial.share for trial in tried], ".-", color="C0", linewidth=0.9, label=label)
     axes.axhline(
         strengthening.target, color="0.4", linestyle=":", label=f"target {percent(strengthening.target)} %"

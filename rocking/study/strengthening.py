@@ -52,8 +52,8 @@ class StrengtheningRow(Row):
     overturning_share: float = column(
         "Share that overturns, the mean over the stations; what cannot be told counts as 1"
     )
-    share_low: float = column("Its lower one-sided 90 % bound, by earthquakes")
-    share_high: float = column("Its upper one-sided 90 % bound, by earthquakes")
+    share_low: float = column("Its lower one-sided bound, by earthquakes: of 90 % from five on")
+    share_high: float = column("Its upper one-sided bound, likewise")
     target_share: float = column("Share that may overturn")
     stations: int = column(
         "Number of stations under which this value was followed; one that cannot be shown to hold any more is given up"

@@ -9,7 +9,7 @@ import numpy as np
 
 from rocking.assessment.rows import of_inputs as inputs
 from rocking.assessment.rows import of_record as rows
-from rocking.earthquakes.sample import MADE, TAIL, UNNAMED, Sample
+from rocking.earthquakes.sample import INTERVAL, MADE, TAIL, UNNAMED, Sample
 from rocking.records import Accelerogram
 from rocking.tables import Row, column, row
 
@@ -66,7 +66,7 @@ class AgreementRow(Row):
     both_rock: int = column("Number of cases in which both rock")
     within_factor_two: int = column("Number of these with a ratio between 1/2 and 2")
     within_factor_two_low: float = column(
-        "Lower end of the 90 % interval of the share of these, by earthquakes; 0 to 1 of one earthquake"
+        f"Lower end of the {INTERVAL} of the share of these, by earthquakes; 0 to 1 of one earthquake"
     )
     within_factor_two_high: float = column("Its upper end")
     median_ratio: float = column("Median of predicted over integrated rotation where both rock")
@@ -190,7 +190,7 @@ class ExpectedFallsRow(Row):
     structures: int = column("Number of structures")
     expected_falls: float = column("Sum of the shares that overturn, of the structures that have one")
     expected_falls_low: float = column(
-        "Low end of the 90 % interval of the mean over more such earthquakes; where none, or all, are expected to fall "
+        f"Low end of the {INTERVAL} of the mean over more such earthquakes; where none, or all, are expected to fall "
         "under most of them it holds for any, and is wide",
         default=math.nan,
     )

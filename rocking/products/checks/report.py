@@ -23,6 +23,7 @@ from rocking.codes.code_capacity import LIMIT_STATES, CodeCapacity
 from rocking.codes.design_spectrum import DesignSpectrum, NtcSpectrum, PointSpectrum
 from rocking.codes.kinds import CheckKind
 from rocking.codes.selection import SETS, Selection
+from rocking.earthquakes.sample import interval_words
 from rocking.errors import ErrorKind, RockingError, one_structure
 from rocking.floors.place import GROUND, Place
 from rocking.floors.support import Support
@@ -442,8 +443,12 @@ def _sure(page: CheckedStructure, dynamic: DynamicCheck | None, words: Sentences
             )
         )
         if not says_nothing(dynamic.interval):
+            interval = words.phrase(interval_words(dynamic.earthquakes))
             lines.append(
-                (words.percents(*dynamic.interval), words("of sets of other stations would (90 % interval);"))
+                (
+                    words.percents(*dynamic.interval),
+                    words("of sets of other stations would ({interval});", interval=interval),
+                )
             )
     if page.stations:
         low, high = (words.decimal(percent(bound)) for bound in page.share_interval)
@@ -451,6 +456,7 @@ def _sure(page: CheckedStructure, dynamic: DynamicCheck | None, words: Sentences
             "records": words.counted(page.records, "record"),
             "stations": words.counted(page.stations, "station"),
             "earthquakes": words.counted(page.earthquakes, "earthquake"),
+            "interval": words.phrase(interval_words(page.earthquakes)),
             "still": words("; nothing lifts it at {still} of these stations", still=page.still)
             if page.still
             else "",
@@ -460,8 +466,8 @@ def _sure(page: CheckedStructure, dynamic: DynamicCheck | None, words: Sentences
             (
                 share,
                 words(
-                    "of its members overturn under the study's {records} of {stations} of {earthquakes} (90 "
-                    "% interval by earthquakes: {low} to {high} %){still};",
+                    "of its members overturn under the study's {records} of {stations} of {earthquakes} "
+                    "({interval} by earthquakes: {low} to {high} %){still};",
                     low=low,
                     high=high,
                     **of_it,

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from rocking.assessment.rows import Placed, PlacedRow
 from rocking.codes.check import Check, DynamicCheck, Part, StructureCheck
 from rocking.codes.code_capacity import CodeCapacity, LimitPoint
+from rocking.earthquakes.sample import INTERVAL
 from rocking.tables import Columns, row
 
 KINDS = {
@@ -138,7 +139,7 @@ class CodeCheckRow(PlacedRow[MadeCheck]):
         "Share of these that meet the check", lambda of: of.dynamic.share if of.dynamic else math.nan
     )
     sets_share_low: float = of_check(
-        "Lower end of its 90 % interval for sets of other stations",
+        f"Lower end of its {INTERVAL} for sets of other stations",
         lambda of: of.sets_share_low,
     )
     sets_share_high: float = of_check("Upper end of that interval", lambda of: of.sets_share_high)

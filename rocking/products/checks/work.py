@@ -19,7 +19,7 @@ from rocking.catalogue import load_catalogue
 from rocking.codes.check import CodeTerms, StructureCheck
 from rocking.codes.dynamic_check import check
 from rocking.codes.selection import Selection
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import INTERVAL, Sample
 from rocking.errors import ConfigurationError, RockingError, one_structure
 from rocking.floors.support import Support
 from rocking.products.checks.conclusion import CodeConclusion, code_conclusion_in_words, code_conclusions
@@ -98,7 +98,7 @@ def checks_panel(concluded: Sequence[CodeConclusion]) -> Panel:
     caption = (
         "The checks of the Italian code (Circolare 7/2019) at the design level: capacity over demand, 1 or more where "
         "a check is met; the conclusion by the most detailed check that has an answer; and how many sets of other "
-        "stations would meet the dynamic one (90 % interval). On a support at the worst period; structures.pdf has a "
+        f"stations would meet the dynamic one ({INTERVAL}). On a support at the worst period; structures.pdf has a "
         "page of each to sign."
     )
     part = Part(table=table, caption=caption)

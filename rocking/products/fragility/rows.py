@@ -10,7 +10,7 @@ import numpy as np
 from scipy.special import ndtri
 
 from rocking.assessment.rows import RECORD, Placed, PlacedRow
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import INTERVAL, Sample
 from rocking.errors import ConfigurationError
 from rocking.fragility.curves import (
     Explanation,
@@ -183,11 +183,11 @@ class FragilityRow(CurveRow[CurvePoint]):
         "Share of the stations that exceed the rotation", lambda of: float(of.curve.probability[of.place])
     )
     probability_low: float = of_point(
-        "Lower end of the 90 % interval of the probability",
+        f"Lower end of the {INTERVAL} of the probability",
         lambda of: float(of.curve.probability_low[of.place]),
     )
     probability_high: float = of_point(
-        "Upper end of the 90 % interval of the probability",
+        f"Upper end of the {INTERVAL} of the probability",
         lambda of: float(of.curve.probability_high[of.place]),
     )
     lognormal: float = of_point(
@@ -304,11 +304,11 @@ class FragilitySummaryRow(CurveRow[SummarisedCurve]):
         lambda of: of.curve.upper.median if of.curve.upper else of.curve.median,
     )
     median_low: float = of_summary(
-        "Lower end of the 90 % interval of the median, by earthquakes; 0: there is none",
+        f"Lower end of the {INTERVAL} of the median, by earthquakes; 0: there is none",
         lambda of: of.median_low,
     )
     median_high: float = of_summary(
-        "Upper end of the 90 % interval of the median; INF: none at the levels tried",
+        f"Upper end of the {INTERVAL} of the median; INF: none at the levels tried",
         lambda of: of.median_high,
     )
     lognormal_median: float = of_summary(
@@ -332,13 +332,13 @@ class FragilitySummaryRow(CurveRow[SummarisedCurve]):
         unit="1/year",
     )
     annual_rate_low: float = of_summary(
-        "Lower end of the 90 % interval of the rate, by earthquakes; of an empty rate, where what is not reached "
+        f"Lower end of the {INTERVAL} of the rate, by earthquakes; of an empty rate, where what is not reached "
         "never overturns",
         lambda of: of.rate.low if of.rate else math.nan,
         unit="1/year",
     )
     annual_rate_high: float = of_summary(
-        "Upper end of the 90 % interval of the rate, by earthquakes; of an empty rate, where what is not reached "
+        f"Upper end of the {INTERVAL} of the rate, by earthquakes; of an empty rate, where what is not reached "
         "overturns at once",
         lambda of: of.rate.high if of.rate else math.nan,
         unit="1/year",
