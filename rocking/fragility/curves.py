@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from scipy.special import erfcx, ndtr, stdtr, stdtrit
 
-from rocking.assessment.cracks import counting_cracks, never_overturns_because
+from rocking.assessment.cracks import counting_cracks, never_overturns_because, sliding_first
 from rocking.assessment.ensemble import drawn, lattice
-from rocking.assessment.falls import Falls, Model, falls_under
+from rocking.assessment.falls import Falls, Model, falls_along
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.drawn import Drawn
@@ -37,6 +37,7 @@ from rocking.quantities import GRAVITY, counted, listed
 from rocking.records import Accelerogram
 from rocking.signal.measures import peak_velocity
 from rocking.structures import EquivalentBlock, Mechanism, Structure
+from rocking.structures.structure import Candidate
 from rocking.structures.unknown_geometry import as_structure
 from rocking.tables import check_target, write_whole
 
@@ -390,7 +391,7 @@ class IncrementalDynamicAnalysis:
 
     measure: of the levels. levels: (k,) ascending. rotation_ratios: (r, k, m) of every record, level and member, with
     the crack that statics chooses where some may form; inf overturns or cannot be followed, nan where a cloud holds no
-    such case. governing_ratios: the same with the worst of all cracks, member by member; None where they were not
+    such case. governing_ratios: the same with the crack that governs at each level; None where others were not
     followed. intensities: (r,) of the records as they are. sample: their stations and earthquakes. falls: of each
     record (r) at each level (k), with the crack that governs; None where no level was tried.
     """
@@ -506,8 +507,7 @@ def fragility(
     ensemble : EnsembleSettings or None, optional
         Ranges of the uncertain inputs; each case then has MEMBERS members.
     over_cracks : bool, default True
-        Whether the worst of the cracks that may form counts, member by member; False: the one that statics
-        chooses.
+        Whether the crack counts that governs at each level; False: the one that statics chooses.
     largest_factor : float, default 10.0
         Largest factor on a record; one that would need more to reach a level is left out of that level.
     tolerance : float, default 1e-06
@@ -554,7 +554,8 @@ def fragility(
         )
     sample = checked_sample(Sample.of(records, stations, events))
     body = as_structure(structure if isinstance(structure, Structure) else reduced)
-    first, *others = counting_cracks(body)
+    counting = counting_cracks(body)
+    first, *others = counting
     mechanism = first.mechanism
     if why := never_overturns_because(body):
         raise StructureError(f"the structure cannot overturn, and has no fragility: it {why}.", structure=why)
@@ -574,11 +575,14 @@ def fragility(
         scaling = _Scaling(intensities, sample.stations, largest_factor, measure.power)
         chosen, ratios = _at_levels(partial(follow, mechanism), mechanism, carried, scaling, levels)
         factors = scaling.factors(chosen)
-    worst = ratios if over_cracks and others else None
-    for other in others if over_cracks else ():
-        worst = follow(other.mechanism, factors, worst)
+    worst = None
+    if over_cracks and others:
+        left_out = _left_out(counting, carried, factors)
+        worst = np.where(left_out[0, ..., None], 0.0, ratios)
+        for other, is_out in zip(others, left_out[1:], strict=True):
+            worst = follow(other.mechanism, np.where(is_out, np.nan, factors), worst)
     varied = AssessmentSettings(ensemble=ensemble or EnsembleSettings(), tolerance=tolerance)
-    told = partial(_falls_of, body, varied, contacts)
+    told = partial(falls_along, body, varied, contacts=contacts)
     falls: list[list[Falls | None]] = []
     if over_cracks:
         with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
@@ -587,25 +591,6 @@ def fragility(
     analysis = IncrementalDynamicAnalysis(measure, chosen, ratios, intensities, sample, worst, falls)
     beyond = () if levels is None else tuple(float(level) for level in levels if level > chosen[-1])
     return replace(analysis.fragility(threshold, governing=True), unreached=beyond)
-
-
-def _falls_of(
-    structure: Structure,
-    settings: AssessmentSettings,
-    contacts: bool,
-    record: Accelerogram,
-    factors: np.ndarray,
-    ratios: np.ndarray,
-) -> list[Falls | None]:
-    """What falls at each factor (k,) on a record, of rotation ratios (k, m); None where it was not tried."""
-    return [
-        None
-        if math.isnan(factor)
-        else falls_under(
-            structure, GroundMotions.of(record.scaled(factor)), members, settings, contacts=contacts
-        )
-        for factor, members in zip(factors.tolist(), ratios, strict=True)
-    ]
 
 
 def checked_sample(sample: Sample) -> Sample:
@@ -624,35 +609,52 @@ def _rotation_ratios(
     tolerance: float,
     mechanism: Mechanism,
     factors: np.ndarray,
-    least: np.ndarray | None = None,
+    other: np.ndarray | None = None,
 ) -> np.ndarray:
-    """The rotation ratios (r, k, m) of every record at its factors (r, k), at least those of another mechanism.
+    """The rotation ratios (r, k, m) of every record at its factors (r, k), or those of another mechanism that governs.
 
-    nan where a factor is nan. Where all members overturn with the other mechanism nothing is followed. A member without
-    an answer counts as one that overturns.
+    It governs where more of its members overturn, or as many and one turns farther: only one crack opens. What has the
+    factor nan, or all of whose members overturn with the other, is not followed. A member without an answer counts as
+    one that overturns.
     """
     points = lattice(MEMBERS)
-    if least is None:
-        least = np.zeros((*factors.shape, MEMBERS if ensemble else 1))
+    if other is None:
+        nothing = np.where(np.isnan(factors), np.nan, 0.0)
+        other = np.repeat(nothing[..., None], MEMBERS if ensemble else 1, axis=2)
 
-    def follow(record: Accelerogram, scales: np.ndarray, lowest: np.ndarray) -> np.ndarray:
-        is_open = ~(np.isinf(lowest).all(axis=1) | np.isnan(scales))
-        highest = np.where(np.isnan(scales)[:, None], np.nan, lowest)
+    def follow(record: Accelerogram, scales: np.ndarray, own: np.ndarray) -> np.ndarray:
+        is_open = ~(np.isinf(own).all(axis=1) | np.isnan(scales))
         if not is_open.any():
-            return highest
+            return own
         if ensemble is None:
             single = integrate_batch([mechanism], record, scales[is_open], tolerance=tolerance, workers=1)
-            ratios = single[0][:, None]
+            followed = single[0][:, None]
         else:
             motions = [GroundMotions.of(record.scaled(float(scale))) for scale in scales[is_open]]
             members = [drawn(mechanism, motion, points, ensemble, tolerance=tolerance) for motion in motions]
-            ratios = np.array([member.rotation_ratios for member in members])
-        highest[is_open] = np.maximum(lowest[is_open], np.nan_to_num(ratios, nan=np.inf, posinf=np.inf))
-        return highest
+            followed = np.array([member.rotation_ratios for member in members])
+        ratios = own.copy()
+        ratios[is_open] = np.nan_to_num(followed, nan=np.inf, posinf=np.inf)
+        falls, own_falls = np.isinf(ratios).sum(axis=1), np.isinf(own).sum(axis=1)
+        governs = (falls > own_falls) | ((falls == own_falls) & (ratios.max(axis=1) > own.max(axis=1)))
+        return np.where(governs[:, None], ratios, own)
 
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-        followed = pool.map(follow, records, factors, least)
-        return np.array(list(bar(followed, "record", len(records))))
+        of_records = pool.map(follow, records, factors, other)
+        return np.array(list(bar(of_records, "record", len(records))))
+
+
+def _left_out(
+    counting: Sequence[Candidate], records: Sequence[Accelerogram], factors: np.ndarray
+) -> np.ndarray:
+    """Whether each crack is left out at the factors (r, k), (c, r, k): it slides before it lifts, and another lifts."""
+    left_out = np.zeros((len(counting), *factors.shape), dtype=bool)
+    for place, step in np.argwhere(~np.isnan(factors)).tolist():
+        motions = GroundMotions.of(records[place].scaled(float(factors[place, step])))
+        sliding = sliding_first(counting, motions)
+        if len(sliding) < len(counting):
+            left_out[:, place, step] = [crack in sliding for crack in counting]
+    return left_out
 
 
 def factors_to(levels: np.ndarray, intensities: np.ndarray, power: int) -> np.ndarray:

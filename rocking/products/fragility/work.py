@@ -24,6 +24,7 @@ from rocking.products.fragility.rows import (
     curve_rows,
     intensity_measure_rows,
 )
+from rocking.quantities import counted
 from rocking.records import Accelerogram
 from rocking.reports.pages import Panel
 from rocking.reports.printing import faults_in_words
@@ -102,6 +103,11 @@ def write_fragility(
             reasons.append(f"{name}: it cannot overturn, and has no fragility: it {never}.")
             continue
         with net("its fragility", name):
+            if study.scenes[name].structure.as_stones and study.settings.fidelity != "quick":
+                of_all = counted(sum(map(len, opened.values())), "component")
+                show_progress(
+                    f"{name}: its stones take some ten seconds of processor time under each of {of_all}"
+                )
             of_scene, its_rows, its_reasons = _curves_of(name, study, opened, hazard, net)
             curves |= of_scene
             reasons += its_reasons

@@ -8,7 +8,7 @@ import pytest
 
 import rocking
 from rocking.assessment.contacts import contact_share
-from rocking.assessment.falls import DRAWS, Falls, Model, falls_under
+from rocking.assessment.falls import APART, DRAWS, STONES_DRAWS, Falls, Model, falls_along
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.fragility.hazard import Hazard
@@ -41,8 +41,11 @@ def shaken(peak_g: float, period: float = 0.8) -> Accelerogram:
 
 
 def under(structure: Structure, peak_g: float, ratios: list[float], contacts: bool = True) -> Falls:
-    motions = GroundMotions.of(shaken(peak_g))
-    return falls_under(structure, motions, np.array(ratios), SETTINGS, contacts=contacts)
+    (told,) = falls_along(
+        structure, SETTINGS, shaken(peak_g), np.ones(1), np.array([ratios]), contacts=contacts
+    )
+    assert told is not None
+    return told
 
 
 def test_members_tell_of_a_body_that_nothing_is_in_doubt_of():
@@ -68,7 +71,26 @@ def test_courses_that_may_be_thrown_are_followed_and_all_of_them():
 
 
 def test_of_an_arch_on_piers_only_its_stones_may_say_that_it_stands():
-    assert under(PIERS, 0.5, [0.1, math.inf]) == Falls(0.5, 1.0, Model.NONE)
+    assert under(PIERS, 0.5, [0.1, math.inf], contacts=False) == Falls(0.5, 1.0, Model.NONE)
+
+
+@pytest.mark.process
+def test_stones_fall_from_the_factor_on_at_which_they_do_when_followed_by_themselves():
+    """At each factor as many of them as fall there, within a rung."""
+    record = shaken(0.4)
+    factors = np.array([0.3, 0.5, 0.7, 1.0, 1.4])
+    along = falls_along(PIERS, SETTINGS, record, factors, np.full((5, 1), 0.1))
+    found = [told.low for told in along if told is not None]
+    shares = []
+    for factor in factors.tolist():
+        near = []
+        for side in (1 / APART, 1.0, APART):
+            motions = GroundMotions.of(record.scaled(factor * side))
+            runs = contact_share(PIERS, motions, SETTINGS, STONES_DRAWS, until_sure=False)
+            near.append(runs.falls / runs.runs)
+        shares.append((min(near), max(near)))
+    assert all(low <= share <= high for share, (low, high) in zip(found, shares, strict=True))
+    assert found[0] == 0.0 < found[-1]
 
 
 @pytest.fixture(scope="module")
