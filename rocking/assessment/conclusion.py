@@ -25,7 +25,12 @@ CLASS = 20
 """Structures from which on a list is a class: how many of them fall is of interest, not which ones."""
 UNSAID = (AssessmentKind.NOTHING_TO_DO, AssessmentKind.NOTHING_DECIDES)
 """Remarks of which a row of a report says nothing."""
-TO_CHECK = (StructureKind.SIZE_UNUSUAL, StructureKind.BROADER_THAN_TALL, AssessmentKind.VERTICAL_MISSING)
+TO_CHECK = (
+    StructureKind.SIZE_UNUSUAL,
+    StructureKind.LEVELS_TYPED,
+    StructureKind.BROADER_THAN_TALL,
+    AssessmentKind.VERTICAL_MISSING,
+)
 """Kinds of remarks for which somebody has to check what was typed before anything else is read."""
 _MOVES = 0.01
 """Distance below a floor from which on it is said, m."""

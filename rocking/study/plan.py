@@ -215,12 +215,12 @@ class Plan:
 
 
 def _curves(structures: Path) -> list[str]:
-    """The files of capacity curves that a list of structures names."""
+    """The files of capacity curves that a list of structures names; that of its schema is a URL, and none of them."""
     text = structures.read_text(encoding="utf-8", errors="replace")
     if structures.suffix.lower() == ".csv":
         named = [row.get("file") or "" for row in csv.DictReader(text.splitlines())]
     else:
-        named = re.findall(r"""\bfile["']?\s*:\s*["']?([^,}"'\n#]+)""", text)
+        named = re.findall(r"""\bfile["']?\s*:(?!//)\s*["']?([^,}"'\n#]+)""", text)
     return [name for name in dict.fromkeys(map(str.strip, named)) if os.path.isfile(name)]
 
 

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import xlsxwriter
 
+from rocking.assessment.conclusion import TO_CHECK
 from rocking.assessment.scene import load_scenes
 from rocking.catalogue import load_catalogue
 from rocking.catalogue.station import open_record
@@ -20,6 +21,7 @@ from rocking.structures.kinds import StructureKind
 from rocking.study import run
 from rocking.study.cli import main
 from rocking.study.own_files import Declared, read_files
+from rocking.study.plan import _curves
 from rocking.study.products import BY_NAME
 from rocking.study.settings import Settings
 
@@ -138,6 +140,7 @@ def test_levels_in_place_of_storey_heights_get_a_remark(
     assert bool(told) == is_told
     if told:
         assert "19.5 m" in str(told[0])
+        assert told[0].kind in TO_CHECK, "the terminal says it as well"
 
 
 def test_the_catalogue_of_a_study_is_that_of_its_settings(study: Path, counts: Path) -> None:
@@ -266,6 +269,9 @@ def test_a_new_study_says_that_its_schemas_are_on_this_machine(study: Path) -> N
     for name in ("config.yaml", "structures.yaml"):
         schema, note, *_ = (study / name).read_text(encoding="utf-8").splitlines()
         assert "$schema=file:" in schema and "remove it where the study is moved" in note
+    assert not _curves(study / "structures.yaml"), (
+        "no job reads the schema, which another machine has elsewhere"
+    )
 
 
 def test_a_study_without_reports_says_how_to_make_its_map() -> None:
