@@ -21,7 +21,7 @@ from rocking.records.formats.format import plain
 from rocking.records.obspy import workspace
 from rocking.tables import read_start
 
-_WORKSPACES = ".h5", ".hdf5", ".asdf"
+_WORKSPACES = ".h5", ".hdf5", ".hdf", ".asdf"
 ENDINGS = ".zip", ".tar", ".tar.gz", ".tgz", *_WORKSPACES
 ZIPPED = b"PK\x03\x04"
 """The begin of a zip file."""

@@ -32,6 +32,7 @@ from rocking.records.formats.layouts import Signature
 from rocking.records.formats.tables import signature_of
 from rocking.records.formats.text import lines
 from rocking.records.kinds import RecordKind
+from rocking.records.obspy.inventories import DATALESS, RESP, SACPZ
 from rocking.records.plausibility import (
     channel_warnings,
     damage_warnings,
@@ -235,11 +236,11 @@ _OTHER_KINDS = tuple((re.compile(pattern, re.I), sentence) for pattern, sentence
     (rb"PK\x03\x04", "this is a zip archive; call it .zip, or unpack it."),
     (rb"(.|\n){257}ustar", "this is a tar archive; call it .tar, or unpack it."),
     (rb"BZh|\xfd7zXZ\0", "this is a packed file of bzip2 or xz; unpack it."),
-    (rb"\d{6}V ", "this is a SEED volume, of which obspy reads the samples where it holds any: rocking.from_obspy("
-     "obspy.read(path), inventory=obspy.read_inventory(path)); a dataless one holds responses alone, and goes with the "
-     "record: rocking.from_obspy(obspy.read(record), inventory=obspy.read_inventory(path))."),
-    (rb"(#.*\n)*B05\dF\d\d\b|#\s*<+\s*IRIS SEED Reader", "this is a RESP file, which holds a response and no motion, "
-     "and goes with its record: rocking.from_obspy(obspy.read(record), inventory=obspy.read_inventory(path))."),
+    (DATALESS, "this is a SEED volume: a dataless one holds responses alone, and goes with its record, "
+     "rocking.read(record, inventory=path); the samples that a full one holds obspy reads: "
+     "rocking.from_obspy(obspy.read(path), inventory=obspy.read_inventory(path))."),
+    (RESP, "this is a RESP file, which holds a response and no motion, and goes with its record: "
+     "rocking.read(record, inventory=path)."),
     (rb"\x93NUMPY", "this is an array of numpy, which says neither unit nor time step; give it as "
      "rocking.Accelerogram(numpy.load(path), time_step)."),
     (rb"MATLAB 5\.0", "this is a file of MATLAB; export time and acceleration as text, with their units as names."),
@@ -252,9 +253,8 @@ _OTHER_KINDS = tuple((re.compile(pattern, re.I), sentence) for pattern, sentence
      "the USGS (SMC), or of Volume I."),
     (rb"BEGIN (GSE|IMS)|DATA_TYPE WAVEFORM", "this is a message of GSE or IMS; cut off what stands above its line "
      "WID2, and it is read."),
-    (rb"(\*.*\n)*\s*(ZEROS|POLES|CONSTANT)\s+-?\d", "this is a SAC file of poles and zeros, which holds a response "
-     "and no motion: read the file of the samples, with the StationXML of its station beside it, which the data centre "
-     "of the poles and zeros serves as well (inventory)."),
+    (SACPZ, "this is a SAC file of poles and zeros, which holds a response and no motion: read the file "
+     "of the samples, with the StationXML of its station as the inventory, which the same data centre serves."),
     (rb"\s*<\?xml|\s*<(FDSNStationXML|q:quakeml)", "this is an XML file, which holds no motion; read the record."),
     (rb"(?s)\s*<(!doctype html|html|table|meta)(?=.{0,350}<(table|tr|td)\b|.{0,350}(excel|spreadsheet))",
      "this is a web page with a table, as some programs call .xls; open it in a spreadsheet, and save it as CSV."),

@@ -70,11 +70,10 @@ def _read_afad(content: bytes, options: Options) -> list[Accelerogram]:
     head, rows = parted(content, _directions, "names the columns (N-S, E-W, U-D)", _AFAD_HEADER)
     labels = _directions(rows[0])
     table = text.table(rows[1:], len(labels))
-    _, notes = text.whole(table[:, 0], _AFAD.count(head), per_line=1)
     line = optional(r"^(.*PGA.*:.*)", head)
     peaks = [optional_number(rf"\({re.escape(label)}\)\s*({NUMBER})", line) for label in labels]
     is_processed = "RAW" not in line
-    return _AFAD.channels(head, table, labels, options, peaks=peaks, warnings=notes, processed=is_processed)
+    return _AFAD.channels(head, table, labels, options, peaks=peaks, processed=is_processed)
 
 
 _RESORCE_TITLE = re.compile(r"(Acc[a-z]*tion|Velocity|Displacement) time series in (\S+)", re.I)

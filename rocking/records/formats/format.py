@@ -337,7 +337,15 @@ class Layout:
         peaks: Sequence[float | None] | None = None,
         **fields: Any,
     ) -> list[Accelerogram]:
-        """Return channel() of each column of `table` (n, channels), named by `labels`; peaks: stated of each."""
+        """Return channel() of each column of `table` (n, channels), named by `labels`; peaks: stated of each.
+
+        Raises RecordError where it has fewer rows than the header declares, as series() does.
+        """
+        if "samples" in self.patterns:
+            fields["warnings"] = (
+                *fields.get("warnings", ()),
+                *whole(table[:, 0], self.count(head), per_line=1)[1],
+            )
         rows = zip(labels, table.T, peaks or [None] * len(labels), strict=True)
         facts = (({"component": label, "peak": peak} | fields, values) for label, values, peak in rows)
         return [self.channel(head, values, options, **of_one) for of_one, values in facts]

@@ -16,6 +16,10 @@ from rocking.tables import read_whole
 
 _LARGEST_XML = 32 * 2**20
 """Bytes."""
+DATALESS = rb"\d{6}V "
+RESP = rb"(#.*\n)*B05\dF\d\d\b|#\s*<+\s*IRIS SEED Reader"
+SACPZ = rb"(\*.*\n)*\s*(ZEROS|POLES|CONSTANT)\s+-?\d"
+"""The first characters of what describes instruments beside StationXML."""
 
 
 def inventory_for(stats: Any, options: Options) -> Any:
@@ -72,18 +76,32 @@ def inventory_of(options: Options) -> Any:
     return _parse(options.inventory) if options.inventory is not None else None
 
 
+_KINDS = (
+    ("StationXML", "STATIONXML", re.compile(rb"(?s)(?!.*<!DOCTYPE).{,2000}?FDSNStationXML")),
+    ("dataless SEED", "SEED", re.compile(DATALESS)),
+    ("RESP", "RESP", re.compile(RESP)),
+)
+"""What instruments are described in: its name, that in obspy, and how it begins."""
+
+
 @lru_cache(maxsize=4)
 def parsed_inventory(content: bytes, name: str) -> Any:
-    """Return obspy's inventory of a StationXML, which the channels of a station ask for one after another."""
+    """Return obspy's inventory of a description, which the channels of a station ask for one after another."""
     from obspy import read_inventory  # which takes a second to import
 
-    if b"FDSNStationXML" not in content[:2000] or b"<!DOCTYPE" in content:
-        raise RecordError(f"{name} is not a plain StationXML file; give one.", inventory=name)
+    kind, form = next(((kind, form) for kind, form, first in _KINDS if first.match(content)), ("", ""))
+    if not kind:
+        is_poles = re.match(SACPZ, content)
+        what = "holds poles and zeros of SAC, which no response is made of" if is_poles else "is none"
+        raise RecordError(
+            f"the inventory {name} {what}; give a plain StationXML, a dataless SEED or a RESP.",
+            inventory=name,
+        )
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            return read_inventory(io.BytesIO(content), format="STATIONXML")
+            return read_inventory(io.BytesIO(content), format=form)
     except Exception as error:
         raise RecordError(
-            f"damaged StationXML {name}, {str(error)[:200]}; fetch it again.", inventory=name
+            f"damaged {kind} {name}, {str(error)[:200]}; fetch it again.", inventory=name
         ) from error

@@ -12,6 +12,7 @@ import warnings
 import zlib
 from base64 import b64decode, b64encode
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 from io import BytesIO
 from typing import Any
@@ -222,11 +223,11 @@ def _earthquake(file: Any, name: str) -> dict[str, Any]:
 def read_station(content: bytes, options: Options) -> list[Accelerogram]:
     """The channels of a station: raw counts by the response, and processed motion in the unit that is noted of it."""
     facts, stationxml, samples = _parted(content)
-    is_raw = _is_raw(facts["tag"])
     own = parsed_inventory(stationxml, "of the workspace") if stationxml else None
     _leave_out_stand_ins(own)
     records = []
     for trace, noted in _traces(facts, samples):
+        is_raw = _is_raw(facts["tag"]) or _are_counts(noted, own, trace)
         unit = _unit_of(noted, own, trace, is_raw, options)
         inventory = inventory_of(options) or own if unit is None else own
         if unit is None and inventory is None:
@@ -312,6 +313,16 @@ def _unit_of(noted: dict[str, Any], own: Any, trace: Any, is_raw: bool, options:
             unit=unit,
         )
     return options.unit_of(known)
+
+
+def _are_counts(noted: dict[str, Any], inventory: Any, trace: Any) -> bool:
+    """Whether samples under a tag of one's own are counts: whole numbers in no unit, with a response of counts."""
+    is_stated = noted["unit"] or _calibration_unit(inventory, trace)
+    if is_stated or trace.data.dtype.kind not in "iu" or inventory is None:
+        return False
+    with suppress(Exception):  # obspy raises what it likes for what is not there
+        return bool(inventory.get_response(trace.id, trace.stats.starttime))
+    return False
 
 
 def _calibration_unit(inventory: Any, trace: Any) -> str:

@@ -2,11 +2,13 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from rocking.errors import RecordError, UndeclaredError
 from rocking.records import Accelerogram, read
 from rocking.records.claims import Claim, Where, agreed, claims_of_name, other_quantity, vertical_in_name
+from rocking.records.formats.format import Layout, Options, key
 from rocking.records.kinds import RecordKind
 from tests.refusals import refused
 from tests.unit.records.test_layouts import MOTION, OTHER, TIMES, UP, table
@@ -241,3 +243,14 @@ def test_heads_in_other_scripts_are_read(tmp_path: Path, head: str) -> None:
     north, east, up = read(path)
     assert (north.azimuth, east.azimuth, up.vertical) == (0.0, 90.0, True)
     assert north.acceleration == pytest.approx(MOTION, abs=1e-6)
+
+
+def test_a_layout_holds_the_declared_count_against_each_column() -> None:
+    layout = Layout("m/s2", {"samples": key("N"), "step": key("DT")})
+    columns = np.column_stack([MOTION, OTHER])
+    read_of = layout.channels(f"N: {len(columns)}\nDT: 0.01", columns, ["NS", "EW"], Options())
+    assert [record.acceleration.size for record in read_of] == [MOTION.size] * 2
+    with refused(RecordError, "samples", MOTION.size):
+        layout.channels(
+            f"N: {MOTION.size}\nDT: 0.01", columns[: MOTION.size * 4 // 5], ["NS", "EW"], Options()
+        )

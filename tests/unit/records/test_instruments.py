@@ -7,11 +7,13 @@ from importlib.metadata import entry_points
 from pathlib import Path
 
 import numpy as np
+import obspy
 import pytest
 from obspy import Stream, Trace, UTCDateTime, read_inventory
 from obspy import read as obspy_read
 from obspy.core.util.base import get_example_file
 
+import rocking
 from rocking.catalogue import load_catalogue
 from rocking.catalogue.folder import list_folder
 from rocking.errors import RecordError, RockingError, UndeclaredError
@@ -37,6 +39,7 @@ XML = """<?xml version="1.0" encoding="UTF-8"?>
 <StageGain><Value>200000</Value><Frequency>1</Frequency></StageGain></Stage></Response></Channel></Station></Network>
 </FDSNStationXML>"""
 
+EXAMPLES = Path(obspy.__path__[0]) / "io/xseed/tests/data"
 COUNTS = np.round(1e5 * np.sin(np.arange(4000) / 30) * np.hanning(4000)).astype(np.int32) + 777
 
 
@@ -410,3 +413,29 @@ def test_an_array_that_is_no_accelerogram_is_refused(samples) -> None:
 def test_names_that_cannot_be_printed_are_refused(name: str) -> None:
     with refused(RecordError, "station"):
         Accelerogram(np.arange(3.0), 0.01, station=name)
+
+
+@pytest.mark.parametrize(("file", "channel"), [
+    ("dataless.seed.BW_FURT", "BW.FURT..EHZ"), ("RESP.BW.FURT..EHZ", "BW.FURT..EHZ"),
+    ("dataless.seed.BW_MANZ", "BW.MANZ..EHZ"),
+])  # fmt: skip
+def test_an_inventory_may_be_dataless_seed_or_resp(tmp_path: Path, file: str, channel: str) -> None:
+    """The full response of the same file is what obspy itself removes by it."""
+    described = EXAMPLES / file
+    network, station, _, code = channel.split(".")
+    counts = Trace(COUNTS, NAMES | {"network": network, "station": station, "channel": code})
+    counts.stats.starttime = UTCDateTime("2010-01-01")
+    counts.write(str(tmp_path / "record.mseed"), format="MSEED")
+    (record,) = read(tmp_path / "record.mseed", inventory=described, response="full")
+    (same,) = rocking.from_obspy(counts, read_inventory(str(described)), response="full")
+    assert np.array_equal(record.acceleration, same.acceleration) and record.peak_acceleration > 0
+
+
+@pytest.mark.parametrize("text", ["* ****\nZEROS 3\nPOLES 5\n", "nothing", "<FDSNStationXML><!DOCTYPE x>"])
+def test_what_is_no_inventory_is_named_with_what_may_be_given(miniseed: Path, text: str) -> None:
+    (miniseed.parent / "SAC_PZs").write_text(text)
+    with refused(RecordError, "inventory", "SAC_PZs") as error:
+        read(miniseed, inventory=miniseed.parent / "SAC_PZs")
+    assert "dataless SEED" in str(error.value) and ("poles and zeros" in str(error.value)) == (
+        "ZEROS" in text
+    )

@@ -20,7 +20,7 @@ LINE = re.compile(r"rocking\.from_obspy\(obspy\.read\(\w+\), (unit=|inventory=ob
 
 
 @pytest.mark.parametrize("place", [
-    "xseed/tests/data/G.SPB.dataless", "xseed/tests/data/RESP.BW.FURT..EHZ", "gcf/tests/data/20160603_1910n.gcf",
+    "xseed/tests/data/G.SPB.dataless", "gcf/tests/data/20160603_1910n.gcf",
     "mseed/tests/data/fullseed.mseed", "xseed/tests/data/arclink_full.seed",
 ])  # fmt: skip
 def test_what_obspy_alone_reads_is_led_there_in_one_line(place: str) -> None:
@@ -30,6 +30,11 @@ def test_what_obspy_alone_reads_is_led_there_in_one_line(place: str) -> None:
         told.value
     )
     assert "\n" not in str(told.value)
+
+
+def test_a_resp_file_is_led_to_the_record_that_it_describes() -> None:
+    with pytest.raises(RecordError, match=r"rocking\.read\(record, inventory=path\)"):
+        read(OBSPY / "xseed/tests/data/RESP.BW.FURT..EHZ")
 
 
 @pytest.mark.parametrize(("name", "content", "word"), [

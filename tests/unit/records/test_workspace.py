@@ -254,3 +254,17 @@ def test_without_h5py_the_extra_is_named(path: Path, monkeypatch: pytest.MonkeyP
         rocking.read(path)
     (file,) = list_folder(path.parent)[0]
     assert "rocking[asdf]" in file.refusal
+
+
+@pytest.mark.parametrize("ending", ["h5", "hdf5", "hdf", "asdf"])
+def test_counts_under_a_tag_of_ones_own_are_read_by_the_response(tmp_path: Path, ending: str) -> None:
+    """Whole numbers in no unit; numbers with decimals may be anything, and are asked for."""
+    path = tmp_path / f"own.{ending}"
+    with h5py.File(path, "w") as file:
+        file.attrs["file_format"] = np.bytes_("ASDF")
+        add_station(file, "HSES", "mine", COUNTS, xml=stationxml("HSES", ""))
+        add_station(file, "WTMC", "mine", TRUE, xml=stationxml("WTMC", ""))
+    east = read(path / f"{EVENT}_mine" / "NZ.HSES")[0]
+    assert east.acceleration == pytest.approx(TRUE - TRUE.mean(), abs=1e-5) and not east.processed
+    with refused(UndeclaredError, "unit"):
+        read(path / f"{EVENT}_mine" / "NZ.WTMC")
