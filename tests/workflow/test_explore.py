@@ -388,10 +388,12 @@ def test_the_keyboard_is_enough(page, browser):
     assert "synthetic_00001" in page("#title")[0].text
 
 
-def test_a_record_that_failed_says_why(page):
+def test_a_record_that_failed_says_why(page, browser):
+    from selenium.webdriver.support.ui import WebDriverWait
+
     (cell,) = page("button[data-record='1'][data-structure='0']")
     cell.click()
-    assert "sha256" in page("#facts")[0].text
+    WebDriverWait(browser, PATIENCE).until(lambda _: "sha256" in page("#facts")[0].text)
 
 
 def test_each_cell_has_an_address(page, browser, study):
