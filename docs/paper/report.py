@@ -13,7 +13,7 @@ from docs.paper.equations import EquationRow, equation_rows
 from docs.paper.figures import arch_response, panels, pulse_map
 from docs.paper.response import example_arch, response_curves
 from rocking.reports import printing
-from rocking.reports.pages import Page, Picture, Table
+from rocking.reports.pages import Page, PageTable, Picture
 from rocking.reports.printing import compile_document
 from rocking.reports.style import picture, plain_logarithmic
 from rocking.signal.accelerogram import Accelerogram
@@ -99,10 +99,10 @@ class PaperPage(Page):
     template = Path(__file__).with_name("paper.typ")
 
     figures: tuple[DrawnFigure, ...]
-    equations: Table
+    equations: PageTable
 
 
-def equation_table(rows: Sequence[EquationRow]) -> Table:
+def equation_table(rows: Sequence[EquationRow]) -> PageTable:
     """Return the equations as the template sets them."""
     columns = [
         ("Eq.", "0.45", "l"), ("Printed", "1.2", "l"), ("Corrected", "1.3", "l"), ("What decides", "1.8", "l"),

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from docs.research.scores import HAPPENED, STATED, Score
 from docs.research.sites import NamedRecord, Records
 from rocking.reports import printing
-from rocking.reports.pages import Part, PlainPage
+from rocking.reports.pages import PlainPage, Section
 from rocking.reports.printing import compile_document
 from rocking.reports.style import new_figure, picture, styled
 from rocking.structures import Structure
@@ -52,20 +52,20 @@ class Target:
         write_tables(tables, self.folder, f"rocking-{self.folder.name}")
         scores = pd.DataFrame(tables[Score])
         is_class = scores.measure.isin((STATED, HAPPENED))
-        parts = [Part(text=text)] if text else []
+        parts = [Section(text=text)] if text else []
         for part, own in scores[~is_class].groupby("part", sort=False):
             rows = [Score(**row) for row in own.sort_values("measure", kind="stable").to_dict("records")]
             columns = printing.columns_of(
                 Score, "measure=2 subject=1.6 value value_low value_high sites earthquakes cases", "0.6"
             )
             caption = f"{printing.sentence(str(part))}; 90 % intervals by resampling earthquakes."
-            parts.append(Part(table=printing.table_of(rows, *columns), caption=caption))
+            parts.append(Section(table=printing.table_of(rows, *columns), caption=caption))
         if is_class.any():
             drawn = picture(
                 reliability_figure(scores[is_class]), "Overturning share against the stated probability."
             )
             caption = "Reliability, with 90 % intervals by resampling earthquakes."
-            parts.append(Part(pictures=(drawn,), caption=caption))
+            parts.append(Section(pictures=(drawn,), caption=caption))
         page = PlainPage(title=title, subtitle=subtitle, parts=tuple(parts))
         write_whole(self.folder / "report.pdf", compile_document(page))
 

@@ -7,7 +7,7 @@ from dataclasses import MISSING, dataclass
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from rocking.catalogue.place import Place, place_of
+from rocking.catalogue.place import Coordinates, place_of
 from rocking.described import described, described_values, number_hint
 from rocking.earthquakes.sample import MADE
 from rocking.errors import CatalogueError, RockingError
@@ -147,12 +147,12 @@ class CatalogueRecord:
         return bool(self.source_repository)
 
     @property
-    def station_place(self) -> Place | Remark | None:
+    def station_place(self) -> Coordinates | Remark | None:
         """Where the station stands, or what is wrong with its coordinates; None without them."""
         return place_of(latitude=self.station_latitude, longitude=self.station_longitude)
 
     @property
-    def epicentre(self) -> Place | Remark | None:
+    def epicentre(self) -> Coordinates | Remark | None:
         """Where the earthquake began, or what is wrong with its coordinates; None without them."""
         return place_of(latitude=self.epicentre_latitude, longitude=self.epicentre_longitude, of="epicentre")
 

@@ -11,7 +11,7 @@ _RADIUS = 6371.0088
 
 
 @dataclass(frozen=True, kw_only=True)
-class Place:
+class Coordinates:
     """A place. latitude: degrees north, -90 to 90. longitude: degrees east, -180 to 180."""
 
     latitude: float
@@ -21,7 +21,7 @@ class Place:
         north, east = "NS"[self.latitude < 0], "EW"[self.longitude < 0]
         return f"{abs(self.latitude):.4f}° {north}, {abs(self.longitude):.4f}° {east}"
 
-    def distance_to(self, other: "Place") -> float:
+    def distance_to(self, other: "Coordinates") -> float:
         """Return the length of the great circle to another place, km, by the haversine formula."""
         here, there = math.radians(self.latitude), math.radians(other.latitude)
         turn = math.radians(other.longitude - self.longitude)
@@ -31,7 +31,7 @@ class Place:
 
 def place_of(
     *, latitude: float | None, longitude: float | None, of: str = "station"
-) -> Place | Remark | None:
+) -> Coordinates | Remark | None:
     """Return the place of two cells of a catalogue, in degrees, or what is wrong with them; None where both are empty.
 
     of: what the names of their columns begin with.
@@ -43,7 +43,7 @@ def place_of(
         given, missing = names.values() if longitude is None else reversed(names.values())
         return Remark.of(RecordKind.PLACE_HALF, given=given, missing=missing)
     if abs(latitude) <= 90 and abs(longitude) <= 180:
-        return Place(latitude=latitude, longitude=longitude)
+        return Coordinates(latitude=latitude, longitude=longitude)
     swapped = abs(latitude) <= 180 and abs(longitude) <= 90
     kind = RecordKind.PLACE_SWAPPED if swapped else RecordKind.PLACE_IMPOSSIBLE
     return Remark.of(

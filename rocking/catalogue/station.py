@@ -10,7 +10,7 @@ from typing import Any
 from rocking.catalogue.catalogue import CatalogueRecord, RecordFile
 from rocking.catalogue.files import in_catalogue_folder, path_of
 from rocking.catalogue.joining import joined
-from rocking.catalogue.place import Place, place_of
+from rocking.catalogue.place import Coordinates, place_of
 from rocking.errors import RecordError, about
 from rocking.hashes import sha256_of_bytes
 from rocking.records.direction import (
@@ -235,14 +235,14 @@ _NEAR = 1.0
 """Distance of two places, km, up to which they are one: coordinates are often given to a hundredth of a degree."""
 
 
-def _place(channel: Accelerogram, record: CatalogueRecord) -> tuple[Place | None, list[Remark]]:
+def _place(channel: Accelerogram, record: CatalogueRecord) -> tuple[Coordinates | None, list[Remark]]:
     """The place of the station by its row, where it gives one that can be; what is wrong with it and the epicentre."""
     given = record.station_place
     doubts = [doubt for doubt in (given, record.epicentre) if isinstance(doubt, Remark)]
-    if not isinstance(given, Place):
+    if not isinstance(given, Coordinates):
         return None, doubts
     stated = place_of(latitude=channel.latitude, longitude=channel.longitude)
-    if isinstance(stated, Place) and (distance := stated.distance_to(given)) > _NEAR:
+    if isinstance(stated, Coordinates) and (distance := stated.distance_to(given)) > _NEAR:
         doubts.append(
             Remark.of(
                 RecordKind.PLACE_UNLIKE_FILE, catalogue=str(given), file=str(stated), distance_km=distance

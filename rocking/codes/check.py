@@ -242,7 +242,7 @@ def says_nothing(interval: tuple[float, float]) -> bool:
     return low < 0.01 and high > 0.99
 
 
-class Part(StrEnum):
+class Role(StrEnum):
     """The part that one check has in the conclusion on its structure."""
 
     DECIDES = "decides"
@@ -254,7 +254,7 @@ class Part(StrEnum):
     @property
     def in_words(self) -> str:
         """It as a page prints it."""
-        return "does not count" if self is Part.OVERRULED else str(self)
+        return "does not count" if self is Role.OVERRULED else str(self)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -338,15 +338,15 @@ class StructureCheck:
         """Whether the check that decides is met."""
         return self.decisive is not None and self.decisive.passed
 
-    def part_of(self, check: Check) -> Part:
+    def part_of(self, check: Check) -> Role:
         """Return the part that one of the checks has in whether the structure is verified."""
         if check is self.decisive:
-            return Part.DECIDES
+            return Role.DECIDES
         if _is_open(check):
-            return Part.NO_ANSWER
+            return Role.NO_ANSWER
         if check.passed:
-            return Part.COUNTS_TOO if self.verified else Part.OVERRULED
-        return Part.NOT_NEEDED if self.verified else Part.COUNTS_TOO
+            return Role.COUNTS_TOO if self.verified else Role.OVERRULED
+        return Role.NOT_NEEDED if self.verified else Role.COUNTS_TOO
 
     @property
     def limit(self) -> LimitPoint | None:

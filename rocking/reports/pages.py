@@ -1,6 +1,6 @@
 """What each template is given: one frozen dataclass a page, of which it reads every field and no other.
 
-A class of a page names the variable of the template that holds it: a `Row` is `row` there, a `TableCell` `table_cell`.
+A class of a page names the variable of the template that holds it: a `TableCell` is `table_cell` there.
 """
 
 from collections.abc import Iterator, Mapping
@@ -59,7 +59,7 @@ Cell = str | TableCell
 
 
 @dataclass(frozen=True)
-class Table:
+class PageTable:
     """A table. widths: "auto" or a number of fractions; alignments: "l", "c" or "r"."""
 
     heads: tuple[str, ...] = ()
@@ -72,7 +72,7 @@ class Table:
 class CaptionedTable:
     """A table and what it is."""
 
-    table: Table
+    table: PageTable
     caption: str
 
 
@@ -145,7 +145,7 @@ class Topic:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Part:
+class Section:
     """One part of a document: what of this there is stands in this order, the caption under picture or table.
 
     level: of the heading. size: of the letters of the table, pt. last: rows that stay together at its end.
@@ -157,7 +157,7 @@ class Part:
     text: str = ""
     sentences: tuple[str, ...] = ()
     pictures: tuple[Picture, ...] = ()
-    table: Table = Table()
+    table: PageTable = PageTable()
     caption: str = ""
     size: float = 7.5
     last: int = 4
@@ -176,7 +176,7 @@ class Panel:
     """
 
     title: str
-    parts: tuple[Part, ...]
+    parts: tuple[Section, ...]
     caveat: str = ""
 
 
@@ -187,7 +187,7 @@ class PlainPage(Page):
     template = FOLDER / "plain.typ"
 
     subtitle: str = ""
-    parts: tuple[Part, ...] = ()
+    parts: tuple[Section, ...] = ()
 
 
 # The report of a record ----------------------------------------------------------------------------------
@@ -220,7 +220,7 @@ class Marks:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Row:
+class PageOneRow:
     """The row of a structure on page one. below: its sizes, and λ with its crack and the least one. odds: the share in
     tenths. alone: its reserve is that of the mechanism alone."""
 
@@ -250,7 +250,7 @@ class PageOne:
     trace: tuple[Picture, ...]
     peaks: tuple[Peak, ...]
     sine: Sine
-    rows: tuple[Row, ...]
+    rows: tuple[PageOneRow, ...]
     others: tuple[Others, ...]
     uncertain: tuple[str, ...]
     legend: str
@@ -335,10 +335,10 @@ class RecordPage(Page):
     notices: tuple[Notice, ...]
     page_one: PageOne
     against: tuple[Against, ...]
-    variants: Part
-    advice: Part
-    known: Part
-    assumed: Part
+    variants: Section
+    advice: Section
+    known: Section
+    assumed: Section
 
 
 # The report over all records -----------------------------------------------------------------------------
@@ -429,19 +429,19 @@ class SummaryPage(Page):
     map: SeverityMap
     whole_map: SeverityMap
     scatter: tuple[Scatter, ...]
-    outcomes: Part
-    structures: Part
+    outcomes: Section
+    structures: Section
     strips_title: str
     strips: tuple[Strip, ...]
-    supports: Part
-    design: Part
+    supports: Section
+    design: Section
     panels: tuple[Panel, ...]
-    failures: Part
-    agreement: Part
-    lists: Part
-    methods: Part
-    unsafe: Part
-    records: Part
+    failures: Section
+    agreement: Section
+    lists: Section
+    methods: Section
+    unsafe: Section
+    records: Section
 
 
 # What a template receives --------------------------------------------------------------------------------

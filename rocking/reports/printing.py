@@ -31,7 +31,7 @@ from rocking.reports.pages import (
     Footer,
     Page,
     PageSettings,
-    Table,
+    PageTable,
     TableCell,
     as_data,
     pictures_in,
@@ -192,13 +192,13 @@ def strong(text: str, really: bool = True) -> TableCell:
     return TableCell(text, really)
 
 
-def table(columns: Sequence[tuple[str, str, str]], rows: Iterable[Sequence[Cell]]) -> Table:
+def table(columns: Sequence[tuple[str, str, str]], rows: Iterable[Sequence[Cell]]) -> PageTable:
     """Return a table as the templates set it; a column is (heading, width, alignment)."""
     heads, widths, alignments = zip(*columns, strict=True)
-    return Table(heads, widths, alignments, tuple(map(tuple, rows)))
+    return PageTable(heads, widths, alignments, tuple(map(tuple, rows)))
 
 
-def table_of(rows: Iterable[Any], *columns: Column) -> Table:
+def table_of(rows: Iterable[Any], *columns: Column) -> PageTable:
     """Return a table with a line for each row."""
     return table([column[:3] for column in columns], [[show(row) for *_, show in columns] for row in rows])
 

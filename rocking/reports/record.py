@@ -48,16 +48,16 @@ from rocking.reports.pages import (
     Notice,
     Others,
     PageOne,
+    PageOneRow,
     PageSettings,
-    Part,
+    PageTable,
     Peak,
     Picture,
     PlainPage,
     RecordPage,
-    Row,
+    Section,
     Sine,
     Strip,
-    Table,
     Topic,
 )
 from rocking.reports.printing import (
@@ -158,10 +158,10 @@ class RecordReport:
                 notices=tuple(_notices(self)),
                 page_one=page_one(self),
                 against=_against(self),
-                variants=Part(heading="Variants" if strips else "", strips=tuple(strips)),
+                variants=Section(heading="Variants" if strips else "", strips=tuple(strips)),
                 advice=_advice(self),
                 known=_known(self),
-                assumed=Part(heading="What was assumed", topics=tuple(_assumed(self))),
+                assumed=Section(heading="What was assumed", topics=tuple(_assumed(self))),
             )
 
     @cached_property
@@ -250,7 +250,7 @@ def failure_page(record: str, message: str) -> PlainPage:
     return PlainPage(
         title=f"Rocking assessment: {record}",
         subtitle="This record gave no result.",
-        parts=(Part(notice=message or "No reason was given."), Part(text=text)),
+        parts=(Section(notice=message or "No reason was given."), Section(text=text)),
     )
 
 
@@ -426,7 +426,7 @@ def ground_strip(motion: Trace) -> Picture:
     return drawn_by_hand(lines, width, height, alt)
 
 
-def structure_row(conclusion: Conclusion, structure: Structure | None) -> Row:
+def structure_row(conclusion: Conclusion, structure: Structure | None) -> PageOneRow:
     """The row of a structure: drawn at _DRAWN of its critical rotation and dashed at rest, its word and its marks."""
     verdict = conclusion.verdict
     decision = verdict.decision
@@ -444,7 +444,7 @@ def structure_row(conclusion: Conclusion, structure: Structure | None) -> Row:
     of_uplift = [f"λ\u00a0{number(case.uplift_multiplier)}", case.crack] if case else []
     of_uplift += [least_uplift(case, structure)] if case and structure else []
     uplift = ", ".join(filter(None, of_uplift))
-    return Row(
+    return PageOneRow(
         name=verdict.structure,
         below="; ".join(filter(None, (sizes, uplift, place, _known_crack(structure, verdict)))),
         drawing=drawing,
@@ -562,7 +562,7 @@ def _peaks(report: RecordReport) -> tuple[Peak, ...]:
     )
 
 
-def _components(report: RecordReport) -> Table:
+def _components(report: RecordReport) -> PageTable:
     """Return the table of the components: peaks, duration, velocity pulse and dominant sine of each."""
     acceleration = printing.unit_of("m/s²")
     velocity = printing.unit_of("m/s")
@@ -613,7 +613,7 @@ _COMPONENTS = (
 )
 
 
-def _known(report: RecordReport) -> Part:
+def _known(report: RecordReport) -> Section:
     """Return the components, and by topic what a reader has to know and the warnings, each once."""
     depends = []
     for period_result in report.result.worst_first:
@@ -651,7 +651,7 @@ def _known(report: RecordReport) -> Part:
     }
     components = _components(report)
     known = tuple(Topic(topic, tuple(texts)) for topic, texts in topics.items() if texts)
-    return Part(
+    return Section(
         heading="What to know" if components.rows or known else "",
         table=components,
         caption=_COMPONENTS + report.scale_note,
@@ -703,7 +703,7 @@ def _would_crush(period_result: PeriodResult) -> bool:
     return then - share > MOVED or then >= 0.05 > share
 
 
-def _advice(report: RecordReport) -> Part:
+def _advice(report: RecordReport) -> Section:
     """Return what would settle the cases that are not sure, each thing to do once with its structures."""
     to_do: dict[str, list[str]] = {}
     for period_result in report.result.worst_first:
@@ -714,7 +714,7 @@ def _advice(report: RecordReport) -> Part:
     sentences = [
         f"To learn more of {listed(list(dict.fromkeys(names)))}: {thing}." for thing, names in to_do.items()
     ]
-    return Part(heading="What to do" if sentences else "", sentences=tuple(sentences))
+    return Section(heading="What to do" if sentences else "", sentences=tuple(sentences))
 
 
 def warnings_of(tables: RecordRows) -> dict[str, Kind]:

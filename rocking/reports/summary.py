@@ -49,13 +49,13 @@ from rocking.reports.pages import (
     MapRow,
     Notice,
     PageSettings,
+    PageTable,
     Panel,
-    Part,
     Scatter,
+    Section,
     SeverityMap,
     Strip,
     SummaryPage,
-    Table,
     TableCell,
 )
 from rocking.reports.printing import (
@@ -178,7 +178,7 @@ def _page(
             *_notices(records, comparison, len(failures)),
             *map(Notice, to_check(rows_of(RemarkRow, rows))),
         ),
-        outcomes=Part(
+        outcomes=Section(
             pictures=pictures(
                 outcomes_figure,
                 shown if many else (),
@@ -190,7 +190,7 @@ def _page(
         whole_map=severity_map(
             shown if len(judged) > MOST_ON_PAGE_ONE else (), records, MOST_MAPPED, caption=_WHOLE_MAP
         ),
-        supports=Part(
+        supports=Section(
             pictures=pictures(
                 shares_by_period_figure,
                 rows_of(SupportRow, rows),
@@ -198,31 +198,31 @@ def _page(
             ),
             caption=_OF_SUPPORTS,
         ),
-        structures=Part(table=structure_table(shown, structures), caption=_STRUCTURE_TABLE, size=_LETTERS),
+        structures=Section(table=structure_table(shown, structures), caption=_STRUCTURE_TABLE, size=_LETTERS),
         scatter=_scatter(recorded, pulses, agreed, _LOW if low else _HIGH),
         panels=tuple(panels),
-        failures=Part(
+        failures=Section(
             heading="Failures" if failures else "",
             table=table_of(failures[:MOST_LISTED], *FAILURE_COLUMNS),
             caption="What gave no result, and why."
             + remainder(len(failures) - MOST_LISTED, "failure", "failures.csv"),
             size=_LETTERS,
         ),
-        agreement=Part(
+        agreement=Section(
             heading="How the closed form compares",
             table=table_of(agreed, *AGREEMENT_COLUMNS),
             caption=_AGREEMENT_TABLE,
             size=_LETTERS,
         ),
-        lists=Part(heading="Appendix: the lists"),
-        methods=Part(
+        lists=Section(heading="Appendix: the lists"),
+        methods=Section(
             heading="What each method is worth",
             level=2,
             table=method_table(recorded),
             caption=_METHOD_TABLE,
             size=_LETTERS,
         ),
-        unsafe=Part(
+        unsafe=Section(
             heading="Cases in which the closed form is on the unsafe side",
             level=2,
             text="" if unsafe else "None.",
@@ -231,7 +231,7 @@ def _page(
             f"first.{remainder(len(unsafe) - MOST_LISTED, 'case', 'comparison.csv')}",
             size=_LETTERS,
         ),
-        records=Part(
+        records=Section(
             heading="The records and how the numbers were made",
             level=2,
             text=_how_made(settings, bool(records)),
@@ -306,17 +306,17 @@ def _scatter(
     return (Scatter(heading, picture(figure, alt), _COUNTED if carried else ""),)
 
 
-def _design(design: Design | None) -> Part:
+def _design(design: Design | None) -> Section:
     """The figure of the spectra with the design level, and what that is."""
     if design is None:
-        return Part()
+        return Section()
     level, spectra = design
     alt = "Spectra of all components and their mean with the design spectrum."
     caption = (
         "The spectra of the records as they acted, for the damping of the design level, each component on its own, and "
         f"their mean beside that of the design level: {level.words}."
     )
-    return Part(pictures=(picture(design_summary_figure(spectra, level), alt),), caption=caption)
+    return Section(pictures=(picture(design_summary_figure(spectra, level), alt),), caption=caption)
 
 
 def _notices(
@@ -445,7 +445,7 @@ def _cell(verdict_row: VerdictRow | None) -> MapCell:
 
 def structure_table(
     verdicts: Sequence[VerdictRow], structures: Mapping[str, Structure] = MappingProxyType({})
-) -> Table:
+) -> PageTable:
     """Return one row per structure: under how many records it overturns, and the record that is worst for it.
 
     Below the name of one whose crack is known this is said.
@@ -478,7 +478,7 @@ def _record(row: VerdictRow) -> Cell:
 # What the methods are worth --------------------------------------------------------------------------------
 
 
-def method_table(comparison: Sequence[ComparisonRow]) -> Table:
+def method_table(comparison: Sequence[ComparisonRow]) -> PageTable:
     """Return how each method stands to the integration of the mechanism under the record; times stand in a table."""
     every = [_worth(method, comparison) for method in printing.METHODS]
     return table_of(
@@ -552,7 +552,7 @@ UNSAFE_COLUMNS: list[Column] = [
 FAILURE_COLUMNS = columns_of(FailureRow, "record component=auto structure stage=0.6 message=3")
 
 
-def record_table(records: Sequence[RecordRow], pulses: Sequence[PulseRow]) -> Table:
+def record_table(records: Sequence[RecordRow], pulses: Sequence[PulseRow]) -> PageTable:
     """Return the records with their dominant pulses."""
     pulse_of = {(row.record, row.component): row for row in pulses if row.is_dominant}
     of_record = columns_of(

@@ -7,7 +7,7 @@ from traceback import print_exception
 
 from rocking.assessment.rows import FailureRow
 from rocking.errors import fault_in_words
-from rocking.reports.pages import Part, PlainPage
+from rocking.reports.pages import PlainPage, Section
 from rocking.reports.printing import Figures, write_document
 from rocking.reports.style import new_figure, svg
 from rocking.tables import write_whole
@@ -49,7 +49,7 @@ def write_reason(path: Path, sentences: list[str], figures: Figures = "none") ->
         rows = [FailureRow(stage="document", message=sentence) for sentence in sentences]
         write_whole(path, workbook({FailureRow: rows}))
     else:
-        parts = (Part(sentences=tuple(sentences)),)
+        parts = (Section(sentences=tuple(sentences)),)
         title = path.stem.capitalize()
         page = PlainPage(title=title, subtitle="It could not be made.", parts=parts)
         write_document(path, page, figures)

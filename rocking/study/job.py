@@ -27,7 +27,7 @@ from rocking.assessment.scene import Scene, on_joints
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.store import computation_version
 from rocking.catalogue import CatalogueRecord, open_station
-from rocking.catalogue.place import Place
+from rocking.catalogue.place import Coordinates
 from rocking.catalogue.station import station_of
 from rocking.errors import RockingError, about, fault_in_words
 from rocking.records import Accelerogram
@@ -284,5 +284,5 @@ def rows_of(result: RecordResult, record: CatalogueRecord, study: Study) -> Reco
     """Return what the tables of a study hold of a record."""
     vertical = study.settings.vertical
     place = record.epicentre
-    epicentre = place if isinstance(place, Place) else None
+    epicentre = place if isinstance(place, Coordinates) else None
     return rows_of_record(result, study.settings_sha256, record.licence, vertical, epicentre)

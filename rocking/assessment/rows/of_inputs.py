@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
-from rocking.catalogue.place import Place
+from rocking.catalogue.place import Coordinates
 from rocking.errors import StructureError
 from rocking.pulses import Pulse, PulseEvidence, VelocityPulse
 from rocking.pulses.pulse import PulseAnalysis
@@ -81,7 +81,7 @@ class ReadComponent(Identified):
 
     component: "Component"
     licence: str
-    epicentre: Place | None = None
+    epicentre: Coordinates | None = None
 
     @property
     def file(self) -> str:

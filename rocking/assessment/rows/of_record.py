@@ -33,7 +33,7 @@ from rocking.assessment.rows.of_inputs import (
     RecordRow,
     pulses_found,
 )
-from rocking.catalogue.place import Place
+from rocking.catalogue.place import Coordinates
 from rocking.errors import RockingError, one_structure
 from rocking.floors.place import FloorMeasures
 from rocking.remarks import Kind, Remark
@@ -821,7 +821,7 @@ def rows_of_record(
     settings_sha256: str = "",
     licence: str = "",
     vertical: bool = False,
-    epicentre: Place | None = None,
+    epicentre: Coordinates | None = None,
 ) -> RecordRows:
     """Return what the tables hold of a record.
 

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from rocking.assessment.scene import placed
-from rocking.codes.check import Part, ratio_in_words, says_nothing
+from rocking.codes.check import Role, ratio_in_words, says_nothing
 from rocking.codes.kinds import CheckKind
 from rocking.products.checks.rows import CodeCheckRow
 from rocking.quantities import counted, percents
@@ -31,7 +31,7 @@ class CodeConclusion:
     @property
     def decisive(self) -> CodeCheckRow:
         """The check that decides."""
-        return next(check for check in reversed(self.checks) if check.part == Part.DECIDES)
+        return next(check for check in reversed(self.checks) if check.part == Role.DECIDES)
 
     @property
     def verified(self) -> bool:

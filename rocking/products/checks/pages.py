@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from rocking.reports.pages import Page, Picture, Strip, Table
+from rocking.reports.pages import Page, PageTable, Picture, Strip
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,10 +57,10 @@ class Basis:
 
     title: str
     figure: tuple[Picture, ...]
-    checks: Table
-    mechanisms: Table
+    checks: PageTable
+    mechanisms: PageTable
     sentences: tuple[str, ...]
-    periods: Table
+    periods: PageTable
     share: str
     strips: tuple[Strip, ...]
 
@@ -107,5 +107,5 @@ class StructuresPage(Page):
     notices: tuple[str, ...]
     unread: str
     spectra: tuple[SetFigure, ...]
-    motions: Table
+    motions: PageTable
     sheets: tuple[Sheet, ...]

@@ -15,7 +15,7 @@ from rocking.codes.check import (
     Check,
     CodeTerms,
     DynamicCheck,
-    Part,
+    Role,
     StructureCheck,
     says_nothing,
 )
@@ -33,7 +33,7 @@ from rocking.products.checks.pages import Answer, Basis, SetFigure, Sheet, SignW
 from rocking.products.checks.rows import KINDS, code_check_rows
 from rocking.quantities import GRAVITY, percent
 from rocking.remarks import Kind, Phrase, Remark
-from rocking.reports.pages import Cell, Fact, Footer, PageSettings, Strip, Table
+from rocking.reports.pages import Cell, Fact, Footer, PageSettings, PageTable, Strip
 from rocking.reports.printing import UNITS_IN_WORDS, displaying, stamp, strong, table, unit_of
 from rocking.reports.printing import words as or_a_dash
 from rocking.reports.sentences import Sentences
@@ -122,7 +122,7 @@ def structures_data(
     words = Sentences(settings.language)
     with displaying(settings):
         spectra: tuple[SetFigure, ...] = ()
-        motions = Table()
+        motions = PageTable()
         if selection is not None:
             drawn = picture(
                 selection_figure(selection),
@@ -288,8 +288,8 @@ def _conclusion(
 ) -> tuple[str, tuple[str, ...]]:
     """The conclusion as a headline, and what else there is to say."""
     decisive = conclusion.decisive
-    also = [check.clause for check in conclusion.checks if check.part == Part.COUNTS_TOO]
-    overruled = [words(f"{check.check} check") for check in conclusion.checks if check.part == Part.OVERRULED]
+    also = [check.clause for check in conclusion.checks if check.part == Role.COUNTS_TOO]
+    overruled = [words(f"{check.check} check") for check in conclusion.checks if check.part == Role.OVERRULED]
     needs_its_tie = page.has_ties and not (page.untied and page.untied.verified)
     if conclusion.verified:
         headline = words(
@@ -325,7 +325,7 @@ def _conclusion(
         # Why there are no sets stands above the page.
         if checked.remark is not None and checked.remark.kind is CheckKind.NO_DISPLACEMENT:
             details.append(words("It cannot overturn, so that the linear check alone is made."))
-    elif checked.part_of(dynamic) is Part.NO_ANSWER:
+    elif checked.part_of(dynamic) is Role.NO_ANSWER:
         details.append(
             words(
                 "The dynamic check has no answer: {sets} other sets of records lie within the limits and "
@@ -599,15 +599,15 @@ def _basis(
         title=words("Basis of the checks: {name}", name=page.name),
         figure=(figure,),
         checks=_check_table(checked, words),
-        mechanisms=_mechanism_table(page, words) if len(page.mechanisms) > 1 else Table(),
+        mechanisms=_mechanism_table(page, words) if len(page.mechanisms) > 1 else PageTable(),
         sentences=tuple(_sentences(page, checked, words)),
-        periods=_period_table(others, conclusion, words) if others else Table(),
+        periods=_period_table(others, conclusion, words) if others else PageTable(),
         share=_share(page, words),
         strips=variant_strips,
     )
 
 
-def _check_table(checked: StructureCheck, words: Sentences) -> Table:
+def _check_table(checked: StructureCheck, words: Sentences) -> PageTable:
     heads = [
         (words("Check"), "0.9", "l"),
         (words("Clause"), "auto", "l"),
@@ -635,7 +635,7 @@ def _check_table(checked: StructureCheck, words: Sentences) -> Table:
     return table(heads, lines)
 
 
-def _mechanism_table(page: CheckedStructure, words: Sentences) -> Table:
+def _mechanism_table(page: CheckedStructure, words: Sentences) -> PageTable:
     """The weakest mechanism of each kind, and those that were followed, with what holds them back."""
     heads = [
         (words("Mechanism"), "2.2", "l"),
@@ -812,7 +812,9 @@ def _lowered(checked: StructureCheck, untied: StructureCheck | None, words: Sent
     return [said]
 
 
-def _period_table(others: Sequence[CheckedStructure], conclusion: CodeConclusion, words: Sentences) -> Table:
+def _period_table(
+    others: Sequence[CheckedStructure], conclusion: CodeConclusion, words: Sentences
+) -> PageTable:
     """The lines of the other places of a structure on a support: the ratios, the conclusion, the study's share."""
     kinds = [check.check for check in conclusion.checks]
     heads = [(words("Place"), "1.4", "l"), *((words(kind), "0.8", "r") for kind in kinds)]
@@ -913,7 +915,7 @@ def _selection_words(selection: Selection, words: Sentences) -> str:
     )
 
 
-def _motion_table(selection: Selection, words: Sentences) -> Table:
+def _motion_table(selection: Selection, words: Sentences) -> PageTable:
     """The records of the chosen set, each with its factor and its peak when scaled."""
     peak = unit_of("m/s²")
     heads = [

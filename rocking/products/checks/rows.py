@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from rocking.assessment.rows import Placed, PlacedRow
-from rocking.codes.check import Check, DynamicCheck, Part, StructureCheck
+from rocking.codes.check import Check, DynamicCheck, Role, StructureCheck
 from rocking.codes.code_capacity import CodeCapacity, LimitPoint
 from rocking.earthquakes.sample import INTERVAL
 from rocking.tables import Columns, row
@@ -92,7 +92,7 @@ class CodeCheckRow(PlacedRow[MadeCheck]):
         "Mechanism that decides: what opens, and to which side it falls", lambda of: of.check.mechanism
     )
     passed: bool = of_check("Whether the check is met", lambda of: of.check.passed)
-    part: Part = of_check(
+    part: Role = of_check(
         "Part of this check in the conclusion: it decides (the most detailed check that has an answer), counts too, is "
         "not needed (not met, where the one that decides is), overruled (met, where the one that decides is not), or "
         "has no answer (too few sets)",

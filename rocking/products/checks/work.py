@@ -26,7 +26,7 @@ from rocking.products.checks.conclusion import CodeConclusion, code_conclusion_i
 from rocking.products.checks.report import CheckedStructure, structures_data
 from rocking.products.checks.rows import KINDS, CodeCheckRow, code_check_rows
 from rocking.remarks import Remark
-from rocking.reports.pages import Panel, Part
+from rocking.reports.pages import Panel, Section
 from rocking.reports.printing import sentence, strong, table_of, words, write_document
 from rocking.structures.structure import Candidate
 from rocking.study.documents import made_or_failed
@@ -101,7 +101,7 @@ def checks_panel(concluded: Sequence[CodeConclusion]) -> Panel:
         f"stations would meet the dynamic one ({INTERVAL}). On a support at the worst period; structures.pdf has a "
         "page of each to sign."
     )
-    part = Part(table=table, caption=caption)
+    part = Section(table=table, caption=caption)
     return Panel("Checks at the design level", (part,), "These records are not the demand of the code.")
 
 

@@ -23,7 +23,7 @@ from rocking.products.fragility.rows import (
     IntensityMeasureRow,
 )
 from rocking.quantities import counted
-from rocking.reports.pages import CaptionedTable, Panel, Part, PlainPage
+from rocking.reports.pages import CaptionedTable, Panel, PlainPage, Section
 from rocking.reports.panels import CurveBand, draw_probability
 from rocking.reports.printing import (
     Column,
@@ -116,16 +116,16 @@ def fragility_data(
         "form, and that exceed a rotation (overturns, or a share of the critical rotation φcr) with that of statics. "
         f"Dot and bar: the median of overturning with the crack that governs, and its {label}."
     )
-    parts = [Part(text=scaled + few * (stations < FEW_STATIONS or earthquakes < FEWEST))]
+    parts = [Section(text=scaled + few * (stations < FEW_STATIONS or earthquakes < FEWEST))]
     names = list(dict.fromkeys(curves["structure"]))
     for first in range(0, len(names), ON_A_PAGE):
         page = names[first : first + ON_A_PAGE]
         figure = fragility_figure(curves[curves["structure"].isin(page)], summary)
         alt = f"Fragility curves of {counted(len(page), 'structure')}, each with its {label}."
-        parts.append(Part(pictures=(picture(figure, alt),), caption=of_curves))
+        parts.append(Section(pictures=(picture(figure, alt),), caption=of_curves))
     parts.append(_part(fragility_table(summary, ida)))
     if faults:
-        parts.append(Part(sentences=tuple(faults)))
+        parts.append(Section(sentences=tuple(faults)))
     if len(measures):
         parts.append(_part(scatter_table(measures)))
     records = f"{counted(ida['record'].nunique(), 'record')} of {sample}"
@@ -133,15 +133,15 @@ def fragility_data(
     return PlainPage(title="Fragility", subtitle=subtitle, parts=tuple(parts))
 
 
-def _part(captioned: CaptionedTable) -> Part:
-    return Part(table=captioned.table, caption=captioned.caption)
+def _part(captioned: CaptionedTable) -> Section:
+    return Section(table=captioned.table, caption=captioned.caption)
 
 
 def fragility_panel(rows: Mapping[type[Row], Iterable[Row]]) -> Panel:
     """Return what the curves of each structure come down to, for the summary."""
     captioned = fragility_table(by_place(FragilitySummaryRow, rows), ida_frame(rows))
     caption = f"{captioned.caption} fragility.pdf holds the curves."
-    return Panel("Fragility", (Part(table=captioned.table, caption=caption),))
+    return Panel("Fragility", (Section(table=captioned.table, caption=caption),))
 
 
 def fragility_table(summary: Sequence[FragilitySummaryRow], ida: "DataFrame") -> CaptionedTable:

@@ -11,7 +11,7 @@ from rocking.assessment.decide import worst_first
 from rocking.assessment.rows import VerdictRow
 from rocking.products.map.geojson import epicentres
 from rocking.products.map.rows import StationRow
-from rocking.reports.pages import Panel, Part
+from rocking.reports.pages import Panel, Section
 from rocking.reports.printing import LOOKS, cell_text
 from rocking.reports.style import elided, new_figure, picture, styled
 
@@ -54,7 +54,7 @@ def map_panel(stations: Sequence[StationRow], verdicts: Sequence[VerdictRow]) ->
         "for a GIS; study.html has a map of each structure."
     )
     drawn = picture(figure, "The stations on a map, by what becomes of a structure.")
-    return Panel("Where it happened", (Part(pictures=(drawn,), caption=caption),))
+    return Panel("Where it happened", (Section(pictures=(drawn,), caption=caption),))
 
 
 def plane(

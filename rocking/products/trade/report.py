@@ -12,7 +12,7 @@ from rocking.products.trade.measure import break_even, what_follows
 from rocking.products.trade.rows import TradeMethod, TradeRow
 from rocking.quantities import counted
 from rocking.reports import printing
-from rocking.reports.pages import Panel, Part, Picture, PlainPage
+from rocking.reports.pages import Panel, Picture, PlainPage, Section
 from rocking.reports.printing import Figures, write_document
 from rocking.reports.style import PREDICTED, RECORD, new_figure, picture, plain_logarithmic, styled, svg
 from rocking.tables import Row, rows_of, write_whole
@@ -70,10 +70,14 @@ def write_trade_report(
         "Left: processor time of a record against the number of structures that are followed under it. Right: share of "
         f"the cases in which a method errs, over all structures, with its median error. Measured on {machine}."
     )
-    drawn = [Part(pictures=(_picture(of_all),), caption=of_figure)] if of_all else []
-    parts = [Part(text="".join(islice(what_follows(rows), 1))), *drawn, Part(table=table, caption=caption)]
+    drawn = [Section(pictures=(_picture(of_all),), caption=of_figure)] if of_all else []
+    parts = [
+        Section(text="".join(islice(what_follows(rows), 1))),
+        *drawn,
+        Section(table=table, caption=caption),
+    ]
     if faults := printing.faults_in_words(tables):
-        parts.append(Part(sentences=tuple(faults)))
+        parts.append(Section(sentences=tuple(faults)))
     subtitle = f"Processor times of {machine}, on the records and structures of the study."
     page = PlainPage(title="What accuracy costs", subtitle=subtitle, parts=tuple(parts))
     write_document(pdf, page, figures)
@@ -89,8 +93,8 @@ def trade_panel(of_each: Sequence[TradeRow]) -> Panel | None:
         "Error against processor time of every method, measured on this study and on the machine that ran it; "
         "trade.pdf explains it."
     )
-    drawn = Part(pictures=(_picture(rows),), caption=caption)
-    return Panel("What accuracy costs", (drawn, Part(text="".join(islice(what_follows(rows), 1)))))
+    drawn = Section(pictures=(_picture(rows),), caption=caption)
+    return Panel("What accuracy costs", (drawn, Section(text="".join(islice(what_follows(rows), 1)))))
 
 
 def _picture(rows: Sequence[TradeRow]) -> Picture:

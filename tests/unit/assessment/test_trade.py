@@ -16,7 +16,7 @@ from rocking.products.trade.measure import TradeMethod, break_even, what_follows
 from rocking.products.trade.report import write_trade_report
 from rocking.products.trade.rows import TradeRow
 from rocking.products.trade.work import trade_lines
-from rocking.reports.pages import Part
+from rocking.reports.pages import Section
 from rocking.study.job import costs_no_other
 from rocking.study.settings import Settings
 
@@ -111,7 +111,7 @@ def test_a_fault_of_one_structure_or_record_costs_no_other_and_is_a_row(
         "rocking.reports.printing.compile_document", lambda page: documents.append(page) or b"%PDF"
     )
     write_trade_report({TradeRow: tried, FailureRow: faults}, tmp_path / "trade.pdf", tmp_path / "trade.svg")
-    assert Part(sentences=(first.message, f"stout: {asks}")) in documents[0].parts
+    assert Section(sentences=(first.message, f"stout: {asks}")) in documents[0].parts
 
 
 def made(method: TradeMethod, **changed) -> TradeRow:

@@ -9,7 +9,7 @@ import pytest
 
 import rocking
 from rocking.catalogue import CatalogueRecord, open_station
-from rocking.catalogue.place import Place, place_of
+from rocking.catalogue.place import Coordinates, place_of
 from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
 
@@ -39,7 +39,7 @@ def test_what_is_wrong_is_said_with_the_columns(latitude, longitude, kind):
 def test_what_can_be_is_a_place_to_the_poles_and_the_date_line():
     assert place_of(latitude=None, longitude=None) is None
     for latitude, longitude in ((90.0, 180.0), (-90.0, -180.0), (0.0, 0.0)):
-        assert place_of(latitude=latitude, longitude=longitude) == Place(
+        assert place_of(latitude=latitude, longitude=longitude) == Coordinates(
             latitude=latitude, longitude=longitude
         )
 
@@ -49,15 +49,21 @@ def test_distances_are_those_of_the_cosine_rule_of_spherical_trigonometry():
     random = np.random.default_rng(69)
     for _ in range(50):
         a, b = (
-            Place(latitude=random.uniform(-85, 85), longitude=random.uniform(-180, 180)) for _ in range(2)
+            Coordinates(latitude=random.uniform(-85, 85), longitude=random.uniform(-180, 180))
+            for _ in range(2)
         )
         p, q, turn = (math.radians(case) for case in (a.latitude, b.latitude, a.longitude - b.longitude))
         angle = math.acos(math.sin(p) * math.sin(q) + math.cos(p) * math.cos(q) * math.cos(turn))
         assert a.distance_to(b) == pytest.approx(6371.0088 * angle, rel=1e-9)
-    assert Place(latitude=0.0, longitude=179.0).distance_to(
-        Place(latitude=90.0, longitude=3.0)
+    assert Coordinates(latitude=0.0, longitude=179.0).distance_to(
+        Coordinates(latitude=90.0, longitude=3.0)
     ) == pytest.approx(6371.0088 * math.pi / 2)
-    assert Place(latitude=10.0, longitude=179.99).distance_to(Place(latitude=10.0, longitude=-179.99)) < 3.0
+    assert (
+        Coordinates(latitude=10.0, longitude=179.99).distance_to(
+            Coordinates(latitude=10.0, longitude=-179.99)
+        )
+        < 3.0
+    )
 
 
 @pytest.fixture
@@ -89,7 +95,7 @@ def test_a_place_unlike_that_of_the_file_is_used_and_told_with_both():
         found = open_station(replace(shipped, **moved)).horizontal[0]
         told = [warning for warning in found.warnings if warning.kind is RecordKind.PLACE_UNLIKE_FILE]
         assert bool(told) == is_told and found.latitude == moved["station_latitude"]
-    apart = Place(latitude=stated.latitude, longitude=stated.longitude).distance_to(
-        Place(latitude=found.latitude, longitude=found.longitude)
+    apart = Coordinates(latitude=stated.latitude, longitude=stated.longitude).distance_to(
+        Coordinates(latitude=found.latitude, longitude=found.longitude)
     )
     assert apart == pytest.approx(0.5 * 111.195, rel=1e-3) and f"{apart:.3g} km" in str(told[0])

@@ -9,7 +9,7 @@ from rocking import DesignSpectrum, check
 from rocking.assessment.rows import RecordRows
 from rocking.products.checks.conclusion import code_conclusion_in_words, code_conclusions
 from rocking.products.checks.rows import CodeCheckRow, code_check_rows
-from rocking.reports.pages import Page, Table
+from rocking.reports.pages import Page, PageTable
 from rocking.reports.printing import compile_document
 from rocking.reports.summary import summary_data
 
@@ -32,7 +32,7 @@ WORDS = [f"{side}{noun}" for side in ("North", "South", "East", "West") for noun
 class Above(Page):
     """A table below so much room, mm."""
 
-    table: Table
+    table: PageTable
     above: str
 
 
@@ -72,7 +72,7 @@ def test_no_table_goes_on_over_a_page_after_one_row(count, tmp_path, monkeypatch
     (tmp_path / "one.typ").write_text(TEMPLATE)
     monkeypatch.setattr(Above, "template", tmp_path / "one.typ", raising=False)
     rows = tuple((f"row{place}", "1.0") for place in range(count))
-    table = Table(("Name", "Value"), ("1", "1"), ("l", "r"), rows)
+    table = PageTable(("Name", "Value"), ("1", "1"), ("l", "r"), rows)
     torn = 0
     for above in range(150, 245, 8):
         document = compile_document(Above(title="one", table=table, above=str(above)))

@@ -16,7 +16,7 @@ from rocking.quantities import counted
 from rocking.remarks import Remark
 from rocking.reports import printing
 from rocking.reports.kinds import ReportKind
-from rocking.reports.pages import Part, RecordPage, Table, TableCell
+from rocking.reports.pages import PageTable, RecordPage, Section, TableCell
 from rocking.reports.printing import MEASURED, compile_document
 from rocking.reports.record import RecordReport, failure_page
 from rocking.signal.accelerogram import Accelerogram
@@ -388,7 +388,7 @@ def test_a_front_that_is_free_to_rock_through_its_floors_is_told():
     assert told == [str(Remark(StructureKind.FLOORS_BEHIND, "floors"))]
 
 
-def _columns(table: Table) -> list[tuple[str, tuple[str, ...]]]:
+def _columns(table: PageTable) -> list[tuple[str, tuple[str, ...]]]:
     """The heads of a table, each with what stands below it."""
     return list(zip(table.heads, zip(*table.rows, strict=True), strict=True))
 
@@ -437,7 +437,7 @@ def test_the_report_says_what_to_do_and_by_how_much_the_record_may_be_stronger()
 
     report = assessed("two", shaking, structures)
     data = report.page()
-    assert data.advice == Part(), "contact dynamics was asked"
+    assert data.advice == Section(), "contact dynamics was asked"
     (block,) = (row for row in report.tables.verdicts if row.structure == "block")
     reserves = {row.name: row.reserve for row in data.page_one.rows}
     assert reserves["block"].startswith(printing.number(block.reserve_low, 2))

@@ -34,7 +34,7 @@ from rocking.reports.design_figure import (
     spectrum_periods,
 )
 from rocking.reports.explore import explore_page
-from rocking.reports.pages import Part, TableCell
+from rocking.reports.pages import Section, TableCell
 from rocking.reports.scatter import prediction_scatter
 from rocking.reports.style import svg
 from rocking.reports.summary import outcomes_figure, severity_map, summary_data
@@ -246,7 +246,7 @@ def test_the_design_level_stands_beside_the_spectra_of_the_records():
         spectrum, response_spectrum(record, periods, 0.05).pseudo_acceleration, rtol=1e-3
     )
     tables = summary_tables(CASES)
-    assert summary_data(tables, SETTINGS).design == Part()
+    assert summary_data(tables, SETTINGS).design == Section()
     drawn = summary_data(tables, SETTINGS, design=(level, [spectrum, spectrum])).design
     assert len(drawn.pictures) == 1 and level.words in drawn.caption
     for count, label in ((2, "components"), (MOST_LINES + 1, "5 to 95 % of the components")):
