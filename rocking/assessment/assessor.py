@@ -3,7 +3,7 @@
 from collections.abc import Callable, Container, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from math import isclose, isnan
+from math import isclose, isinf, isnan
 from typing import Protocol, TypeVar
 
 from rocking.assessment.case import (
@@ -434,13 +434,16 @@ class Assessor:
             return period_result
         structure = period_result.scene.structure
         description = case.ensembles.governing.description
-        if not governing_crack(structure, description).mechanism.can_overturn:
+        loss = period_result.scene.terms.support_loss
+        if isinf(loss) and not governing_crack(structure, description).mechanism.can_overturn:
             return period_result
         of_pair = case is period_result.directions and shaking.pair is not None
         motion = shaking.pair if of_pair else by_name(shaking.components)[case.component].of_ground
         assert motion is not None
 
-        inputs = ReserveInputs(motion=motion, structure=structure, crack=description, settings=ensemble)
+        inputs = ReserveInputs(
+            motion=motion, structure=structure, crack=description, settings=ensemble, support_loss=loss
+        )
         return period_result.with_reserve(self._remembered(Reserve, inputs, compute_reserve))
 
     # What is kept ---------------------------------------------------------------------------------------

@@ -4,6 +4,7 @@ The function that computes a result is given its inputs and nothing else, and a 
 the same object, so that nothing on which the result depends can be missing from the hash.
 """
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -84,10 +85,12 @@ class PairInputs(Inputs):
 class ReserveInputs(Inputs):
     """What the reserve of a structure is computed from.
 
-    crack: description of the one that governs; "" where only one may form.
+    crack: description of the one that governs; "" where only one may form. support_loss: horizontal displacement at
+    which what bears on the structure falls, m; inf where nothing does.
     """
 
     motion: Motion
     structure: Structure
     crack: str
     settings: EnsembleSettings
+    support_loss: float = math.inf

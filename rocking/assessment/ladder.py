@@ -63,11 +63,13 @@ def reserve(
     motions: GroundMotions,
     settings: EnsembleSettings | None = None,
     *,
+    falls_beyond: float = math.inf,
     shift: np.ndarray | None = None,
 ) -> Reserve:
     """Return the reserve of one mechanism under `motions`, the vertical one scaled with the horizontal ones.
 
-    settings: ranges of the causes, and the largest factor that is tried. shift: (c,) in [0, 1), one for each of CAUSES,
+    settings: ranges of the causes, and the largest factor that is tried. falls_beyond: rotation ratio beyond which a
+    member counts as fallen, as what bears on it has lost its seat. shift: (c,) in [0, 1), one for each of CAUSES,
     by which the points of the lattice are moved, for another sample of the same ensemble; none by default. A member
     that cannot be followed counts as one that overturns. Raises MotionError as `integrate` does.
     """
@@ -81,7 +83,8 @@ def reserve(
         lowest = settings.reserve / 100
     if not lowest < settings.reserve:
         return Reserve(low=math.nan, median=math.nan, high=math.nan, limit=settings.reserve)
-    ladder = _Ladder(mechanism, motions, settings, lowest, np.zeros(len(CAUSES)) if shift is None else shift)
+    moved = np.zeros(len(CAUSES)) if shift is None else shift
+    ladder = _Ladder(mechanism, motions, settings, lowest, moved, falls_beyond)
     coarse = np.arange(ladder.falls.size) % COARSE == 0
     coarse[-1] = True
     ladder.follow(coarse)
@@ -107,10 +110,12 @@ class _Ladder:
         settings: EnsembleSettings,
         lowest: float,
         shift: np.ndarray,
+        falls_beyond: float = math.inf,
     ) -> None:
         self.mechanism = mechanism
         self.motions = motions
         self.lowest = lowest
+        self.falls_beyond = falls_beyond
         self.width = max(settings.amplitude_range, LEAST_WIDTH)
         highest = settings.reserve * (1 + self.width)
         rungs = np.arange(math.ceil(RUNGS * math.log(highest / lowest)) + 1)
@@ -135,7 +140,7 @@ class _Ladder:
         values = self.values.of_members(places)
         followed = followed_at(self.mechanism, self.motions, values, np.ones(1), tolerance=TOLERANCE)
         ratios = followed.rotation_ratios[0]
-        self.falls[places] = np.isinf(ratios) | np.isnan(ratios)
+        self.falls[places] = np.isinf(ratios) | np.isnan(ratios) | (ratios > self.falls_beyond)
         return True
 
     def worth_following(self, stage: Stage) -> np.ndarray:

@@ -323,7 +323,8 @@ def compute_reserve(inputs: ReserveInputs, clock: Clock) -> Reserve:
     crack = governing_crack(inputs.structure, inputs.crack)
     with clock.stage("reserve"):
         motions = ground_motions(inputs.motion, inputs.settings.processing)
-        return reserve(crack.mechanism, motions, inputs.settings)
+        falls_beyond = crack.structure.loses_seat_at(inputs.support_loss)
+        return reserve(crack.mechanism, motions, inputs.settings, falls_beyond=falls_beyond)
 
 
 def governing_crack(structure: Structure, description: str) -> Candidate:

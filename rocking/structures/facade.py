@@ -332,16 +332,6 @@ class Facade(Tied):
         thickness = self.thicknesses[storey]
         return thickness / 2 - inset(pressing=load, strength=self.compressive_strength, breadth=thickness)
 
-    @cached_property
-    def _tie_levels(self) -> tuple[float, ...]:
-        """The heights of the ties, each at a level of the storeys where it is one but for rounding, m."""
-        near = 1e-9 * self.height
-        levels = self.levels.tolist()
-        return tuple(
-            next((level for level in levels if abs(level - height) < near), height)
-            for height in self.tie_heights
-        )
-
     def opened(self, opening: Opening) -> "Facade":
         cracked = self._cracked_there_only.cracked_at(opening.foot)
         as_one_body = opening.hinge is None and not opening.between
@@ -393,7 +383,7 @@ class Facade(Tied):
             height = self.height if self.thrust_height is None else self.thrust_height
             if height > foot:
                 held.append(Held(course_at(body, height), self._outer(height), force=(self.thrust, 0.0)))
-        for height in self.tie_heights:
+        for height in self._tie_levels:
             if height > foot:
                 held.append(Held(course_at(body, height), self._outer(height), tie=self._tie))
         held += self._behind(body)

@@ -219,15 +219,17 @@ class Structure(ABC):
     def cautions(self) -> tuple[Remark, ...]:
         """What its model leaves out or takes for granted, and a typed restitution unlike that of the geometry."""
         cautions = [*([] if self._leaves_out is None else [self._leaves_out]), *self.assumptions]
-        typed = self._given_restitution
+        typed = self._typed_restitutions.values()
         has_balance = not self.one_sided and isinstance(self._usual_restitution, str)
-        if has_balance and isinstance(typed, float):
+        if has_balance and typed:
             balanced = self.restitution_of_geometry
             most = max(self._momentum_balance(mirrored) for mirrored in (False, True))
             if balanced is not None:
-                cautions.append(Remark.of(StructureKind.RESTITUTION_TYPED, typed=typed, own=balanced[0]))
-            elif typed - most > TYPED_ABOVE:
-                cautions.append(Remark.of(StructureKind.RESTITUTION_ABOVE, typed=typed, own=max(most, 0.0)))
+                cautions.append(Remark.of(StructureKind.RESTITUTION_TYPED, typed=min(typed), own=balanced[0]))
+            elif max(typed) - most > TYPED_ABOVE:
+                cautions.append(
+                    Remark.of(StructureKind.RESTITUTION_ABOVE, typed=max(typed), own=max(most, 0.0))
+                )
         return tuple(cautions)
 
     @property
@@ -532,6 +534,13 @@ class Structure(ABC):
         return own
 
     @property
+    def _typed_restitutions(self) -> dict[str, float]:
+        """The restitutions that its description gives as numbers, by their keys."""
+        given = {"restitution": self._given_restitution}
+        given["inward_restitution"] = getattr(self, "inward_restitution", None)
+        return {key: number for key, number in given.items() if isinstance(number, float)}
+
+    @property
     def restitution_is_typed(self) -> bool:
         """Whether its restitution is a number of the description, not that of a balance of momentum."""
         own = self._given_restitution
@@ -543,20 +552,25 @@ class Structure(ABC):
 
         None of what leans on something, which takes part in the impact, and of what has no such balance.
         """
-        typed = self._given_restitution
-        if self.one_sided or not isinstance(typed, float) or not isinstance(self._usual_restitution, str):
+        typed = self._typed_restitutions
+        if self.one_sided or not typed or not isinstance(self._usual_restitution, str):
             return None
         try:
-            own = min(self._momentum_balance(mirrored) for mirrored in (False, True))
-            if own - typed <= TYPED_LOWER:
-                return None
-            # None is the balance of each side; a type that asks for a number gets the least of both
-            balanced: dict[str, Any] = {
-                own_field.name: None if own_field.default is None else own
-                for own_field in fields(self)
-                if own_field.name in ("restitution", "inward_restitution")
+            of_sides = [self._momentum_balance(mirrored) for mirrored in (False, True)]
+            own = {"restitution": min(of_sides), "inward_restitution": of_sides[1]}
+            if "inward_restitution" in typed:
+                own["restitution"] = of_sides[0]
+            raised: dict[str, Any] = {
+                key: own[key] for key, number in typed.items() if own[key] - number > TYPED_LOWER
             }
-            return own, replace(self, **balanced)
+            if not raised:
+                return None
+            least = min(raised.values())
+            # None is the balance of each side; a type that asks for a number gets the least of both
+            optional = {own_field.name for own_field in fields(self) if own_field.default is None}
+            if "restitution" in raised and "restitution" in optional:
+                raised["restitution"] = None
+            return least, replace(self, **raised)
         except StructureError:  # a bulge of it may have none
             return None
 

@@ -97,10 +97,10 @@ def check_eccentricity(*, value: float, thickness: float) -> None:
 
 
 def check_inside(field: str, value: float, height: float) -> None:
-    """Refuse a height above the ground [m] that is not on a wall of that `height`."""
-    if not 0 < value <= height:
+    """Refuse a height above the ground [m] that is not on a wall of that `height`, or at its foot but for rounding."""
+    if not _SAME * height < value <= height:
         raise SizeError.of(
-            field, repr(value), f" m, but must lie on the wall, above 0 and up to {height:.6g} m."
+            field, repr(value), f" m, but must lie on the wall, above its foot and up to {height:.6g} m."
         )
 
 
@@ -549,15 +549,20 @@ class Tied(CrackedAtHeight, Leaved):
     def _restraints(self) -> tuple[Restraint, ...]:
         wall = self.held_wall
         found = []
-        for place, hold in enumerate(wall.holds):
-            held = [candidate for candidate in self.mechanisms() if self._holds_back(hold.height, candidate)]
+        for hold in wall.holds:
+            held = [candidate for candidate in self.mechanisms() if self._holds_back(hold, candidate)]
             if not held or hold.kind == "floor":
                 continue
             # What is taken to hold has to bear the crack that is described, too, which may ask for more.
             asked = held[:1]
             if hold.kind == "top" and not hold.gives:
                 asked += [candidate for candidate in held if candidate.position == self.crack_position]
-            each = [(candidate.name, candidate.structure.reactions()[place]) for candidate in asked]
+            each = [
+                (candidate.name, reaction)
+                for candidate in asked
+                for reaction in candidate.structure.reactions()
+                if (reaction.kind, reaction.height) == (hold.kind, hold.height)
+            ]
             name, reaction = max(each, key=lambda asking: float(asking[1].force[0]))
             friction = hold.inwards if hold.kind == "top" else 0.0
             of_ties = hold.outwards - friction if np.isfinite(friction) else 0.0
@@ -614,12 +619,14 @@ class Tied(CrackedAtHeight, Leaved):
         inertia += sum(load.weight * load.z**2 for load in wall.loads if load.rides)
         return 2 * math.pi * math.sqrt(inertia / (GRAVITY * stiffness)), bulge
 
-    def _holds_back(self, height: float, candidate: Candidate) -> bool:
-        """Whether what holds the wall at `height` [m] stops the upper body of a mechanism that falls outwards."""
+    def _holds_back(self, hold: Hold, candidate: Candidate) -> bool:
+        """Whether a hold of the wall stops the upper body of a mechanism, of it or a leaf, that falls outwards."""
         wall = candidate.structure
         if not isinstance(wall, Tied) or wall._opens.is_triangle:
             return False
-        return wall._opens.outwards and wall._opens.hold == height and not candidate.refusal
+        if not any((own.kind, own.height) == (hold.kind, hold.height) for own in wall.held_wall.holds):
+            return False  # bonders hold a leaf in place of the ties of its wall
+        return wall._opens.outwards and wall._opens.hold == hold.height and not candidate.refusal
 
     def _held_back(self, state: MotionState, mirrored: bool) -> list[Reaction]:
         """What each hold gives on one side, in the order of `held_wall.holds`."""
@@ -746,10 +753,23 @@ class Tied(CrackedAtHeight, Leaved):
         ties = np.array([[end, height] for end in ends for height in self.tie_heights])
         return Bay(plane(rectangle(left, right, 0.0, top)), tuple(falls), ties)
 
+    @cached_property
+    def _tie_levels(self) -> tuple[float, ...]:
+        """The heights of the ties, each at the top of a storey or at another tie where it is one but for rounding, m."""
+        levels = [top for _, top, _, _ in self._sections]
+        for height in self.tie_heights:
+            levels.append(next((level for level in levels if self._is_at(level, height)), height))
+        return tuple(levels[len(self._sections) :])
+
+    def _is_at(self, level: float, height: float) -> bool:
+        """Whether two heights [m] are one but for rounding, between which no part is thick enough to move by itself."""
+        return abs(level - height) < _SAME * self.height
+
     def _with_bonders(self, holds: Iterable[Hold]) -> list[Hold]:
         """What holds a leaf besides the rest of its wall, which gives to neither side where it does."""
-        near = _SAME * self.height
-        others = [hold for hold in holds if all(abs(hold.height - height) > near for height in self.held_at)]
+        others = [
+            hold for hold in holds if not any(self._is_at(hold.height, height) for height in self.held_at)
+        ]
         return [*others, *(Hold(height, "bonder", math.inf, math.inf) for height in self.held_at)]
 
     def _bonded(self, courses: Sequence[Course], outer: float, inner: float) -> list[Held]:

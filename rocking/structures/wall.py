@@ -315,7 +315,7 @@ class Wall(Tied):
     @property
     def _holds_within(self) -> tuple[float, ...]:
         return tuple(
-            sorted({height for height in (*self.tie_heights, *self.held_at) if height < self.height})
+            sorted({height for height in (*self._tie_levels, *self.held_at) if height < self.height})
         )
 
     @property
@@ -328,13 +328,13 @@ class Wall(Tied):
     def held_wall(self) -> HeldWall:
         half = self.thickness / 2
         top = self.height
-        ties = Counter(height for height in self.tie_heights if height < top)
+        ties = Counter(height for height in self._tie_levels if height < top)
         holds = [
             Hold(height, "tie", number * self._yield_force, 0.0) for height, number in sorted(ties.items())
         ]
         # A tie at the top holds what friction does not; a top without a load is held by what the type says.
         friction = self._friction if self.slips else np.inf
-        at_top = sum(self._yield_force for height in self.tie_heights if height == top)
+        at_top = sum(self._yield_force for height in self._tie_levels if height == top)
         slab = self.top_slab == "flat"
         across = 0.0 if slab else -self.eccentricity
         load = Load(
@@ -346,7 +346,7 @@ class Wall(Tied):
             tuple(sorted(self._with_bonders([*holds, Hold(top, "top", friction + at_top, friction)]))),
             backed=self.one_sided,
             strength=self.compressive_strength,
-            ties=self.tie_heights,
+            ties=self._tie_levels,
             ties_apart=self.ties_apart,
             gripped=self.anchor_height,
             gripped_share=self._gripped_share,
@@ -394,7 +394,7 @@ class Wall(Tied):
         half = self.thickness / 2
         top = (-self.eccentricity, self.height)
         held = tuple(
-            Held(course_at(wall, height), (half, height), tie=self._tie) for height in self.tie_heights
+            Held(course_at(wall, height), (half, height), tie=self._tie) for height in self._tie_levels
         )
         held += (*self._bonded(wall, half, -half), *self._behind(wall))
         if not self.top_load:

@@ -9,6 +9,8 @@ import pytest
 from rocking import Accelerogram, Block, Facade, Verdict
 from rocking.assessment.assessor import Assessor
 from rocking.assessment.kinds import AssessmentKind
+from rocking.assessment.ladder import reserve
+from rocking.assessment.motions import GroundMotions
 from rocking.assessment.scene import CheckTerms, Scene
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 
@@ -47,3 +49,18 @@ def test_a_front_that_stands_falls_once_its_floor_is_said_to_lose_a_short_bearin
         assert lost.verdict is Verdict.OVERTURNS
     else:
         assert AssessmentKind.SEATS in {remark.kind for remark in lost.cases[""].facts(FRONT).remarks}
+
+
+def test_the_reserve_counts_what_loses_its_bearing():
+    """Its factors are those of the rotation that each member reaches: of a half as large a bearing none is larger."""
+    times = np.arange(0, 4, 0.01)
+    swing = 0.6 * FRONT.static_multiplier * 9.80665 * np.sin(2 * np.pi * times / 0.8) * (times < 3)
+    motions = GroundMotions.of(Accelerogram(swing, 0.01))
+    settings = EnsembleSettings(members=16, reserve=8.0)
+    loss = FRONT.moved_from_bearings(0.1 * FRONT.mechanism().positive.critical_rotation)
+    overturns, loses = (
+        reserve(FRONT.mechanism(), motions, settings, falls_beyond=FRONT.loses_seat_at(seat))
+        for seat in (math.inf, loss)
+    )
+    assert loses.median < 0.97 * overturns.median and loses.low <= overturns.low
+    assert reserve(FRONT.mechanism(), motions, settings) == overturns

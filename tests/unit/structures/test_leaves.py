@@ -455,3 +455,12 @@ def test_what_is_stronger_or_thicker_never_gets_a_worse_word(draws):
         thin, thick = words_of(motions[1], of_leaves, thickened)
         if thin.badness <= rocking.Verdict.PROBABLY_STANDS.badness:
             assert thick.badness <= thin.badness, (thin, thick, of_leaves, thicker)
+
+
+def test_a_tie_of_the_wall_is_not_asked_what_a_bonder_of_a_leaf_takes():
+    """Bonders alone hold the leaves, so that its tie holds back the wall of one piece, as it does without leaves."""
+    sizes = {"unit_weight": 20e3, "restitution": 0.5, "tie_heights": (1.6,), "tie_stiffness": 50e3}
+    whole = LoadedWall(1.6, 1.6, 0.3, **sizes)
+    leaved = replace(whole, leaves=(0.12, 0.12), bonders=(1.6, 3.2))
+    needed = [[tie.needed for tie in wall.restraints() if tie.kind == "tie"] for wall in (whole, leaved)]
+    assert needed[0] == pytest.approx(needed[1])

@@ -6,8 +6,11 @@ import numpy as np
 import pytest
 from loaded import facade_lagrangian, wall_lagrangian
 
+from rocking.errors import StructureError
 from rocking.quantities import GRAVITY
 from rocking.structures import Block, Facade, Frame, LoadedWall, RigidBody, Wall
+from rocking.structures.kinds import StructureKind
+from tests.refusals import refused
 
 TIES = {"tie_heights": (3.4, 6.4), "tie_stiffness": 8e3}
 THRUST = {"thrust": 1.5e3, "thrust_height": 7.0}
@@ -182,3 +185,35 @@ def test_a_wall_a_bulge_of_which_has_no_balance_relies_on_what_is_typed():
     ties = {"tie_heights": (2.9,), "tie_stiffness": 1e6, "tie_strength": 20e3}
     wall = LoadedWall.of_size(6.0, 0.35, 18e3, top_load=40e3, restitution=0.5, **ties)
     assert wall.restitution_of_geometry is None
+
+
+@pytest.mark.parametrize("aside", [1e-9, -1e-9, 1e-7])
+def test_a_tie_is_where_the_top_is_but_for_rounding(aside):
+    """Between two heights that differ by rounding nothing moves by itself; at the foot a tie holds nothing."""
+    of_size = {"tie_stiffness": 50e3, "tie_strength": 20e3, "restitution": 0.5}
+    top = LoadedWall(1.6, 1.6, 0.25, 20e3, tie_heights=(3.2,), **of_size)
+    beside = LoadedWall(1.6, 1.6, 0.25, 20e3, tie_heights=(3.2 - abs(aside),), **of_size)
+    expected = [mechanism.uplift_multiplier for mechanism in top.mechanisms()]
+    assert [mechanism.uplift_multiplier for mechanism in beside.mechanisms()] == pytest.approx(expected)
+    front = Facade((3.2, 3.0), (0.5, 0.5), 20e3, tie_heights=(3.2 + aside,), **of_size)
+    at_floor = replace(front, tie_heights=(3.2,))
+    assert front.static_multiplier == at_floor.static_multiplier
+    for wall in (top, front):
+        with refused(StructureError, "tie_heights", repr(abs(aside))):
+            replace(wall, tie_heights=(abs(aside),))
+
+
+def test_each_restitution_that_is_typed_below_its_balance_is_asked_again_alone():
+    """The balance of a façade without loads is the same to both sides: 1 − 3 sin² α/2 of a slender block."""
+    alpha = np.arctan2(0.5, 6.5)
+    balance = 1 - 1.5 * np.sin(alpha) ** 2
+    low = {"restitution": 0.5, "inward_restitution": 0.3}
+    for typed in ({"restitution": 0.5, "inward_restitution": 0.99}, {"inward_restitution": 0.3}, low):
+        front = Facade((3.5, 3.0), (0.5, 0.5), 20e3, **typed)
+        own, livelier = front.restitution_of_geometry
+        assert own == pytest.approx(balance)
+        outwards = typed.get("restitution")
+        expected = [balance if outwards is None else max(outwards, balance)]
+        expected.append(max(typed["inward_restitution"], balance))
+        assert [side.restitution for side in livelier.mechanism().sides] == pytest.approx(expected)
+        assert front.cautions[-1].kind is StructureKind.RESTITUTION_TYPED
