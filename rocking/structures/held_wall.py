@@ -214,6 +214,8 @@ _GRIPS = 1e-3
 """Movement back over which the friction at a top that has slipped comes to nothing, m."""
 LEAST_STIFFNESS = 1e-12
 """The least stiffness of a tie, N/m²: below it the rotation at which it yields is no number any more."""
+SLIDES = 0.5
+"""Share of the thickness by which what an anchor grips slides out before it lets go of it."""
 _SAME = 1e-9
 """Share of the height below which a movement is none, and two heights are one."""
 
@@ -411,6 +413,24 @@ class HeldWall:
         storey = next(storey for storey in self.storeys if storey.low < height <= storey.high)
         pressing = self.pressing(height) + floor + self.gripped * storey.weight
         return self.joints.friction * self.gripped_share * pressing
+
+    def anchored(self, tie: Tie, height: float) -> Tie:
+        """Return a tie at `height` [m] that pulls with no more than the wall around its anchor gives.
+
+        What it grips then slides out with it, by SLIDES of the thickness until it lets go.
+        """
+        grip = self.grip(height)
+        if not tie.stiffness:
+            return replace(tie, pretension=min(tie.pretension, grip))
+        if tie.strength <= grip:
+            return tie
+        storey = next(storey for storey in self.storeys if storey.low < height <= storey.high)
+        return replace(
+            tie,
+            pretension=min(tie.pretension, grip),
+            strength=grip,
+            plastic_elongation=SLIDES * (storey.right - storey.left),
+        )
 
     @cached_property
     def anchors_slide_at(self) -> float:

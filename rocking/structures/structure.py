@@ -161,6 +161,11 @@ class Structure(ABC):
         return None
 
     @property
+    def held_all_along(self) -> "Structure":
+        """The same structure where nothing falls between its ties, as a plane stack takes it."""
+        return self
+
+    @property
     def tie_swing(self) -> "tuple[float, Structure] | None":
         """The period [s] with which it swings on its ties, and the bulge of least λ that they hold; None without."""
         return None

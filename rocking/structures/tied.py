@@ -311,6 +311,17 @@ class Tied(CrackedAtHeight, Leaved):
         width = self.anchor_width or (None if self.held_between else self.unit_length)
         return 1.0 if width is None or self.tie_spacing is None else min(1.0, width / self.tie_spacing)
 
+    @property
+    def held_all_along(self) -> Self:
+        """The same wall where what its anchors grip holds it between them, too, as a plane stack takes it to."""
+        if not self.ties_apart:
+            return self
+        return replace(self, held_between="floor", anchor_width=self.anchor_width or self.unit_length)
+
+    def _anchored(self, height: float) -> Tie:
+        """The tie at a height [m] as contact dynamics takes it, which pulls no more than its anchor gives."""
+        return self.held_wall.anchored(self._tie, height)
+
     def _check_plane(self) -> None:
         """Refuse a stack, which is plane, of a wall that may fall between its ties."""
         if self.ties_apart:

@@ -394,7 +394,8 @@ class Wall(Tied):
         half = self.thickness / 2
         top = (-self.eccentricity, self.height)
         held = tuple(
-            Held(course_at(wall, height), (half, height), tie=self._tie) for height in self._tie_levels
+            Held(course_at(wall, height), (half, height), tie=self._anchored(height))
+            for height in self._tie_levels
         )
         held += (*self._bonded(wall, half, -half), *self._behind(wall))
         if not self.top_load:

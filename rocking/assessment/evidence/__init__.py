@@ -15,7 +15,7 @@ from rocking.assessment.cracks import slides_at
 from rocking.assessment.decide import Limit, Verdict, decide, worse
 from rocking.assessment.evidence.asked import Asked
 from rocking.assessment.evidence.bodies import ContactsOpen, Friction, Thrown
-from rocking.assessment.evidence.runs import Stacks, Stones, StonesMissing
+from rocking.assessment.evidence.runs import Anchored, Stacks, Stones, StonesMissing
 from rocking.assessment.evidence.walls import Anchors, Held, NotFollowed, Ties
 
 
@@ -36,9 +36,10 @@ EVIDENCE: tuple[Evidence, ...] = (
     Held(),
     Stones(),
     StonesMissing(),
-    Anchors(),
     Ties(),
+    Anchors(),
     Friction(),
+    Anchored(),
     Stacks(),
 )
 """Every kind, in the order of looking: what is cheap or ends the search comes first."""

@@ -1,7 +1,7 @@
 """Evidence of contact dynamics: stones, stacks, and stones that nobody followed."""
 
-from rocking.assessment.contacts import ContactShare
-from rocking.assessment.decide import Limit, Verdict
+from rocking.assessment.contacts import ContactShare, contact_share
+from rocking.assessment.decide import UNANIMOUS, Limit, Verdict
 from rocking.assessment.evidence.asked import Asked
 from rocking.assessment.kinds import AssessmentKind
 from rocking.remarks import Remark
@@ -32,6 +32,21 @@ class StonesMissing:
 
     def look(self, asked: Asked) -> Limit:
         return Limit(doubt=Remark(AssessmentKind.STONES_TELL), lifted_by=1)
+
+
+class Anchored:
+    """An anchor that slides out and nothing else that speaks against a wall: no better than 64 stacks whose ties pull no
+    more than their anchors give, unless `fidelity: quick`.
+    """
+
+    def due(self, word: Verdict, asked: Asked) -> bool:
+        kinds = {limit.doubt.kind for limit in asked.limits}
+        return kinds == {AssessmentKind.ANCHOR_GIVES} and asked.settings.fidelity != "quick"
+
+    def look(self, asked: Asked) -> ContactShare | None:
+        # Its mechanisms alone follow how it falls between its ties, and say that it stands.
+        plane = asked.structure.held_all_along
+        return contact_share(plane, asked.motions, asked.settings, UNANIMOUS)
 
 
 class Stacks:

@@ -57,7 +57,7 @@ class Held:
 
 class Anchors:
     """The anchor of a tie that slides out with the course that it grips, also before anything lifts: at best *probably
-    stands*, whatever the stacks say.
+    stands*, until 64 stacks whose ties pull no more than their anchors give say otherwise.
     """
 
     def due(self, word: Verdict, asked: Asked) -> bool:
@@ -68,9 +68,7 @@ class Anchors:
         if not (math.isfinite(level) and asked.motions.excitation > level):
             return None
         settles = (Remark(AssessmentKind.ANCHORS),)
-        return Limit(
-            doubt=Remark(AssessmentKind.ANCHOR_GIVES), settles=settles, lifted_by=math.inf, at_rest=True
-        )
+        return Limit(doubt=Remark(AssessmentKind.ANCHOR_GIVES), settles=settles, at_rest=True)
 
 
 class Ties:

@@ -208,7 +208,7 @@ def test_each_restitution_that_is_typed_below_its_balance_is_asked_again_alone()
     alpha = np.arctan2(0.5, 6.5)
     balance = 1 - 1.5 * np.sin(alpha) ** 2
     low = {"restitution": 0.5, "inward_restitution": 0.3}
-    for typed in ({"restitution": 0.5, "inward_restitution": 0.99}, {"inward_restitution": 0.3}, low):
+    for typed in ({"restitution": 0.5, "inward_restitution": 0.995}, {"inward_restitution": 0.3}, low):
         front = Facade((3.5, 3.0), (0.5, 0.5), 20e3, **typed)
         own, livelier = front.restitution_of_geometry
         assert own == pytest.approx(balance)
