@@ -385,9 +385,7 @@ class Facade(Tied):
                 held.append(Held(course_at(body, height), self._outer(height), force=(self.thrust, 0.0)))
         for height in self._tie_levels:
             if height > foot:
-                held.append(
-                    Held(course_at(body, height), self._outer(height), tie=self._anchored(height))
-                )
+                held.append(Held(course_at(body, height), self._outer(height), tie=self._anchored(height)))
         held += self._behind(body)
         for hold in self.held_wall.holds:
             if hold.inwards and hold.height > foot and hold.kind != "bonder":

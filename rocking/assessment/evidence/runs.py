@@ -35,18 +35,20 @@ class StonesMissing:
 
 
 class Anchored:
-    """An anchor that slides out and nothing else that speaks against a wall: no better than 64 stacks whose ties pull no
-    more than their anchors give, unless `fidelity: quick`.
+    """An anchor that slides out: no better than 64 stacks whose ties pull no more than their anchors give, unless
+    `fidelity: quick`.
     """
 
     def due(self, word: Verdict, asked: Asked) -> bool:
-        kinds = {limit.doubt.kind for limit in asked.limits}
-        return kinds == {AssessmentKind.ANCHOR_GIVES} and asked.settings.fidelity != "quick"
+        slides_out = any(limit.doubt.kind is AssessmentKind.ANCHOR_GIVES for limit in asked.limits)
+        return slides_out and asked.settings.fidelity != "quick" and not asked.is_settled
 
     def look(self, asked: Asked) -> ContactShare | None:
-        # Its mechanisms alone follow how it falls between its ties, and say that it stands.
         plane = asked.structure.held_all_along
-        return contact_share(plane, asked.motions, asked.settings, UNANIMOUS)
+        share = contact_share(plane, asked.motions, asked.settings, UNANIMOUS)
+        # Of how it falls between its ties a plane stack that stands says nothing, and lifts no other limit.
+        lifts_others = plane is not asked.structure and len(asked.limits) > 1 and not share.falls
+        return None if lifts_others else share
 
 
 class Stacks:

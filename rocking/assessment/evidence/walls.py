@@ -61,7 +61,7 @@ class Anchors:
     """
 
     def due(self, word: Verdict, asked: Asked) -> bool:
-        return word.stays_up and not asked.is_settled
+        return word.badness < Verdict.CANNOT_BE_TOLD.badness and not asked.is_settled
 
     def look(self, asked: Asked) -> Limit | None:
         level = min(part.anchors_slide_at for _, part in parts_of(asked.structure))
