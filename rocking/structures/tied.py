@@ -766,7 +766,7 @@ class Tied(CrackedAtHeight, Leaved):
 
     @cached_property
     def _tie_levels(self) -> tuple[float, ...]:
-        """The heights of the ties, m, each at the top of a storey or at another tie where it is one but for rounding."""
+        """The heights of the ties, m, each that of a top or of another tie where it is one but for rounding."""
         levels = [top for _, top, _, _ in self._sections]
         for height in self.tie_heights:
             levels.append(next((level for level in levels if self._is_at(level, height)), height))
