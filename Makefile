@@ -105,7 +105,7 @@ figures: $(TOOLS)
 	$(BIN)/python -m docs.site.pages --figures
 
 # The measured figures whose code has changed since in meaning.
-measured: setup
+measured: $(TOOLS)
 	$(BIN)/python -m docs.site.measured
 
 paper: setup
@@ -119,7 +119,7 @@ wheel: setup
 	.ci/wheel $(VENV)
 
 # The same of a version that stands in pyproject.toml and, with its date, in the changelog.
-release: setup
+release: $(TOOLS)
 	version=$$(sed -n 's/^version = "\(.*\)"/\1/p' pyproject.toml) && \
 	  grep -Eq "^## $$version - [0-9]{4}-[0-9]{2}-[0-9]{2}$$" CHANGELOG.md || \
 	  { echo "CHANGELOG.md has no entry like: ## $$version - 2026-01-31; date the one of this version."; exit 1; }

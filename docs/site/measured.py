@@ -3,23 +3,28 @@ since.
 
 `docs/measured/figures.csv` holds a row for each. A page prints one by `<!-- measured: NAME -->`, and by
 `<!-- measured by: NAME -->` what made it and how old it is, at a table or a sentence that gives it. Run as a script
-it lists the figures whose code has changed since in meaning, or whose list of records; `--first-screen` fails where one
-that a reader meets first is older, `--renew` writes the hashes of the code as it is, for figures that were just
-measured again, and `--keep` keeps the scores of a target, which pages print cell by cell (`kept`).
+it lists the figures whose code has changed since in meaning, or whose list of records. Their code is what their files
+import, and what that imports. `--first-screen` fails where one that a reader meets first is older, `--renew` writes
+the commit of figures that were just measured again, `--read` that at which somebody has read that what changed since
+changes no figure, and `--keep` keeps the scores of a target, which pages print cell by cell (`kept`).
 """
 
 import argparse
 import ast
 import csv
+import re
+import subprocess
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, fields, replace
+from functools import cache
 from pathlib import Path
 
 from docs.site.kept import SCORES
 from rocking.errors import ConfigurationError
 from rocking.hashes import sha256_of_bytes
 from rocking.tables import write_whole
+from tests.contracts.test_imports import HOMES, MODULES, PACKAGE, downwards, names_in, owner
 
 ROOT = Path(__file__).parents[2]
 FIGURES = ROOT / "docs" / "measured" / "figures.csv"
@@ -40,9 +45,9 @@ class Figure:
 
     name: by which a page prints it. value, interval: in words. sites, earthquakes: how many; 0 of made data, "" where
     it was not kept. seed: of the draws. records_sha256: of the lists of the records, "" of none. script: what measures
-    it again, as it is called. commit: at which it was measured. files: what of the code it measures, apart by blanks.
-    code_sha256: the meaning of these then, "" where it was not kept, which counts as older. first_screen: "yes" of one
-    that the first screen of the README or of a page shows.
+    it again, as it is called. commit: at which it was measured. read: a later one, at which its code was read as
+    unchanged in what it gives; "" of none. files: where the code begins that it measures, apart by blanks.
+    first_screen: "yes" of one that the first screen of the README or of a page shows.
     """
 
     name: str
@@ -54,8 +59,8 @@ class Figure:
     records_sha256: str
     script: str
     commit: str
+    read: str
     files: str
-    code_sha256: str
     first_screen: str
 
     @property
@@ -63,7 +68,7 @@ class Figure:
         """Whether the code that it measures has changed since in meaning, or its list of records."""
         if self.records_sha256 and self.records_sha256 not in map(records_sha256, LISTS):
             return True
-        return self.code_sha256 != code_sha256(self.files.split())
+        return any(has_changed(self.read or self.commit, path) for path in code_of(self.files))
 
     @property
     def words(self) -> str:
@@ -74,7 +79,8 @@ class Figure:
     @property
     def origin(self) -> str:
         """What made it, on what and when: "`snakemake stand` at 1a2b3c4d, 50 sites of 20 earthquakes"."""
-        return ", ".join(filter(None, (f"`{self.script}` at {self.commit}", self._of)))
+        read = f"code read at {self.read}" if self.read else ""
+        return ", ".join(filter(None, (f"`{self.script}` at {self.commit}", read, self._of)))
 
     @property
     def _of(self) -> str:
@@ -113,18 +119,53 @@ def records_sha256(lists: str) -> str:
     return sha256_of_bytes(*contents)[:16]
 
 
-def code_sha256(files: Iterable[str]) -> str:
-    """Return one hash of what the statements of some files of the repository mean.
+@cache
+def code_of(files: str) -> frozenset[Path]:
+    """Return some files of the repository, apart by blanks, with what they import, and so on, of package and docs."""
+    found: set[Path] = set()
+    left = [ROOT / name for name in files.split()]
+    while left:
+        path = left.pop()
+        if path in found or not path.is_file():
+            continue
+        found.add(path)
+        if path.is_relative_to(PACKAGE):
+            module = ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts)
+            left += [MODULES[other] for other in downwards(module.removesuffix(".__init__"))]
+        elif path.suffix == ".py":
+            public = re.findall(r"\brocking\.\w+", path.read_text(encoding="utf-8"))
+            for name in names_in(path) | {name for name in public if name in HOMES}:
+                within = name.split(".")
+                left += [ROOT.joinpath(*within[:end]).with_suffix(".py") for end in range(1, len(within) + 1)]
+                left += [MODULES[owner(name)]] if owner(name) in MODULES else []
+    return frozenset(found)
 
-    Docstrings, comments, layout, types and what an error says mean nothing; names do. A file that is not Python counts
-    as it is, one that is missing as nothing.
-    """
-    parts = []
-    for name in files:
-        path = ROOT / name
-        content = path.read_bytes() if path.is_file() else b""
-        parts.append(meaning(content.decode("utf-8")).encode() if path.suffix == ".py" else content)
-    return sha256_of_bytes(*parts)
+
+@cache
+def has_changed(commit: str, path: Path) -> bool:
+    """Whether a file means something else than at a commit, or was not there; docstrings, comments, layout, types and
+    what an error says mean nothing, names do. A file that is not Python counts as it is."""
+    if path not in _differing(commit):
+        return False
+    shown = _git("show", f"{commit}:{path.relative_to(ROOT)}")
+    if shown is None or path.suffix != ".py":
+        return True
+    return meaning(shown) != meaning(path.read_text(encoding="utf-8"))
+
+
+@cache
+def _differing(commit: str) -> frozenset[Path]:
+    """The files that differ from a commit. Raises ConfigurationError for one that the repository does not hold."""
+    names = _git("diff", "--name-only", "--no-renames", commit, "--", ".")
+    if names is None:
+        raise ConfigurationError(f"commit {commit} is not in this repository; fetch its whole history.")
+    return frozenset(ROOT / name for name in names.splitlines())
+
+
+def _git(*arguments: str) -> str | None:
+    """What git says; None where it fails."""
+    done = subprocess.run(("git", *arguments), cwd=ROOT, capture_output=True, text=True, check=False)
+    return None if done.returncode else done.stdout
 
 
 def meaning(source: str) -> str:
@@ -165,26 +206,32 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--first-screen", action="store_true", help="fail where one of the first screen is older"
     )
     parser.add_argument(
-        "--renew", nargs="*", metavar="NAME", help="figures that were measured again at --commit"
+        "--renew", nargs="+", default=[], metavar="NAME", help="figures that were measured again at --commit"
     )
-    parser.add_argument("--commit", default="", help="at which they were")
+    parser.add_argument(
+        "--read",
+        nargs="+",
+        default=[],
+        metavar="NAME",
+        help="figures whose code was read as unchanged at --commit",
+    )
+    parser.add_argument("--commit", help="at which they were")
     parser.add_argument("--records", choices=LISTS, help="the catalogues that they were measured on")
     parser.add_argument(
         "--keep", nargs="*", default=[], metavar="FOLDER", help="results of targets whose scores are kept"
     )
     options = parser.parse_args(arguments)
+    if bool(options.renew or options.read) != bool(options.commit):
+        parser.error("--renew and --read need --commit")
     for folder in map(Path, options.keep):
         write_whole(SCORES / f"{folder.name}.csv", (folder / "scores.csv").read_bytes())
     known = figures()
-    if options.renew is not None:
-        for name in options.renew or list(known):
-            figure = known[name]
-            known[name] = replace(
-                figure,
-                commit=options.commit or figure.commit,
-                code_sha256=code_sha256(figure.files.split()),
-                records_sha256=records_sha256(options.records) if options.records else figure.records_sha256,
-            )
+    for name in options.read:
+        known[name] = replace(known[name], read=options.commit)
+    for name in options.renew:
+        sha256 = records_sha256(options.records) if options.records else known[name].records_sha256
+        known[name] = replace(known[name], commit=options.commit, read="", records_sha256=sha256)
+    if options.commit:
         lines = [",".join(field.name for field in fields(Figure))]
         lines += [",".join(_cell(cell) for cell in asdict(figure).values()) for figure in known.values()]
         write_whole(FIGURES, ("\n".join(lines) + "\n").encode())

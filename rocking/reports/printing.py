@@ -289,11 +289,20 @@ def displaying(settings: PageSettings) -> Iterator[None]:
 
 @dataclass(frozen=True)
 class Measured:
-    """A figure as it is printed. page: of the documents, that explains it. source: the campaign that measured it."""
+    """A figure as it is printed. page: of the documents, that explains it. source: the campaign that measured it.
+
+    commit: of the package at which it was measured; "" of what needs no campaign.
+    """
 
     figure: str
+    commit: str
     page: str
     source: str
+
+    @property
+    def words(self) -> str:
+        """The figure with its age."""
+        return f"{self.figure} (measured at {self.commit})" if self.commit else self.figure
 
 
 with (FOLDER / "measured.csv").open(encoding="utf-8", newline="") as _stream:

@@ -281,8 +281,8 @@ def _assumed(report: RecordReport) -> Iterator[Topic]:
     )
     yield Topic("Cracks", (_CRACKS,))
     if any(structure.hinges_migrate for structure in structures):
-        farther = MEASURED["stones_farther"].figure
-        momentum = MEASURED["arch_momentum"].figure
+        farther = MEASURED["stones_farther"].words
+        momentum = MEASURED["arch_momentum"].words
         text = (
             f"Hinges migrate in flight: in another code the rotations of loose stones with a restitution of 0.9 were "
             f"{farther}, and smaller in the others. The restitution of {momentum} that the momentum balance gives for "
@@ -292,7 +292,7 @@ def _assumed(report: RecordReport) -> Iterator[Topic]:
     if any(structure.tapers for structure in structures):
         yield Topic("Spires", (_SPIRES,))
     if report.result.carried:
-        missed = MEASURED["missed_on_supports"].figure
+        missed = MEASURED["missed_on_supports"].words
         yield Topic("Supports", (f"{_SUPPORTS} {missed}.",))
     yield Topic("Impacts", (_IMPACTS,))
     yield Topic("Ground motion", (f"{_GROUND_MOTION} {_vertical_in_words(report)}".rstrip(),))

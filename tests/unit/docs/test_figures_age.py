@@ -1,6 +1,7 @@
 """Figures that know their age: what changes the meaning of code, and what a page, a list and a release say of it."""
 
 import re
+import subprocess
 from dataclasses import replace
 
 import pytest
@@ -10,7 +11,7 @@ from docs.research.scores import Score
 from docs.site import kept
 from docs.site import measured as module
 from docs.site.build import written_pages
-from docs.site.measured import FIGURES, ROOT, code_sha256, figures, main, meaning, records_sha256
+from docs.site.measured import FIGURES, ROOT, code_of, figures, has_changed, main, meaning, records_sha256
 from docs.site.pages import filled
 from rocking.errors import ConfigurationError
 from rocking.reports.printing import MEASURED
@@ -55,21 +56,68 @@ def test_numbers_operations_and_names_of_others_mean_something(before, after):
     assert meaning(SOURCE.replace(before, after)) != meaning(SOURCE)
 
 
-def test_a_figure_says_that_its_code_has_changed_since(monkeypatch, tmp_path, capsys):
-    name, figure = next(iter(figures().items()))
-    path = tmp_path / "figures.csv"
-    monkeypatch.setattr(module, "FIGURES", path)
-    head = FIGURES.read_text(encoding="utf-8").splitlines()[0]
-    for older, first in ((False, "yes"), (True, ""), (True, "yes")):
-        sha256 = "0" * 64 if older else code_sha256(figure.files.split())
-        row = replace(figure, code_sha256=sha256, first_screen=first)
-        cells = (getattr(row, each) for each in head.split(","))
-        path.write_text(head + "\n" + ",".join(f'"{each}"' for each in cells) + "\n", encoding="utf-8")
-        (told,) = figures(path).values()
-        assert told.is_older is older
-        monkeypatch.setattr(module, "figures", lambda path=path, told=told: {name: told})
+@pytest.fixture
+def repository(tmp_path, monkeypatch):
+    """A repository of two files, one of which imports the other; what stages all of it and returns the commit."""
+
+    def git(*arguments: str) -> str:
+        who = ("-c", "user.name=one", "-c", "user.email=one@example.org")
+        return subprocess.check_output(("git", *who, *arguments), cwd=tmp_path, text=True).strip()
+
+    def committed() -> str:
+        git("add", ".")
+        git("commit", "-qm", "one")
+        return git("rev-parse", "HEAD")
+
+    monkeypatch.setattr(module, "ROOT", tmp_path)
+    git("init", "-q")
+    (tmp_path / "docs").mkdir()
+    (tmp_path / "docs" / "measures.py").write_text("from docs.numbers import NUMBER\n", encoding="utf-8")
+    (tmp_path / "docs" / "numbers.py").write_text("NUMBER = 1\n", encoding="utf-8")
+    for kept_answers in (code_of, has_changed, module._differing):
+        kept_answers.cache_clear()
+    yield tmp_path, committed
+    for kept_answers in (code_of, has_changed, module._differing):
+        kept_answers.cache_clear()
+
+
+@pytest.mark.process
+@pytest.mark.parametrize(
+    ("changed", "older"), [("NUMBER = 1  # one\n", False), ("NUMBER = 2\n", True), (None, False)]
+)
+def test_a_figure_is_older_where_what_its_code_imports_has_changed_in_meaning(
+    repository, monkeypatch, capsys, changed, older
+):
+    folder, committed = repository
+    before = committed()
+    if changed is not None:
+        (folder / "docs" / "numbers.py").write_text(changed, encoding="utf-8")
+    after = committed() if changed is not None else before
+    name, known = next(iter(figures().items()))
+    figure = replace(known, commit=before, read="", files="docs/measures.py", records_sha256="")
+    assert {path.name for path in code_of(figure.files)} == {"measures.py", "numbers.py"}
+    assert figure.is_older is older
+    assert not replace(figure, read=after).is_older, "somebody has read that it changes nothing"
+    for first in ("", "yes"):
+        told = replace(figure, first_screen=first)
+        monkeypatch.setattr(module, "figures", lambda told=told: {name: told})
         assert main(["--first-screen"]) == int(older and first == "yes")
         assert (f"{name}: measured at" in capsys.readouterr().out) is older
+
+
+def test_what_was_measured_again_has_its_commit_and_what_was_read_has_its_own(monkeypatch, tmp_path):
+    path = tmp_path / "figures.csv"
+    path.write_bytes(FIGURES.read_bytes())
+    monkeypatch.setattr(module, "FIGURES", path)
+    monkeypatch.setattr(module, "figures", lambda: figures(path))
+    monkeypatch.setattr(module.Figure, "is_older", False)
+    first, second = list(figures(path))[:2]
+    main(["--read", first, second, "--commit", "1a2b3c4d"])
+    main(["--renew", second, "--commit", "5e6f7a8b"])
+    told = figures(path)
+    assert (told[first].read, told[second].read, told[second].commit) == ("1a2b3c4d", "", "5e6f7a8b")
+    assert told[first].commit == figures(FIGURES)[first].commit
+    assert "code read at 1a2b3c4d" in told[first].origin
 
 
 def test_every_page_prints_figures_that_there_are_and_every_figure_names_files_that_there_are():
@@ -96,6 +144,7 @@ def test_every_target_of_the_research_on_a_page_and_every_figure_of_a_report_has
             row = known[name]
             numbers = re.findall(r"\d+", f"{row.value} {row.interval} {row.sites}")
             assert set(numbers) <= set(re.findall(r"\d+", figure.figure)), name
+            assert figure.commit == row.commit and f"measured at {row.commit}" in figure.words
 
 
 def test_a_page_prints_a_figure_within_its_line():
@@ -142,6 +191,5 @@ def test_every_score_on_a_page_is_kept_and_its_target_has_a_figure_that_says_whe
 
 
 def test_a_figure_is_older_where_its_list_of_records_has_changed():
-    figure = replace(next(iter(figures().values())), records_sha256=records_sha256("near_fault"))
-    figure = replace(figure, code_sha256=code_sha256(figure.files.split()))
+    figure = replace(next(iter(figures().values())), records_sha256=records_sha256("near_fault"), files="")
     assert not figure.is_older and replace(figure, records_sha256="0" * 16).is_older
