@@ -43,7 +43,7 @@ _PLACES = (
     "a rate in its header",
     "declared",
     "its header",
-    "its times",
+    "its numbers",
     "the name of the column",
     "layouts.csv",
 )
@@ -61,7 +61,7 @@ class Claim:
 
     def __str__(self) -> str:
         value = f"{self.value:g} s" if self.what == "time_step" else repr(self.value)
-        return f"{repr(self.text) if self.text else value} ({self.where})"
+        return f"{repr(self.text[:60]) if self.text else value} ({self.where})"
 
 
 _SAME_STEP = 1e-3
@@ -71,6 +71,7 @@ _SAME: dict[str, Callable[[Any, Any], bool]] = {
     "time_step": lambda one, other: abs(one - other) <= _SAME_STEP * min(one, other),
     "peak": lambda one, other: abs(one - other) <= 0.01 * max(one, other),
     "direction": lambda one, other: not point_apart(one, other),
+    "samples": lambda one, other: float(one) == float(other),
 }
 
 
@@ -86,14 +87,21 @@ class AnswerContradictedError(RecordError):
 def agreed(what: What, claims: Collection[Claim]) -> Any:
     """Return the value of `what` on which claims agree, None where none speaks of it.
 
-    What a person says settles what a file says twice, and may not stand against all that it says. The name of a file
-    is held against what a person says alone: of two words of one file that inside it counts. Raises RecordError where a
-    person contradicts the file, UndeclaredError where it contradicts itself.
+    What a person says settles what a file says twice, and may not stand against all that it says, nor against another
+    person. So do the name or the numbers of a column where a header says several things, one of them the same. The name
+    of a file is held against what a person says alone: of two words of one file that inside it counts. Raises
+    RecordError where a person contradicts the file, UndeclaredError where it contradicts itself.
     """
     spoken = sorted((claim for claim in claims if claim.what == what), key=lambda claim: -claim.where)
     by_person = [claim for claim in spoken if claim.where in _PERSONS]
     inside = [claim for claim in spoken if claim.where not in _PERSONS and claim.where > Where.SPOKEN]
     named = [claim for claim in spoken if claim.where <= Where.SPOKEN]
+    nearest = inside[:1]
+    if any(claim.where == Where.HEAD < nearest[0].where and _same(claim, nearest[0]) for claim in inside):
+        inside = [claim for claim in inside if claim.where > Where.HEAD]
+    if by_person and not _same(by_person[0], by_person[-1]):
+        one, other = by_person[0], by_person[-1]
+        raise RecordError(f"{what} is {one}, but also {other}; omit one of the two.", **{what: other.value})
     for person in by_person:
         against = inside or named
         if against and not any(_same(person, own) for own in against):
@@ -105,9 +113,11 @@ def agreed(what: What, claims: Collection[Claim]) -> Any:
     unlike = [(one, other) for one in inside for other in inside if not _same(one, other)]
     if unlike and not by_person:
         one, other = unlike[0]
-        wanted = f"; {advice(what)} to say which holds" if what in ("unit", "time_step") else ""
-        raise UndeclaredError(
-            f"of its {what.replace('_', ' ')} the file says both {one} and {other}{wanted}.",
+        wanted, error = "correct the file", RecordError
+        if what == "unit" or what == "time_step":
+            wanted, error = f"{advice(what)} to say which holds", UndeclaredError
+        raise error(
+            f"of its {what.replace('_', ' ')} the file says both {one} and {other}; {wanted}.",
             **{what: one.value},
         )
     holding = [
@@ -559,11 +569,22 @@ class Declarations:
         )
 
     def claims(self) -> tuple[Claim, ...]:
-        """Return the claims of a text on which it does not contradict itself."""
-        held = {"unit": self.unit, "time_step": self.time_step, "direction": self.component}
+        """Return the claims of a text on the unit and the step; a rate counts where it is not that of the step."""
+        is_twice = self.time_step is None
         return tuple(
-            claim for claim in self.words if claim.what == "peak" or held.get(claim.what) == claim.value
+            Claim("time_step", 1 / claim.value, claim.where, claim.text) if claim.what == "rate" else claim
+            for claim in self.words
+            if claim.what in ("unit", "time_step")
+            or (claim.what == "rate" and is_twice and len(self.stated_steps) > 1)
         )
+
+    def count(self, held: int) -> str:
+        """Return the number of samples that a text declares, of several that which is `held`; "" where it says none."""
+        counts = [claim for claim in self.words if claim.what == "samples"]
+        if not self.samples and counts:
+            agreed("samples", [*counts, Claim("samples", held, Where.SAMPLES)])
+            return str(held)
+        return self.samples
 
 
 def doubts_of_claims(channel: Accelerogram, said: Declarations) -> tuple[Remark, ...]:

@@ -35,6 +35,7 @@ def _table(rows: Iterator[Sequence[Any]]) -> bytes:
     """Return the text of a sheet from the names of its columns on, empty where they name no times or no unit."""
     over: Sequence[Any] = ()
     above: Sequence[Any] = ()
+    text: list[str] = []
     for _, row in zip(range(_HEADS), rows, strict=False):
         if above and any(isinstance(cell, int | float) and not isinstance(cell, bool) for cell in row):
             names = _with_units(over, above)
@@ -43,10 +44,18 @@ def _table(rows: Iterator[Sequence[Any]]) -> bytes:
                 first = next(place for place, name in enumerate(names) if name)
                 beside = next((place for place in range(first, len(names)) if not names[place]), len(names))
                 places = list(range(first, beside))  # what stands behind an empty column is another table
-                return _written(names, places, [row, *rows])
+                numbers = _written(names, places, [row, *rows])
+                if names == _with_units((), above):
+                    text.append(_words(over))
+                return "".join(f"# {line}\n" for line in text if line).encode() + numbers if numbers else b""
             return b""
+        text.append(_words(over))
         over, above = above, row
     return b""
+
+
+def _words(row: Sequence[Any]) -> str:
+    return " ".join(str(cell) for cell in row if cell is not None)
 
 
 def _with_units(over: Sequence[Any], above: Sequence[Any]) -> list[str]:

@@ -17,9 +17,8 @@ from typing import Any
 import numpy as np
 
 from rocking.errors import RecordError, UndeclaredError
-from rocking.quantities import acceleration_unit, positive
-from rocking.records.claims import refuse_other_quantity
-from rocking.records.doors import advice
+from rocking.quantities import positive
+from rocking.records.claims import Claim, Where, agreed
 from rocking.records.formats import text
 from rocking.records.formats.format import Format, Layout, Options, required
 from rocking.records.formats.text import LARGEST_SERIES
@@ -301,8 +300,6 @@ def _read_lists(content: bytes, options: Options) -> list[Accelerogram]:
     return _read_counts("TSPAIR" if is_of_pairs else "SLIST", content, options)
 
 
-_NO_UNIT = "COUNTS", "COUNT", "INTEGER", "FLOAT"
-"""The last words of a head of samples that are counts, or have no unit: there the type of the samples stands last."""
 _LIST_HEAD = re.compile(rb"(?m)^TIMESERIES \S+, *(\d+) samples,.*\n")
 
 
@@ -325,18 +322,12 @@ def _check_lists(content: bytes, is_of_pairs: bool) -> None:
 def _stated_unit(traces: Any, options: Options) -> str | None:
     """Return the unit that the heads of a list of samples state, None of counts and of other formats.
 
-    Raises RecordError for velocity or displacement.
+    Raises RecordError for velocity or displacement, and UndeclaredError for two that differ.
     """
     heads = (str(trace.stats.ascii.unit) for trace in traces if "ascii" in trace.stats)
-    units = {unit for unit in heads if unit.upper() not in _NO_UNIT}
-    for unit in units:
-        refuse_other_quantity("", unit)
-        if acceleration_unit(unit) is None and options.unit is None:
-            raise UndeclaredError(
-                f"unit is {unit!r} in the file, which is none of acceleration; {advice('unit')} if it is one.",
-                unit=unit,
-            )
-    return next((unit for unit in units if acceleration_unit(unit)), None)
+    units = dict.fromkeys(options.unit_in(unit, "the file") for unit in heads)
+    unit: str | None = agreed("unit", [Claim("unit", unit, Where.HEAD) for unit in units if unit])
+    return unit
 
 
 def may_be_counts(head: bytes) -> bool:

@@ -15,7 +15,7 @@ import numpy as np
 
 from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import NUMBER, acceleration_factor, acceleration_unit, positive
-from rocking.records.claims import Claim, What, Where, agreed, refuse_other_quantity
+from rocking.records.claims import Claim, Where, agreed, claims_of_name, refuse_other_quantity
 from rocking.records.direction import directed
 from rocking.records.doors import advice
 from rocking.records.formats.layouts import Layouts
@@ -43,6 +43,8 @@ from rocking.signal.accelerogram import LARGEST_PEAK, Accelerogram, Source
 Response = Literal["sensitivity", "full"]
 
 _STEPS = (1e-6, 10.0)  # s; a step outside is a misplaced number, not a recorder
+_NO_UNIT = "", "COUNTS", "COUNT", "RAW COUNTS", "INTEGER", "FLOAT"
+"""Words in the place of a unit that are none: of counts, or of a list of samples whose type stands there."""
 _UNDECLARED = "{} is not declared, neither in the file nor by the caller; {}."
 
 
@@ -80,13 +82,34 @@ class Options:
                 f"response is {self.response!r}, but must be 'sensitivity' or 'full'.", response=self.response
             )
 
+    def said(self, what: Literal["unit", "time_step"], in_file: str | float | None = None) -> list[Claim]:
+        """Return what the head of a file, its caller and its name say of one fact."""
+        places = (in_file, Where.HEAD), (getattr(self, what), Where.OPTION)
+        claims = [Claim(what, value, where) for value, where in places if value is not None and value != ""]
+        return claims if self.is_stand_in else [*claims, *claims_of_name(self.file)]
+
+    def unit_in(self, word: str, place: str) -> str | None:
+        """Return the unit of acceleration that a word in the file is, None of counts and of none.
+
+        Raises RecordError for one of velocity or displacement, UndeclaredError for another that no caller settles.
+        """
+        if word.upper() in _NO_UNIT:
+            return None
+        refuse_other_quantity("", word)
+        unit = acceleration_unit(word)
+        if unit is None and self.unit is None:
+            raise UndeclaredError(
+                f"unit is {word!r} in {place}, which is none of acceleration; {advice('unit')} if it is one.",
+                unit=word,
+            )
+        return unit
+
     def unit_of(self, in_file: str | None) -> str:
         """Return the unit the file declares, however spelt, else the caller's.
 
         Raises RecordError when none or two are declared, or one that is not known.
         """
-        claims = _claims("unit", in_file, self.unit)
-        unit = agreed("unit", claims)
+        unit = agreed("unit", self.said("unit", in_file))
         if unit is None:
             raise UndeclaredError(_UNDECLARED.format("unit", advice("unit")), unit=None)
         acceleration_factor(unit)
@@ -96,7 +119,7 @@ class Options:
         """Return the time step [s] the file declares, else the caller's; the two may differ by 0.1 %."""
         if in_file is not None:
             _check_step(in_file)
-        step = agreed("time_step", _claims("time_step", in_file, self.time_step))
+        step = agreed("time_step", self.said("time_step", in_file))
         if step is None:
             raise UndeclaredError(_UNDECLARED.format("time_step", advice("time_step")), time_step=None)
         return _check_step(step)
@@ -115,12 +138,6 @@ class Options:
         step = self.time_step_of(time_step)
         samples = values * acceleration_factor(source.unit)
         return Accelerogram(samples, step, source=source, **directed(fields))
-
-
-def _claims(what: What, in_file: str | float | None, declared: str | float | None) -> list[Claim]:
-    """Return what a file and its caller say of one fact."""
-    said = (in_file, Where.HEAD), (declared, Where.OPTION)
-    return [Claim(what, value, where) for value, where in said if value is not None and value != ""]
 
 
 def _check_step(step: float) -> float:

@@ -5,7 +5,7 @@ from typing import Any
 
 from rocking.errors import RecordError
 from rocking.quantities import is_number
-from rocking.records.claims import Declarations, azimuth_of_sensor, factor_warnings, other_quantity
+from rocking.records.claims import Declarations, agreed, azimuth_of_sensor, factor_warnings, other_quantity
 from rocking.records.formats.format import Format, Layout, Options
 from rocking.records.formats.text import after_lines, count, lines, number, numbers, whole
 from rocking.records.kinds import RecordKind
@@ -61,7 +61,7 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
         raise RecordError(
             f"this is a PEER {quantity} file; use the AT2 file of the same record.", quantity=quantity
         )
-    said = Declarations.of(head)
+    unit = agreed("unit", [*Declarations.of(head).claims(), *options.said("unit")]) or ""
     declared = count("NPTS", size["npts"])
     values, warnings = whole(numbers(after_lines(content, len(head))), declared, per_line=8)
     parts = [part.strip() for part in head[1].split(",")] if len(head) > 1 else [""]
@@ -84,7 +84,7 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
         facts |= {"station": parts[-2], "event": undated or parts[0]}
     facts["high_pass_frequency"] = float(corner) or None if is_number(corner) else None
     step = number("DT", size["dt"]) * (1e-3 if size.groupdict().get("milli") else 1.0)
-    return [_LAYOUT.channel(text, values, options, unit=said.unit or "", step=step, **facts)]
+    return [_LAYOUT.channel(text, values, options, unit=unit, step=step, **facts)]
 
 
 def _component(title: str) -> str:

@@ -707,8 +707,8 @@ def _series(
             else ()
         )
         values = values[len(roles) :]
-    counts = [f"{above['n']:g}"] if "n" in above and not notes else [said.samples] if said.samples else []
-    for samples in counts:
+    declared = f"{above['n']:g}" if "n" in above and not notes else said.count(values.size)
+    for samples in filter(None, [declared]):
         values, more = text.whole(values, text.count("number of samples", samples), table.width)
         notes += more
     step = above.get("dt") or (1 / above["hz"] if above.get("hz") else None)
@@ -739,14 +739,12 @@ def _claims(
     told: tuple[tuple[What, Any, Where, str], ...] = (
         ("unit", column.unit if is_answer else None, Where.ANSWER, ""),
         ("unit", label.unit, Where.COLUMN, label.text),
-        ("unit", options.unit, Where.OPTION, ""),
         ("time_step", layout.time_step if is_answer else None, Where.ANSWER, ""),
         ("time_step", step, Where.SAMPLES, ""),
-        ("time_step", options.time_step, Where.OPTION, ""),
         *(("time_step", rate, Where.SPOKEN, "") for rate in said.stated_steps if is_answer),
     )
-    named = () if options.is_stand_in else claims_of_name(options.file)
-    return (*(Claim(*words) for words in told if words[1]), *said.claims(), *named)
+    own = (Claim(*words) for words in told if words[1])
+    return (*own, *said.claims(), *options.said("unit"), *options.said("time_step"))
 
 
 _MEANT = {"n": "the number of samples", "dt": "the time step", "hz": "the rate", "-": "the number of series"}
@@ -827,8 +825,8 @@ def _channels(
     every = {at: rows[:, at] * column.seconds for at, column in enumerate(columns) if column.role == "time"}
     repeats = () if every else _repeats(rows.ravel())
     held = replace(options, unit=None, time_step=None)
-    if said.samples and "n" not in above:
-        repeats += text.whole(rows[:, 0], text.count("number of samples", said.samples), per_line=1)[1]
+    if "n" not in above and (declared := said.count(len(rows))):
+        repeats += text.whole(rows[:, 0], text.count("number of samples", declared), per_line=1)[1]
     records = []
     for place, (column, label) in enumerate(zip(columns, labels, strict=True)):
         if column.role not in ("acceleration", "open"):

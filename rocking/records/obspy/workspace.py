@@ -21,7 +21,7 @@ import numpy as np
 
 from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import acceleration_unit
-from rocking.records.claims import refuse_other_quantity
+from rocking.records.claims import Claim, Where, agreed
 from rocking.records.doors import advice
 from rocking.records.formats.format import Options
 from rocking.records.kinds import RecordKind
@@ -297,22 +297,14 @@ def _traces(facts: dict[str, Any], samples: bytes) -> Iterator[tuple[Any, dict[s
 def _unit_of(noted: dict[str, Any], own: Any, trace: Any, is_raw: bool, options: Options) -> str | None:
     """Return the unit of the samples of a trace, None of raw counts.
 
-    By what gmprocess noted, and of processed motion of which it noted none by the StationXML. Raises RecordError for
-    another quantity, and UndeclaredError where neither says it.
+    By what gmprocess noted, and of processed motion by the StationXML. Raises RecordError for another quantity, and
+    UndeclaredError where neither says it, or both say unlike units.
     """
-    unit = noted["unit"] or ("" if is_raw else _calibration_unit(own, trace))
-    if unit.lower() in ("", "counts", "raw counts"):
-        if is_raw:
-            return options.unit
-        return options.unit_of(None)
-    refuse_other_quantity("", unit)
-    known = acceleration_unit(unit)
-    if known is None and options.unit is None:
-        raise UndeclaredError(
-            f"unit is {unit!r} in the workspace, which is none of acceleration; {advice('unit')} if it is one.",
-            unit=unit,
-        )
-    return options.unit_of(known)
+    of_channel = "" if is_raw else _calibration_unit(own, trace)
+    units = [options.unit_in(noted["unit"] or of_channel, "the workspace"), acceleration_unit(of_channel)]
+    if is_raw and not any(units):
+        return options.unit
+    return options.unit_of(agreed("unit", [Claim("unit", unit, Where.HEAD) for unit in units if unit]))
 
 
 def _are_counts(noted: dict[str, Any], inventory: Any, trace: Any) -> bool:

@@ -1,0 +1,237 @@
+"""Two words on one fact that differ are asked or refused at every door, naming both and what to type."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import made_files
+import obspy
+import openpyxl
+import pytest
+from made_files import MADE, MADE_BINARY, content_of
+
+import rocking
+from rocking.catalogue import load_catalogue, open_record
+from rocking.errors import RecordError
+from rocking.records import read
+from rocking.records.formats import Options
+from rocking.records.formats.layouts import AskedError
+from rocking.records.obspy import workspace
+from rocking.records.read import read_content
+from tests.unit.catalogue.test_catalogue import row, write
+from tests.unit.records.test_claims import at2
+from tests.unit.records.test_instruments import XML, trace
+from tests.unit.records.test_layouts import MOTION, TIMES, answered, table
+
+STRONG = 0.1 * MOTION
+
+
+def text(head: str, columns: str = "t,NS (m/s2)", name: str = "made.csv") -> Callable[[Path], Path]:
+    """A table of times and motion below a head of comments."""
+
+    def write(folder: Path) -> Path:
+        path = folder / name
+        names = f"{columns}\n" if columns else ""
+        path.write_text(head + names + table(TIMES, STRONG, parted=","), encoding="utf-8")
+        return path
+
+    return write
+
+
+def series(head: str, name: str = "made.txt") -> Callable[[Path], Path]:
+    """A column alone, whose step nothing but the head or a person says."""
+
+    def write(folder: Path) -> Path:
+        (folder / name).write_text(head + table(STRONG), encoding="utf-8")
+        return folder / name
+
+    return write
+
+
+def book(
+    head: str, columns: tuple[str, ...] = ("t (s)", "NS (m/s2)"), name: str = "made.xlsx"
+) -> Callable[[Path], Path]:
+    """A workbook with a line of text above its names."""
+
+    def write(folder: Path) -> Path:
+        sheet = (document := openpyxl.Workbook()).active
+        for cells in filter(
+            None, ([head] if head else [], columns, *zip(TIMES.tolist(), STRONG.tolist(), strict=True))
+        ):
+            sheet.append(cells)
+        document.save(folder / name)
+        return folder / name
+
+    return write
+
+
+def of_peer(name: str = "made.AT2", **parts: str) -> Callable[[Path], Path]:
+    return lambda folder: at2(folder, **parts).rename(folder / name)
+
+
+def answer(write: Callable[[Path], Path], text_of: str) -> Callable[[Path], Path]:
+    """The file with the answer that a person gave to what it asks."""
+
+    def answered_file(folder: Path) -> Path:
+        path = write(folder)
+        with pytest.raises(AskedError) as asked:
+            read(path)
+        answered(folder, asked.value.question, text_of)
+        return path
+
+    return answered_file
+
+
+CASES: dict[str, tuple[Callable[[Path], Path], dict, tuple[str, ...]]] = {
+    # unit
+    "unit: AT2, head and option": (of_peer(), {"unit": "gal"}, ("gal", "UNITS OF G")),
+    "unit: AT2, two heads": (of_peer(unit="UNITS OF G, UNITS OF GAL"), {}, ("UNITS OF G", "unit=")) ,
+    "unit: AT2, name and option": (of_peer("acc_m_s2.AT2", unit="HISTORY"), {"unit": "g"}, ("g", "m_s2")),
+    "unit: table, head and column": (text("# units: mg\n"), {}, ("units: mg", "NS (m/s2)", "unit=")),
+    "unit: table, column and option": (text(""), {"unit": "g"}, ("'g'", "NS (m/s2)")),
+    "unit: table, head and option": (text("# units: mg\n", "t,NS"), {"unit": "g"}, ("'g'", "units: mg")),
+    "unit: table, name and option": (text("", "t,NS", "acc_m_s2.csv"), {"unit": "g"}, ("'g'", "m_s2")),
+    "unit: table, two heads": (text("# units: mg\n# units: gal\n", "t,NS"), {}, ("mg", "gal", "unit=")),
+    "unit: table, head and answer": (
+        answer(text("Station X\nk = 7\n# units: mg\n", "t,Q1,"), "t, NS g"), {}, ("g", "mg")
+    ),
+    "unit: table, answer and option": (answer(series(""), "one series g, dt 0.01"), {"unit": "gal"}, ("'g'", "'gal'")),
+    "unit: table, name and answer": (
+        answer(series("", "made_gal.txt"), "one series g, dt 0.01"), {}, ("g", "gal")
+    ),
+    "unit: workbook, column and option": (book(""), {"unit": "g"}, ("'g'", "NS (m/s2)")),
+    "unit: workbook, head and column": (book("units: mg"), {}, ("mg", "NS (m/s2)", "unit=")),
+    # step
+    "step: AT2, head and option": (of_peer(), {"time_step": 0.02}, ("0.02", "0.01")),
+    "step: table, head and times": (text("# dt = 0.005\n"), {}, ("0.005", "0.01 s", "time_step=")),
+    "step: table, times and option": (text(""), {"time_step": 0.02}, ("0.02", "0.01")),
+    "step: table, head and option": (series("# dt = 0.005\n# units: g\n"), {"time_step": 0.02}, ("0.02", "0.005")),
+    "step: table, rate and step": (series("# dt = 0.005\n# sampled at 100 Hz\n# units: g\n"), {}, ("time_step=",)),
+    "step: table, two heads": (series("# dt = 0.005\n# dt = 0.01\n# units: g\n"), {}, ("time_step=",)),
+    "step: table, name and option": (
+        series("# units: g\n", "made_dt0.005.txt"), {"time_step": 0.02}, ("0.02", "dt0.005")
+    ),
+    "step: table, name and answer": (
+        answer(series("", "made_dt0.005.txt"), "one series g, dt 0.01"), {}, ("0.01", "dt0.005")
+    ),
+    "step: table, head and answer": (
+        answer(series("Station X\nk = 7\n# dt = 0.005\n"), "one series g, dt 0.01"), {}, ("0.01", "0.005")
+    ),
+    "step: table, answer and option": (
+        answer(series(""), "one series g, dt 0.01"), {"time_step": 0.02}, ("0.01", "0.02")
+    ),
+    "step: workbook, head and times": (book("dt = 0.005 s"), {}, ("0.005", "0.01 s", "time_step=")),
+    "step: workbook, times and option": (book(""), {"time_step": 0.02}, ("0.02", "0.01")),
+    # count
+    "count: table, head and rows": (text("# NPTS = 1000\n"), {}, ("1000", "600")),
+    "count: table, two heads": (text("# NPTS = 700\n# 1000 points\n"), {}, ("700", "600")),
+    "count: workbook, head and rows": (book("NPTS = 1000"), {}, ("1000", "600")),
+    # quantity
+    "quantity: AT2, title": (of_peer(first="PEER VELOCITY TIME SERIES"), {}, ("velocity",)),
+    "quantity: table, head": (text("# velocity in cm/s\n", "t,NS"), {"unit": "g"}, ("velocity",)),
+    "quantity: table, column": (text("", "t,vel (cm/s)"), {}, ("velocity",)),
+    "quantity: table, name": (text("", "t,NS", "made_vel.csv"), {"unit": "g"}, ("velocity",)),
+    "quantity: workbook, head": (book("velocity in cm/s"), {}, ("velocity",)),
+    "quantity: workbook, column": (book("", ("t (s)", "vel (cm/s)")), {}, ()),
+    # direction
+    "direction: table, column and answer": (
+        answer(text("Station X\nk = 7\n", "t,NS,"), "t, EW g"), {}, ("NS", "EW g")
+    ),
+    "direction: table, head and answer": (
+        answer(text("Station X\nk = 7\n# Component: NS\n", "t,Q1,"), "t, EW g"), {}, ("NS", "EW g")
+    ),
+}  # fmt: skip
+"""What speaks of a fact twice → (how the file is written, what is typed, what the sentence names)."""
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_two_words_that_differ_are_asked_or_refused_with_both(tmp_path: Path, case: str) -> None:
+    write, typed, named = CASES[case]
+    path = write(tmp_path)
+    with pytest.raises(RecordError) as said:
+        read(path, **typed)
+    for word in named:
+        assert word in str(said.value), str(said.value)
+
+
+FORMATS = [name for name in (MADE | MADE_BINARY) if not (MADE | MADE_BINARY)[name][2].unit]
+
+
+@pytest.mark.parametrize("name", FORMATS)
+@pytest.mark.parametrize("typed", [{"unit": "mg"}, {"time_step": 3 * made_files.STEP}])
+def test_what_is_typed_stands_against_no_format(name: str, typed: dict) -> None:
+    """Each format that states its unit and its step refuses another; the sentence names both."""
+    with pytest.raises(RecordError) as said:
+        read_content(content_of(name), "made", Options(**typed))
+    ((field, value),) = typed.items()
+    assert said.value.field == field and f"{value}" in str(said.value)
+
+
+def epoch(text: str, **facts: str) -> str:
+    """A StationXML with a second channel element that differs in some facts."""
+    begin, end = text.index("<Channel "), text.index("</Channel>") + len("</Channel>")
+    other = text[begin:end]
+    for fact, value in facts.items():
+        old = {"azimuth": "<Azimuth>72</Azimuth>", "gain": "<Value>200000</Value>"}[fact]
+        other = other.replace(old, old.replace("72" if fact == "azimuth" else "200000", value))
+    return text[:end] + other + text[end:]
+
+
+@pytest.mark.parametrize(("facts", "named"), [
+    ({"gain": "100000"}, ("200000", "100000")), ({"azimuth": "90"}, ("azimuth 72", "azimuth 90")),
+])  # fmt: skip
+def test_two_epochs_of_a_stationxml_are_refused_with_both(tmp_path: Path, facts: dict, named: tuple) -> None:
+    trace().write(str(tmp_path / "record.mseed"), format="MSEED")
+    xml = XML.format(units="M/S**2")
+    (tmp_path / "station.xml").write_text(epoch(xml, **facts))
+    for one in (
+        lambda: read(tmp_path / "record.mseed"),
+        lambda: rocking.from_obspy(trace(), inventory(tmp_path)),
+    ):
+        with pytest.raises(RecordError) as said:
+            one()
+        assert all(word in str(said.value) for word in named)
+
+
+def inventory(folder: Path) -> object:
+    return obspy.read_inventory(str(folder / "station.xml"))
+
+
+def workspace_of(unit: str, of_channel: str = "") -> bytes:
+    """A station of a workspace whose processing left `unit`, with a StationXML that states another, or none."""
+    whole = made_files.asdf_station()
+    facts, _, samples = workspace._parted(whole)
+    facts["traces"][0]["unit"] = unit
+    xml = XML.format(units="M/S**2").replace('locationCode=""', 'locationCode="20"').replace('"XX"', '"NZ"')
+    if of_channel:
+        xml = xml.replace(
+            "<SampleRate>", f"<CalibrationUnits><Name>{of_channel}</Name></CalibrationUnits><SampleRate>"
+        )
+    return workspace.packed({**facts}, xml.encode() if of_channel else b"", samples)
+
+
+def test_a_workspace_is_held_against_what_is_typed_and_said_twice() -> None:
+    with pytest.raises(RecordError) as said:
+        read_content(workspace_of("cm/s^2"), "made", Options(unit="g"))
+    assert "'g'" in str(said.value) and "cm/s" in str(said.value)
+    for unit in ("cm/s", "m"):
+        with pytest.raises(RecordError):
+            read_content(workspace_of(unit), "made", Options())
+
+
+@pytest.mark.parametrize(("cells", "named"), [
+    ({"unit": "gal"}, ("gal", "UNITS OF G")), ({"time_step_s": "0.02"}, ("0.02", "0.01")),
+])  # fmt: skip
+def test_a_cell_of_the_catalogue_stands_against_no_file(tmp_path: Path, cells: dict, named: tuple) -> None:
+    at2(tmp_path)
+    path = write(tmp_path, row(file="made.AT2", sha256="", **cells))
+    with pytest.raises(RecordError) as said:
+        open_record(load_catalogue(path)[0])
+    assert all(word in str(said.value) for word in named)
+
+
+def test_a_stream_is_held_against_its_own_unit_and_processing() -> None:
+    own = read_content(content_of("PEER AT2"), "made.AT2", Options())[0].to_obspy()
+    with pytest.raises(RecordError, match=r"m/s2.*'g'"):
+        rocking.from_obspy(own, unit="g")
+    with pytest.raises(RecordError, match="velocity"):
+        rocking.from_obspy(own.copy().integrate(), unit=None)
