@@ -211,13 +211,13 @@ class CaseResult:
         return replace(
             own,
             # What slides apart does not have to lift.
-            rests=rests and not (body.falls_by_sliding and not math.isnan(self.slides_at)),
+            rests=rests and not (body.joints.fall_by_sliding and not math.isnan(self.slides_at)),
             run_ratio=math.inf if self.seat_lost else max(runs, default=math.nan),
             never_overturns_because="" if self.seat_lost else never_overturns_because(body),
             slides_at=own.slides_at if math.isnan(self.slides_at) else self.slides_at,
             top=next((top.remark for top in tops), None),
             stacks=(self.contact.falls, self.contact.runs) if self.contact and self.contact.runs else None,
-            as_stones=body.as_stones,
+            as_stones=body.joints.as_stones,
             stackable=self.contact is None and stackable(body),
             remarks=(
                 *([Remark(AssessmentKind.SEATS)] if self.seat_lost else []),
@@ -389,9 +389,9 @@ class PeriodResult:
         ]
         if any(case.check.bounces for case in both):
             doubts.append(Remark(AssessmentKind.CONTACTS_OPEN))
-        if self.scene.structure.tapers:
+        if self.scene.structure.joints.courses_taper:
             doubts.append(Remark(AssessmentKind.COURSES_THROWN))
-        if self.scene.structure.needs_stones:
+        if self.scene.structure.joints.need_stones:
             doubts.append(Remark(AssessmentKind.STONES_TELL))
         return tuple(sorted(set(doubts), key=lambda remark: remark.kind))
 

@@ -52,14 +52,6 @@ class Laid(Protocol):
     def symmetric(self) -> bool:
         """Whether both sides are alike."""
 
-    @property
-    def tapers(self) -> bool:
-        """Whether its courses grow smaller upwards."""
-
-    @property
-    def courses_are_given(self) -> bool:
-        """Whether it says how many courses it has."""
-
     def stack(self, courses: int | None = None) -> Stack:
         """Return it as rigid courses."""
 
@@ -208,9 +200,9 @@ def _laid(structure: Laid) -> Sequence[Stack | Stones]:
     they keep that.
     """
     friction = structure.joints.friction
-    if isinstance(structure, Structure) and structure.as_stones:
+    if isinstance(structure, Structure) and structure.joints.as_stones:
         return [replace(structure.stones(), friction=friction)]
-    by_size = structure.tapers and not structure.courses_are_given
+    by_size = structure.joints.courses_taper and not structure.joints.courses_are_given
     stacks = [structure.stack(courses) for courses in ((COURSES, MANY_COURSES) if by_size else (None,))]
     return [replace(stack, friction=min(stack.friction, friction)) for stack in stacks]
 

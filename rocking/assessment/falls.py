@@ -62,7 +62,7 @@ def falls_along(
     rotation_ratios: (k, m) of the members with the crack that governs. contacts: whether contact dynamics is asked
     where the decision would ask for it.
     """
-    stones = _Stones(structure, record, settings) if contacts and structure.as_stones else None
+    stones = _Stones(structure, record, settings) if contacts and structure.joints.as_stones else None
     return [
         None
         if math.isnan(factor)
@@ -87,14 +87,14 @@ def _falls_at(
     counting = counting_cracks(structure)
     sliding = sliding_first(counting, motions)
     # Where nothing lifts it stands, unless it slides apart: rows 2 and 3 of the decision.
-    if all(crack in sliding for crack in counting) and (structure.falls_by_sliding or largest > 0):
+    if all(crack in sliding for crack in counting) and (structure.joints.fall_by_sliding or largest > 0):
         return Falls(0.0, 1.0, Model.NONE)
     told = Falls(share, share, Model.MECHANISM)
     if share == 1 or not largest > 0:
         return told
     of_contacts = math.nan
-    if structure.as_stones:
-        if not (structure.needs_stones or share > 0):
+    if structure.joints.as_stones:
+        if not (structure.joints.need_stones or share > 0):
             return told
         if stones is not None:
             of_contacts = stones.share_at(factor)
@@ -161,6 +161,6 @@ def _is_in_doubt(
         unknown = weakest_not_followed(part)
         if unknown is not None and reached > unknown.uplift_multiplier:
             return True
-        if part.tapers or why_open(part, motions, largest, settings) is not None:
+        if part.joints.courses_taper or why_open(part, motions, largest, settings) is not None:
             return True
     return False

@@ -204,7 +204,7 @@ def _plot_assessment(assessment: StructureAssessment, axes: Axes) -> None:
     history = _history(assessment.response, "assess the structure again to plot it", relative=True)
     draw_rotation(axes, history, band=(assessment.rotation_ratio_low, assessment.rotation_ratio_high))
     of_all = [f"{assessment.members} members"] if assessment.members else []
-    followed_as = f"runs {assessment.body.as_stones}" if assessment.body.as_stones else "stacks"
+    followed_as = f"runs {assessment.body.joints.as_stones}" if assessment.body.joints.as_stones else "stacks"
     of_all += [f"{assessment.stacks.runs} {followed_as}"] if assessment.stacks else []
     share = " of ".join(filter(None, [assessment.decision.share_in_words, " and ".join(of_all)]))
     axes.set(xlabel=TIME, ylabel="rotation / critical rotation [-]", ylim=(-1.15, 1.15))

@@ -168,7 +168,9 @@ class RecordReport:
     def as_stones(self) -> frozenset[str]:
         """The structures that were followed as stones, which say what their contacts do, in the reason of a verdict."""
         followed = {row.structure for row in self.tables.verdicts if row.stack_runs}
-        return frozenset(name for name in followed & set(self.structures) if self.structures[name].as_stones)
+        return frozenset(
+            name for name in followed & set(self.structures) if self.structures[name].joints.as_stones
+        )
 
     @cached_property
     def left_out(self) -> dict[Remark, list[str]]:
@@ -280,7 +282,7 @@ def _assumed(report: RecordReport) -> Iterator[Topic]:
         (f"Bodies are rigid and do not crush. {sliding} Each structure has one degree of freedom.",),
     )
     yield Topic("Cracks", (_CRACKS,))
-    if any(structure.hinges_migrate for structure in structures):
+    if any(structure.joints.hinges_migrate for structure in structures):
         farther = MEASURED["stones_farther"].words
         momentum = MEASURED["arch_momentum"].words
         text = (
@@ -289,7 +291,7 @@ def _assumed(report: RecordReport) -> Iterator[Topic]:
             "an arch would be on the unsafe side."
         )
         yield Topic("Arches", (text,))
-    if any(structure.tapers for structure in structures):
+    if any(structure.joints.courses_taper for structure in structures):
         yield Topic("Spires", (_SPIRES,))
     if report.result.carried:
         missed = MEASURED["missed_on_supports"].words
@@ -467,7 +469,7 @@ def _beside_the_word(conclusion: Conclusion, structure: Structure | None) -> str
     remark = conclusion.remark
     if remark.kind in UNSAID:
         return ""
-    stands = structure is not None and structure.joints.friction >= structure.stands_on_friction
+    stands = structure is not None and structure.joints.friction >= structure.joints.stand_on_friction
     if remark.kind is AssessmentKind.CONTACT_SLIDES and stands and conclusion.case is not None:
         remark = Remark.of(ReportKind.STANDS_AS_VOUSSOIRS, needed=conclusion.case.required_friction)
     return remark.brief
@@ -669,7 +671,7 @@ def _contacts(report: RecordReport) -> list[str]:
             continue
         name = report.called(row.structure)
         structure = report.structures.get(row.structure)
-        stands = structure is not None and structure.joints.friction >= structure.stands_on_friction
+        stands = structure is not None and structure.joints.friction >= structure.joints.stand_on_friction
         if row.bounces:
             failing.setdefault(name, set()).add("bounces")
         if row.slides and not stands:

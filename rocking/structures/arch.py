@@ -4,13 +4,14 @@ On piers the hinges may open anywhere in the arch and at the feet of the piers, 
 with the right pier, arch with both.
 """
 
+import math
 import warnings
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 
@@ -97,8 +98,6 @@ class Arch(Crackable):
     """
 
     type_name: ClassVar[str] = "arch"
-    hinges_migrate: ClassVar[bool] = True
-    falls_by_sliding: ClassVar[bool] = True
     crack_name: ClassVar[str] = "hinges"
     statics_chooses: ClassVar[bool] = True
     _usual_restitution: ClassVar[float | str] = 0.9
@@ -238,8 +237,14 @@ class Arch(Crackable):
         return least if least < _LIFTS_FROM * onset.multiplier else np.nan
 
     @property
-    def as_stones(self) -> str:
-        return "as voussoirs"
+    def _joints_do(self) -> dict[str, Any]:
+        return {
+            "hinges_migrate": True,
+            "fall_by_sliding": True,
+            "as_stones": "as voussoirs",
+            # With fill, or on piers, it was not shown (docs/pages/limits.md).
+            "stand_on_friction": _STANDS_ON_FRICTION if self.fill_depth is None else math.inf,
+        }
 
     def stones(self, voussoirs: int | None = None) -> Stones:
         """Return it as equal voussoirs, with the fill on each, and its piers; joints keep sharp edges.
@@ -401,12 +406,6 @@ class Arch(Crackable):
             "embrace_angle": swept([0.0, 0.0], 0.3 * self.radius, -half, half),
         }
 
-    @property
-    def stands_on_friction(self) -> float:
-        """As voussoirs in contact dynamics; with fill, or on piers, it was not shown (docs/pages/limits.md)."""
-        tried = self.fill_depth is None and self.ring.piers is None
-        return _STANDS_ON_FRICTION if tried else super().stands_on_friction
-
     def thrust_line(self, count: int = 200) -> np.ndarray:
         """Return the line of thrust at the onset to the positive side, (k, 2) in m: `count` points along the arch.
 
@@ -478,7 +477,6 @@ class ArchOnPiers(Arch):
     """
 
     type_name: ClassVar[str] = "arch_on_piers"
-    needs_stones: ClassVar[bool] = True
     _described_as: ClassVar[dict[str, str]] = {
         "": "Circular arch on equal monolithic piers, flush with the intrados"
     }
@@ -497,6 +495,10 @@ class ArchOnPiers(Arch):
             bounds={"ge": 1e-3, "le": 1e3},
         ),
     ] = field(default=1.0, kw_only=True)
+
+    @property
+    def _joints_do(self) -> dict[str, Any]:
+        return {**super()._joints_do, "need_stones": True, "stand_on_friction": math.inf}
 
     @property
     def ring(self) -> Ring:

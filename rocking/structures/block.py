@@ -321,7 +321,6 @@ class Spire(CrackedAtHeight):
 
     type_name: ClassVar[str] = "spire"
     crack_name: ClassVar[str] = "crack"
-    tapers: ClassVar[bool] = True
     _described_as: ClassVar[dict[str, str]] = {
         "": "Cone or square pyramid, solid or hollow, that rocks above a horizontal crack"
     }
@@ -426,8 +425,8 @@ class Spire(CrackedAtHeight):
         return half_width**2 * height * moments
 
     @property
-    def courses_are_given(self) -> bool:
-        return self.courses is not None
+    def _joints_do(self) -> dict[str, Any]:
+        return {"courses_taper": True, "courses_are_given": self.courses is not None}
 
     def stack(self, courses: int | None = None) -> Stack:
         """Return the courses above the crack where it is known, else all of them; their number as given, or its own."""

@@ -1,7 +1,7 @@
 """The symmetric rocking frame of equal columns under a rigid beam (Makris and Vassiliou 2013; theory: section 3)."""
 
 from dataclasses import dataclass, field, replace
-from typing import Annotated, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
@@ -156,13 +156,13 @@ class Frame(Crushable):
         return outlines
 
     @property
-    def as_stones(self) -> str:
-        """Of two columns: a beam on more is no chain."""
-        return "as columns and beam" if self.columns == 2 and self.beam_mass_ratio else ""
+    def _joints_do(self) -> dict[str, Any]:
+        """A beam on more than two columns is no chain."""
+        return {"as_stones": "as columns and beam"} if self.columns == 2 and self.beam_mass_ratio else {}
 
     def stones(self, voussoirs: int | None = None) -> Stones:
         """Return the two columns and the beam on them, spaced as they are drawn; voussoirs: None, as it has none."""
-        if not self.as_stones or voussoirs is not None:
+        if not self.joints.as_stones or voussoirs is not None:
             raise StructureError(
                 f"a frame of {self.columns} columns with a beam_mass_ratio of {self.beam_mass_ratio!r} is asked for as "
                 f"{'stones' if voussoirs is None else f'{voussoirs} voussoirs'}, but only two columns below a beam are "

@@ -60,16 +60,12 @@ class Structure(ABC):
     """A geometry that reduces to a Mechanism. Subclasses are frozen dataclasses checked at birth.
 
     restitution_range: its restitution is known to plus or minus this much; None: as the settings say. joints: what all
-    its joints have alike.
+    its joints have alike; what they may do follows from its geometry, by `_joints_do`.
 
     type_name: the `type` in a file. _described_as: what each constructor that a file may use describes, by the name of
     its class method, "" for the class itself. crack_name: what its candidates move ("hinge", "crack"); "" without.
-    tapers: whether its courses grow smaller upwards, so that each rocks by itself and throws what stands on it
-    (docs/pages/validation.md). hinges_migrate: whether its hinges would move in flight, while the mechanism leaves
-    them. falls_by_sliding: whether it comes apart where its joints slide, though nothing lifts. needs_stones: whether
-    it may fall as stones where its mechanism stands, so that only these may say that it does. _usual_restitution:
-    where none is given. statics_chooses: whether codes check the mechanism of least λ alone, as between supports limit
-    analysis finds it; otherwise every crack that may open is a mechanism of its own.
+    _usual_restitution: where none is given. statics_chooses: whether codes check the mechanism of least λ alone, as
+    between supports limit analysis finds it; otherwise every crack that may open is a mechanism of its own.
     _contacts_unknown: why no contact forces are known; "" where the moving parts give them. _as_one_leaf: the values
     of its fields with which its leaves do not part.
     """
@@ -78,10 +74,6 @@ class Structure(ABC):
     type_name: ClassVar[str] = ""
     _described_as: ClassVar[dict[str, str]] = {}
     crack_name: ClassVar[str] = ""
-    tapers: ClassVar[bool] = False
-    hinges_migrate: ClassVar[bool] = False
-    falls_by_sliding: ClassVar[bool] = False
-    needs_stones: ClassVar[bool] = False
     _usual_restitution: ClassVar[float | str] = "momentum"
     statics_chooses: ClassVar[bool] = False
     _contacts_unknown: ClassVar[str] = ""
@@ -100,7 +92,8 @@ class Structure(ABC):
     joints: Joints = field(default=USUAL, kw_only=True)
 
     def __post_init__(self) -> None:
-        """Check each value that is not the default by what its type says of it."""
+        """Check each value that is not the default by what its type says of it, and say what its joints may do."""
+        object.__setattr__(self, "joints", Joints(self.joints.friction, **self._joints_do))
         for key in constructor(type(self)).fields:
             value = getattr(self, key.name)
             if value is not key.default:
@@ -119,12 +112,9 @@ class Structure(ABC):
         return " ".join([f"{type(self).__name__}({self.description})", *map(str, self.described.remarks[:1])])
 
     @property
-    def stands_on_friction(self) -> float:
-        """The coefficient of its joints from which on it stands as loose stones where its mechanism does.
-
-        Though a joint of that mechanism needs more; inf where nobody has shown it.
-        """
-        return math.inf
+    def _joints_do(self) -> dict[str, Any]:
+        """The fields of its joints that follow from its geometry, where they are not the default."""
+        return {}
 
     def slides_at(self) -> float:
         """Return the acceleration [g] at which its joints slide before any mechanism of it lifts.
@@ -206,7 +196,11 @@ class Structure(ABC):
 
     def on_joints(self, joints: Joints) -> Self:
         """Return it on these joints; it describes itself as it did."""
-        return self if joints == self.joints else self.described.describes(replace(self, joints=joints))
+        return (
+            self
+            if joints.friction == self.joints.friction
+            else self.described.describes(replace(self, joints=joints))
+        )
 
     def crushing(self, strength: float) -> "Structure | None":
         """Return it of masonry that crushes at a `strength` [Pa], of a usual weight where none is given.
@@ -406,11 +400,6 @@ class Structure(ABC):
         state = MotionState(sign, phi * sign, velocity * sign, turn * sign, push * sign, lift, so_far)
         return state, resting
 
-    @property
-    def courses_are_given(self) -> bool:
-        """Whether its description says in how many courses it is laid."""
-        return False
-
     def stack(self, courses: int | None = None) -> Stack:
         """Return it as rigid courses for contact dynamics; raises StructureError where that has no meaning.
 
@@ -420,11 +409,6 @@ class Structure(ABC):
             f"a {self.type_name} is not a stack of courses, so that contact dynamics cannot follow it; choose another "
             "fidelity than contact."
         )
-
-    @property
-    def as_stones(self) -> str:
-        """As what chain of stones contact dynamics follows it, in words: "as voussoirs"; "" where as a stack."""
-        return ""
 
     def stones(self, voussoirs: int | None = None) -> Stones:
         """Return it as a chain of stones between two grounds; raises StructureError where it is none.

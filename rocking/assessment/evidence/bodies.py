@@ -34,7 +34,7 @@ class Thrown:
         return asked.may_be_untold(word)
 
     def look(self, asked: Asked) -> Limit | None:
-        tapering = (name for name, part in parts_of(asked.structure) if part.tapers)
+        tapering = (name for name, part in parts_of(asked.structure) if part.joints.courses_taper)
         lifts = any(asked.case.largest_of_part(name) > 0 for name in tapering)
         return Limit.untold(Remark(AssessmentKind.COURSES_THROWN)) if lifts else None
 
@@ -82,7 +82,7 @@ def why_open(
     body on the ground lands too slowly below a fall of more than a radian; and the bulge of a wall that is held is left
     to `Held` and `Ties`: what they let stand did not fall as a stack (docs, validation).
     """
-    if structure.tapers or not rotation_ratio > NEGLIGIBLE:
+    if structure.joints.courses_taper or not rotation_ratio > NEGLIGIBLE:
         return None
     if bounces:
         return AssessmentKind.CONTACTS_OPEN
@@ -121,7 +121,7 @@ class Friction:
     """
 
     def due(self, word: Verdict, asked: Asked) -> bool:
-        exempt = asked.structure.joints.friction >= asked.structure.stands_on_friction
+        exempt = asked.structure.joints.friction >= asked.structure.joints.stand_on_friction
         return word in (Verdict.STANDS, Verdict.PROBABLY_STANDS) and not exempt and not asked.is_settled
 
     def look(self, asked: Asked) -> Limit | None:
@@ -136,7 +136,7 @@ class Friction:
             doubt=Remark(AssessmentKind.FRICTION_SHORT),
             settles=(Remark(AssessmentKind.FRICTION),),
             # Stones stand or slide on what they have.
-            lifted_by=1 if asked.structure.as_stones else UNANIMOUS,
+            lifted_by=1 if asked.structure.joints.as_stones else UNANIMOUS,
             value=needed,
         )
 

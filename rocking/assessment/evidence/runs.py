@@ -14,9 +14,9 @@ class Stones:
 
     def due(self, word: Verdict, asked: Asked) -> bool:
         fidelity = asked.settings.fidelity
-        if fidelity == "quick" or not asked.structure.as_stones or not asked.moves(word):
+        if fidelity == "quick" or not asked.structure.joints.as_stones or not asked.moves(word):
             return False
-        return fidelity == "contact" or asked.structure.needs_stones or word is not Verdict.STANDS
+        return fidelity == "contact" or asked.structure.joints.need_stones or word is not Verdict.STANDS
 
     def look(self, asked: Asked) -> ContactShare:
         return asked.contacts()
@@ -28,7 +28,7 @@ class StonesMissing:
     """
 
     def due(self, word: Verdict, asked: Asked) -> bool:
-        return asked.structure.needs_stones and asked.moves(word) and not asked.is_settled
+        return asked.structure.joints.need_stones and asked.moves(word) and not asked.is_settled
 
     def look(self, asked: Asked) -> Limit:
         return Limit(doubt=Remark(AssessmentKind.STONES_TELL), lifted_by=1)

@@ -103,7 +103,7 @@ def write_fragility(
             reasons.append(f"{name}: it cannot overturn, and has no fragility: it {never}.")
             continue
         with net("its fragility", name):
-            if study.scenes[name].structure.as_stones and study.settings.fidelity != "quick":
+            if study.scenes[name].structure.joints.as_stones and study.settings.fidelity != "quick":
                 of_all = counted(sum(map(len, opened.values())), "component")
                 show_progress(
                     f"{name}: its stones take some ten seconds of processor time under each of {of_all}"

@@ -454,10 +454,10 @@ def test_an_arch_that_needs_more_friction_stands_as_its_voussoirs_do():
     assert less.stacks == ContactShare(falls=0, runs=18), "as voussoirs, which say what their friction does"
     assert np.isnan(less.friction_needed)
     assert AssessmentKind.FRICTION_SHORT not in [doubt.kind for doubt in less.decision.doubts]
-    assert arch.stands_on_friction == 0.5
-    assert replace(arch, fill_depth=0.2).stands_on_friction == np.inf
+    assert arch.joints.stand_on_friction == 0.5
+    assert replace(arch, fill_depth=0.2).joints.stand_on_friction == np.inf
     piers = ArchOnPiers(5.0, 0.8, np.pi, pier_width=1.5, pier_height=4.0)
-    assert piers.stands_on_friction == Block(2.0, 0.2).stands_on_friction == np.inf
+    assert piers.joints.stand_on_friction == Block(2.0, 0.2).joints.stand_on_friction == np.inf
 
 
 def test_a_stack_is_followed_on_the_friction_that_its_courses_have():

@@ -73,7 +73,7 @@ def test_the_verdict_and_every_number_are_those_of_all_cracks_followed_one_by_on
         passed_over = (AssessmentKind.FRICTION_SHORT, AssessmentKind.HELD_BEYOND)
         limits = [limit for limit in case.limits if limit.doubt.kind not in passed_over]
         without = decide(replace(case.facts(structure), stacks=None), limits)
-        if structure.tapers and worst.badness < Verdict.PROBABLY_OVERTURNS.badness:
+        if structure.joints.courses_taper and worst.badness < Verdict.PROBABLY_OVERTURNS.badness:
             assert without.word is Verdict.CANNOT_BE_TOLD
             assert without.why.startswith("courses above a rocking body may be thrown; ")
         else:
