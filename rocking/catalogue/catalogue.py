@@ -130,7 +130,7 @@ class CatalogueRecord:
         if self.scale_factor == 0:
             defects.append("scale_factor is 0, but must not be; leave the row out instead.")
         if self.scale_factor != 1 and self.scale_to:
-            given = f"scale_factor is {self.scale_factor:g} beside scale_to {shown(self.scale_to)}"
+            given = f"scale_factor is {self.scale_factor:g} together with scale_to {shown(self.scale_to)}"
             defects.append(f"{given}; give one of the two.")
         for cell, check in ((self.unit, acceleration_factor), (self.scale_to, ScalingTarget.parse)):
             if cell:

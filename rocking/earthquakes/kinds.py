@@ -12,7 +12,7 @@ class SampleKind(Kind):
     EARTHQUAKES_UNNAMED = auto(), """{records} of {all} records name no earthquake, and count as of one: name
         it in the column event of the catalogue, or declare each of them an earthquake of its own
         (unnamed_events: each)."""
-    EARTHQUAKE_ONE = auto(), """All {stations} stations are of one earthquake, which tells nothing of another:
+    EARTHQUAKE_ONE = auto(), """All {stations} stations are of one earthquake, which says nothing about another:
         there is no interval."""
     EARTHQUAKES_FEW = auto(), """With {earthquakes} earthquakes, fewer than {fewest}, nothing is resampled:
         intervals are those of Student, or of Clopper and Pearson, on the earthquakes, and those of a median

@@ -192,7 +192,7 @@ def _modes(mapping: Mapping[str, Any]) -> list[dict[str, Any]]:
     surplus = sorted((_MODE_KEYS | _STOREY_KEYS) & set(mapping))
     if surplus:
         raise ConfigurationError(
-            f"a support is given {', '.join(surplus)} beside modes; give one of the two."
+            f"a support is given {', '.join(surplus)} together with modes; give one of the two."
         )
     if not isinstance(listed, list) or not listed:
         raise ConfigurationError(f"modes is {listed!r}, but must be a list of at least one mode.")

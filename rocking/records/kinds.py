@@ -46,8 +46,8 @@ class RecordKind(Kind):
         acceleration: numbers of one of them are damaged there."""
     VELOCITY_UNLIKE = auto(), """The file's own velocity is not the integral of its acceleration: it is
         damaged."""
-    SAMPLES_SURPLUS = auto(), """The header declares {declared} samples; the file holds {held}, and all are
-        kept."""
+    SAMPLES_SURPLUS = auto(), """The header declares {declared} samples; the file holds {held}, and all
+        are used."""
     LINE_SURPLUS = auto(), """The header declares {declared} samples; the 1 surplus line repeats the end and
         is left out."""
     LINES_SURPLUS = auto(), """The header declares {declared} samples; the {lines} surplus lines repeat the

@@ -305,10 +305,10 @@ def compared_in_words(moving: Moving, structure: Structure, several: bool) -> Co
 
 
 def least_uplift(case: ComparisonRow, structure: Structure) -> str:
-    """Return the least λ of all cracks where that of the row is another one: "least λ 0.195"."""
+    """Return the least λ of all cracks where that of the row is another one: "λ_min 0.195"."""
     least = structure.mechanism().uplift_multiplier
     is_another = number(least) != number(case.uplift_multiplier) and least < case.uplift_multiplier
-    return f"least λ\u00a0{number(least)}" if is_another else ""
+    return f"λ_min\u00a0{number(least)}" if is_another else ""
 
 
 def sizes_of(name: str, structure: Structure) -> str:

@@ -294,7 +294,7 @@ def _case(period_result: PeriodResult, row: ComparisonRow | None) -> Content:
     place = placed("", period_result.support_period_s).removeprefix(", ")
     place = f"At its worst, {place}: " if place else ""
     share = f", {decision.share_in_words}" if decision.share_in_words else ""
-    doubts = f" Doubtful: {'; '.join(map(str, decision.doubts))}." if decision.doubts else ""
+    doubts = f" Warning: {'; '.join(map(str, decision.doubts))}." if decision.doubts else ""
     case: Content = {
         "verdict": str(decision.word),
         "cell": cell_text(decision),

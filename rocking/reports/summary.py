@@ -314,7 +314,7 @@ def _design(design: Design | None) -> Section:
     alt = "Spectra of all components and their mean with the design spectrum."
     caption = (
         "The spectra of the records as they acted, for the damping of the design level, each component on its own, and "
-        f"their mean beside that of the design level: {level.words}."
+        f"their mean with that of the design level: {level.words}."
     )
     return Section(pictures=(picture(design_summary_figure(spectra, level), alt),), caption=caption)
 

@@ -218,7 +218,7 @@ class CrackedAtHeight(Crackable):
                 return None  # it stands: it is not cracked there
             raise DoesNotStandError(
                 f"the structure does not stand with the {self._in_words(height)}: what acts on it at rest turns it "
-                "over; mend its loads or its sizes, or say by crack: known that it is cracked where it is described."
+                "over; correct its loads or its sizes, or say by crack: known that it is cracked where it is described."
             ) from None
         except StructureError as wrong:
             if wrong.field == "restitution":

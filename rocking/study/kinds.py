@@ -10,11 +10,11 @@ class StudyKind(Kind):
 
     # fmt: off
     # A structure, and where it stands.
-    REMARKS_MORE = auto(), "{number} more remarks on the study stand in summary/remarks.csv."
+    REMARKS_MORE = auto(), "{number} more warnings on the study are in summary/remarks.csv."
 
     # A catalogue and its folder, and a study before its run.
     FILE_APART = auto(), "{about}: {why}"
     FILE_WITHOUT_RECORD = auto(), "{about} is not used: {why}"
-    SIBLING_NOT_USED = auto(), """{other}, beside {about}, is a component of the same station and is not used:
+    SIBLING_NOT_USED = auto(), """{other}, next to {about}, is a component of the same station and is not used:
         give it too."""
     # fmt: on

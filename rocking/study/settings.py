@@ -67,7 +67,7 @@ class StudyDesign:
         given = {"f0": self.f0, "tc_star_s": self.tc_star}
         if self.ag is not None and self.points is not None:
             raise ConfigurationError(
-                f"points is {self.points!r} beside ag_g = {self.ag:g}, but one of the two must be null."
+                f"points is {self.points!r} together with ag_g = {self.ag:g}, but one of the two must be null."
             )
         for name, value in given.items():
             if self.ag is not None and value is None:

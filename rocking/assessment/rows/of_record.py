@@ -334,7 +334,7 @@ class VerdictRow(DecidedRow[OfStructure]):
     )
     why: str = of_decision("Reason for the verdict", lambda decision: decision.why)
     doubts: tuple[Kind, ...] = of_decision(
-        "Kinds of doubt that may make it worse",
+        "Kinds of warning: what may make it worse",
         lambda decision: tuple(doubt.kind for doubt in decision.doubts),
     )
     would_settle: tuple[Kind, ...] = of_decision(
@@ -409,7 +409,7 @@ class VerdictRow(DecidedRow[OfStructure]):
         lambda reserve: reserve.limit,
     )
     reserve_doubts: tuple[Kind, ...] = of_structure(
-        "Kinds of doubt for which the reserve may be too high: it is that of the mechanism alone",
+        "Kinds of warning for which the reserve may be too high: it is that of the mechanism alone",
         lambda of: (
             tuple(doubt.kind for doubt in of.period_result.reserve_doubts) if of.period_result.reserve else ()
         ),
@@ -714,12 +714,12 @@ class FailureRow(AnyCaseRow):
 
 @row("remarks")
 class RemarkRow(Row):
-    """One row per remark on a record, a structure or a setting; those of the study itself name no record."""
+    """One row per warning on a record, a structure or a setting; those of the study itself name no record."""
 
     record: str = column(f"{RECORD}; empty: of the study itself")
     about: str = column("What it is about: a component, a structure, a size of it or a setting")
-    kind: Kind = column("Kind of the remark")
-    sentence: str = column("The remark in words")
+    kind: Kind = column("Kind of the warning")
+    sentence: str = column("The warning in words")
 
     @classmethod
     def on(cls, remark: Remark, record: str = "", about: str = "") -> "RemarkRow":

@@ -126,7 +126,7 @@ def structures_data(
         if selection is not None:
             drawn = picture(
                 selection_figure(selection),
-                words("Spectra of the set of records and their mean beside the design spectrum."),
+                words("Spectra of the set of records and their mean with the design spectrum."),
             )
             spectra = (SetFigure(drawn, _selection_words(selection, words)),)
             motions = _motion_table(selection, words)
@@ -863,7 +863,7 @@ def _share(page: CheckedStructure, words: Sentences) -> str:
         )
     sentences = [words("by the worst record of each station it {counts}.", counts=f"{counts}{reasons}")]
     if not page.reserves:
-        sentences.append(words("No reserve was sought."))
+        sentences.append(words("No reserve was searched for."))
     text = " ".join(sentences)
     return text[:1].upper() + text[1:]
 

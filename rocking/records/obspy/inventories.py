@@ -30,7 +30,7 @@ def inventory_for(stats: Any, options: Options) -> Any:
         return None
     naming = _naming(stats, options.described) or _naming(stats, sorted(options.folder.glob("*.xml")))
     if len(naming) != 1:
-        several = f"several do: {', '.join(p.name for p in naming)}" if naming else "none beside it does"
+        several = f"several do: {', '.join(p.name for p in naming)}" if naming else "none in its folder does"
         missing = f"no single StationXML describes {stats.network}.{stats.station} ({several})"
         raise UndeclaredError(
             f"{missing}; {advice('inventory')}; if the samples are acceleration, {advice('unit')}.",

@@ -18,6 +18,7 @@ def test_the_readme_prints_the_trade_that_was_measured():
         f"the integration {1e3 * mechanism.cpu_s:.2g} ms per structure",
         f"below {break_even(sine, mechanism):.0f} structures per record",
         f"{sine.wrong_verdicts} of {sine.cases} verdicts wrong against {mechanism.wrong_verdicts}",
+        f"{100 * sine.wrong_share_low:.0f} to {100 * sine.wrong_share_high:.0f} % of such cases",
         sine.machine.partition(",")[0],
     )
     for remark in told:

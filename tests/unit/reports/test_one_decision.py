@@ -158,7 +158,7 @@ def test_the_page_to_explore_says_it(report, decisions):
         assert cases[name]["cell"] == cell_text(decision)
         assert cases[name]["text"].startswith(f"{decision.word}, {decision.share_in_words}: {decision.why}.")
         doubts = "; ".join(map(str, decision.doubts))
-        assert not doubts or f" Doubtful: {doubts}." in cases[name]["text"]
+        assert not doubts or f" Warning: {doubts}." in cases[name]["text"]
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -248,7 +248,7 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
         case = content["cases"][name]
         assert (case["verdict"], case["cell"]) == (decision.word, cell_text(decision))
         assert decision.why in case["text"]
-        assert all(str(doubt) in case["text"].partition(" Doubtful: ")[2] for doubt in decision.doubts)
+        assert all(str(doubt) in case["text"].partition(" Warning: ")[2] for doubt in decision.doubts)
         if f"{decision.word}: " in line and f"{name} (" in line:  # it names eight, and gathers the others
             assert f"{name} ({decision.share_in_words})" in line
 
