@@ -1,11 +1,11 @@
-"""What accuracy costs in a fragility, and whether the 90 % interval of its median holds the truth.
+"""Whether the 90 % interval of a fragility's median holds the truth.
 
-Its median by every method at the same levels, and the time of each. Then intervals drawn from real stations, whose
-truth is the curve of all of them, from which few are drawn with repetition; and from populations that are no lognormals
-(two apart, a dip, a plateau below one), whose truth is the curve of very many.
+Intervals are drawn from real stations, whose truth is the curve of all of them, from which few are drawn with
+repetition; and from populations that are no lognormals (two apart, a dip, a plateau below one), whose truth is the
+curve of very many.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -14,8 +14,7 @@ import numpy as np
 
 from docs.research import scores, sites
 from docs.research.report import Target
-from rocking import Accelerogram, Block, EquivalentBlock, Pulse, integrate_batch, predict_maxima
-from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
+from rocking import Block
 from rocking.earthquakes.sample import Sample
 from rocking.fragility.curves import (
     LARGEST_FACTOR,
@@ -25,16 +24,9 @@ from rocking.fragility.curves import (
     fragility,
     fragility_of,
 )
-from rocking.products.trade.measure import best_sines
-from rocking.products.trade.rows import TradeMethod
-from rocking.structures import Structure
 
 ALL_LEVELS: dict[str, Any] = {"over_cracks": False, "largest_factor": np.inf}
-"""Every record at every level with one mechanism, so that methods are compared on the same cases, and truths known."""
-TIGHT = 1e-9
-"""Tolerance of the reference."""
-OPEN = (0.02, 0.98)
-"""Probabilities between which the error of a curve counts."""
+"""Every record at every level with one mechanism, so that truths are known."""
 STATIONS = (8, 20, 35)
 """Drawn for one interval."""
 TRIALS = 300
@@ -50,52 +42,6 @@ Draw = Callable[[np.random.Generator, int], np.ndarray]
 """Shares that overturn of so many stations at each level, (n, k)."""
 
 
-def trade_fragility(target: Target) -> None:
-    """Score every method on the records and structures of the target."""
-    motions = [record for _, record in target.records]
-    sines, searched_s = sites.timed(
-        lambda: [[sine.pulse for sine in best_sines(motion, AssessmentSettings())] for motion in motions]
-    )
-    rows: list[scores.Score] = []
-    for name, structure in target.structures.items():
-        rows += method_scores(name, structure, motions, sines)
-        target.tell(f"fragility of {name}")
-    subtitle = f"{len(motions)} components; the sines of all took {searched_s:.0f} s of processor time."
-    target.publish("What accuracy costs in a fragility", subtitle, {scores.Score: rows})
-
-
-def method_scores(
-    name: str, structure: Structure, records: Sequence[Accelerogram], sines: Sequence[Sequence[Pulse]]
-) -> Iterator[scores.Score]:
-    """Yield the scores of every method for one structure, against the mechanism at TIGHT. sines: best first."""
-    follow = partial(fragility, records, structure, intensity_measure="pgv", contacts=False, **ALL_LEVELS)
-    with_ensemble = partial(follow, ensemble=EnsembleSettings())
-    reference = responses_behind(follow(tolerance=TIGHT))
-    levels, exact = reference.levels, np.isinf(reference.rotation_ratios).mean(axis=2)
-    factors = levels / reference.intensities[:, None]
-    _, curve_s = sites.timed(reference.fragility)
-    block = structure.mechanism().equivalent_block("exact_at_rest")
-
-    def on_block() -> np.ndarray:
-        pairs = zip(records, factors, strict=True)
-        return np.array([integrate_batch([block], *pair, workers=1)[0] for pair in pairs])[..., None]
-
-    runs: dict[TradeMethod, Callable[[], np.ndarray]] = {
-        TradeMethod.ONE_SINE: lambda: _by_sines(block, [sine[:1] for sine in sines], factors),
-        TradeMethod.SINES: lambda: _by_sines(block, sines, factors),
-        TradeMethod.BLOCK: on_block,
-        TradeMethod.MECHANISM: lambda: responses_behind(follow(levels=levels)).rotation_ratios,
-        TradeMethod.ENSEMBLE: lambda: responses_behind(with_ensemble(levels=levels)).rotation_ratios,
-    }
-    for method, run in runs.items():
-        ratios, cpu_s = sites.timed(run)
-        if method in (TradeMethod.MECHANISM, TradeMethod.ENSEMBLE):
-            cpu_s -= curve_s  # which the other methods do not make
-        shares = np.isinf(ratios).mean(axis=2)
-        measures = _errors(levels, shares, exact) | {"processor time of all, s": np.full(len(shares), cpu_s)}
-        yield from scores.scored(method, name, measures, reference.sample)
-
-
 def responses_behind(curve: Fragility) -> IncrementalDynamicAnalysis:
     """Return the responses of a curve that `fragility` made, which has them."""
     assert curve.analysis is not None
@@ -105,32 +51,6 @@ def responses_behind(curve: Fragility) -> IncrementalDynamicAnalysis:
 def median_of(levels: np.ndarray, shares: np.ndarray) -> float:
     """Return the median of a fragility whose stations overturn by `shares` (n, k) at `levels` (k,), nan: not tried."""
     return crossing(levels, np.nansum(shares, axis=0), np.isfinite(shares).sum(axis=0).astype(float))
-
-
-def _errors(levels: np.ndarray, shares: np.ndarray, exact: np.ndarray) -> dict[str, scores.Measured]:
-    def median_error(rows: np.ndarray) -> float:
-        return median_of(levels, shares[rows]) / median_of(levels, exact[rows]) - 1
-
-    def curve_error(rows: np.ndarray) -> float:
-        truth = exact[rows].mean(axis=0)
-        is_open = (truth > OPEN[0]) & (truth < OPEN[1])
-        return float(np.abs(shares[rows].mean(axis=0) - truth)[is_open].mean()) if is_open.any() else np.nan
-
-    return {"error of the median": median_error, "mean error of the curve": curve_error}
-
-
-def _by_sines(block: EquivalentBlock, sines: Sequence[Sequence[Pulse]], factors: np.ndarray) -> np.ndarray:
-    """The largest rotation ratio under any sine of each record, (r, k, 1), at `factors` (r, k); 0 without any."""
-    ratios = np.zeros((*factors.shape, 1))
-    for place, (own, scales) in enumerate(zip(sines, factors, strict=True)):
-        scaled = [
-            Pulse(amplitude=p.amplitude * f, circular_frequency=p.circular_frequency, start_time=p.start_time)
-            for p in own
-            for f in scales
-        ]
-        if scaled:
-            ratios[place, :, 0] = predict_maxima([block], scaled)[0].reshape(-1, scales.size).max(axis=0)
-    return ratios
 
 
 def cover(target: Target) -> None:

@@ -12,11 +12,6 @@ TARGETS_OF_RESEARCH = {
         REAL_RECORDS,
         ["ensemble_trials.csv"],
     ),
-    "trade_fragility": (
-        "Measure the error and the time of every method in a fragility",
-        REAL_RECORDS[1:],
-        [],
-    ),
     "cover": ("Hold a fragility's median against truths that are known", REAL_RECORDS, []),
     "cover_rate": ("Hold the interval of an annual rate against truths that are known", REAL_RECORDS, []),
     "cover_earthquakes": (

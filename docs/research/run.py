@@ -44,7 +44,6 @@ def targets() -> "dict[str, Callable[[Target], None]]":
 
     return {
         "calibrate_ensemble": ensembles.calibrate_ensemble,
-        "trade_fragility": fragilities.trade_fragility,
         "cover": fragilities.cover,
         "cover_rate": rates.cover_rate,
         "cover_earthquakes": earthquakes.cover_earthquakes,

@@ -23,7 +23,7 @@ _ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,79}")
 _RESERVED = re.compile(
     r"(con|prn|aux|nul|(com|lpt)\d|summary|datapackage|paper|calibration|documentation|fragility|checks|code_check|"
     r"code_sets|hold|stability|validation|comparison|cracks|calibrate_ensemble|cover|cover_rate|"
-    r"cover_earthquakes|trade_fragility|govern|stand|floors|fronts|measure_scatter|pulse_shapes|screen|leaves|"
+    r"cover_earthquakes|govern|stand|floors|fronts|measure_scatter|pulse_shapes|screen|leaves|"
     r"tie_forces|voussoirs|worth|validate|compare|halves|between_ties|anchors|diaphragms|strengthening)(\..*)?",
     re.I,
 )

@@ -16,8 +16,6 @@ from rocking.errors import RecordError
 from rocking.quantities import GRAVITY
 from tests.refusals import refused
 
-CATALOGUE = Path(__file__).parents[2] / "records" / "shake_table.csv"
-
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory) -> tuple[Path, Path]:
