@@ -18,7 +18,7 @@ ENGINE := openquake-engine==3.26.2
 # Tests start many processes, and each would compile the whole package again to bytecode.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: all run setup slurm openquake test test-runs test-all bench trace check near check-research schema pages figures measured paper documentation wheel release lock clean
+.PHONY: all run setup slurm openquake test test-runs test-both test-all bench trace check near check-research schema pages figures measured paper documentation wheel release lock clean
 
 all: run
 
@@ -58,6 +58,10 @@ test: $(TOOLS)
 # Snakemake, commands, browsers and other processes, and what takes more than a second.
 test-runs: $(TOOLS)
 	$(BIN)/python -m pytest -n logical --dist loadfile -m "process and not slow"
+
+# Both at once, those files first that take long, so that no core waits for the last of them.
+test-both: $(TOOLS)
+	$(BIN)/python -m pytest -n logical --dist loadfile --no-loadscope-reorder -m "not slow"
 
 # The slow ones too: research, every page, ten thousand damaged files, and twenty runs that are killed and go on.
 test-all: check-research openquake

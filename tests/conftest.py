@@ -62,7 +62,7 @@ def pytest_sessionstart(session: pytest.Session) -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark the tests of a folder, before those of some marks are left out.
+    """Mark the tests of a folder, before those of some marks are left out; files that start processes come first.
 
     ROCKING_ORDER, a number, draws the order of the files and of the tests in each: none may lean on another.
     """
@@ -70,6 +70,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         for folder, mark in MARKED.items():
             if item.path.is_relative_to(folder):
                 item.add_marker(mark)
+    long = {item.path for item in items if "process" in item.keywords}
+    items.sort(key=lambda item: item.path not in long)
     if seed := os.environ.get("ROCKING_ORDER"):
         draw = random.Random(seed)
         files = {item.path: draw.random() for item in items}

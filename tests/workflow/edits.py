@@ -219,7 +219,6 @@ EDITS: list[Edit] = [
     ("checks.largest_factor", _section("checks", largest_factor=3.0), "S C"),
     ("checks.shortest_period_s", _section("checks", shortest_period_s=0.2), "S C"),
     ("checks.longest_period_s", _section("checks", longest_period_s=1.5), "S C"),
-    ("checks.least_others", _section("checks", least_others=0.9), "S C"),
     ("checks.seed", _section("checks", seed=1), "S C"),
     ("checks.pool", _section("checks", pool=None), "S C"),
     ("content of design.csv", _content("design.csv", "0.06", "0.05"), "a b S C M"),

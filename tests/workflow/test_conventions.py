@@ -7,12 +7,14 @@ import sys
 import tarfile
 import time
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 import yaml
 
 from rocking.study.cli import main
 from tests.workflow.conftest import ROOT, SmallStudy
+from tests.workflow.forked import PLANNING, run_snakemake
 
 pytestmark = pytest.mark.process
 
@@ -42,10 +44,10 @@ def done(begun: SmallStudy, tmp_path_factory: pytest.TempPathFactory) -> SmallSt
 
 def snakemake(study: SmallStudy, *options: str, status: int = 0) -> str:
     """Run the bare command in the folder of the study, by its own Snakefile and its own profile."""
-    command = [sys.executable, "-m", "snakemake", "--nocolor", *options]
-    ended = subprocess.run(command, capture_output=True, text=True, check=False, **study.surroundings)
-    told = ended.stdout + ended.stderr
-    assert ended.returncode == status, told
+    with TemporaryDirectory() as folder:
+        output = Path(folder) / "output"
+        ended, told = run_snakemake(["--nocolor", *options], output, modules=PLANNING, **study.surroundings)
+    assert ended == status, told
     return told
 
 
@@ -168,7 +170,8 @@ def test_an_archive_unpacks_to_a_study_that_runs(begun, done, tmp_path) -> None:
 
 def test_every_generated_unit_test_parses(done, tmp_path) -> None:
     study = done.copy_to(tmp_path / "study")
-    snakemake(study, "--generate-unit-tests", "tests")
+    command = [sys.executable, "-m", "snakemake", "--generate-unit-tests", "tests"]  # where it was imported
+    subprocess.run(command, capture_output=True, check=True, **study.surroundings)
     written = list((study.folder / "tests").rglob("test_*.py"))
     assert {"test_record.py", "test_summary.py"} <= {path.name for path in written}
     for path in written:

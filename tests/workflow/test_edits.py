@@ -10,6 +10,7 @@ import pytest
 import yaml
 
 from rocking.hashes import sha256_of_file
+from rocking.study.plan import make_plan
 from tests.workflow.conftest import ROOT, SmallStudy
 from tests.workflow.edits import EDITS, JOBS, write_outputs, write_study
 from tests.workflow.forked import PLANNING, run_snakemake
@@ -66,14 +67,82 @@ def study(touched: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
     return tmp_path / "study"
 
 
-@pytest.mark.parametrize("edit", EDITS, ids=[each[0] for each in EDITS])
+IN_CI = {
+    *(
+        "nothing",
+        "study",
+        "figures",
+        "language",
+        "mirror",
+        "catalogue elsewhere",
+        "cell of the structures as CSV",
+    ),
+    *(
+        "reports",
+        "fragility.in_every_run",
+        "trade.in_summary",
+        "tolerance",
+        "processing.taper",
+        "design level",
+    ),
+    *("checks.seed", "content of a record of the pool", "content of hazard.csv", "content of a record"),
+    *("date of a record in the future", "record away", "records in another order", "record renamed"),
+    *(
+        "StationXML of the records",
+        "file of an odd name edited",
+        "record less",
+        "record more",
+        "structure changed",
+    ),
+    *(
+        "comment in the list",
+        "terms of the checks",
+        "report away",
+        "outcome away",
+        "sums away",
+        "curves away",
+    ),
+    *("cases away", "all memory of the scheduler away"),
+}
+"""The edits that snakemake plans in every change of the project, one of each kind; the others on demand."""
+
+
+@pytest.mark.parametrize(
+    "edit",
+    [pytest.param(edit, id=edit[0], marks=[] if edit[0] in IN_CI else [pytest.mark.slow]) for edit in EDITS],
+)
 def test_each_edit_makes_again_what_depends_on_it_and_nothing_else(study, edit) -> None:
     _, change, again, *first = edit
-    for each in first:
-        each()
+    for before in first:
+        before()
         _finish()
     change()
     assert _again(_snakemake("-n")) == set(again.split())
+
+
+def _made_from() -> dict[str, object]:
+    """What each job is made from by the plan, by its letter; that of a record by its name."""
+    plan = make_plan(yaml.safe_load(Path("config.yaml").read_text()))
+    jobs = {record: ("record", record) for record in plan.records}
+    jobs |= {name[0].upper(): (name, "") for name in plan.products}
+    return {
+        letter: (plan.params(rule), plan.contents(rule, record)) for letter, (rule, record) in jobs.items()
+    }
+
+
+@pytest.mark.parametrize("edit", [edit for edit in EDITS if "away" not in edit[0]], ids=lambda edit: edit[0])
+def test_the_plan_makes_a_job_from_what_changes_it_and_from_nothing_else(study, edit) -> None:
+    """Summary, checks and map follow where a record is made again, and the summary where anything is."""
+    _, change, expected, *first = edit
+    for make in first:
+        make()
+    before = _made_from()
+    change()
+    after = _made_from()
+    again = set(expected.split())
+    own = {letter for letter, made_from in after.items() if before.get(letter) != made_from}
+    follows = set("SCM") if own - set("CFTM") else {"S"}
+    assert again - follows <= own <= again
 
 
 DESIGN = "period_s,acceleration_g\n0,0.2\n0.1,0.5\n0.5,0.5\n4,0.06\n"
@@ -163,9 +232,7 @@ def _order(study: SmallStudy) -> None:
 
 
 LEVEL = {"ag_g": 0.2, "f0": 2.4, "tc_star_s": 0.35}
-IN_CI = {"reports off and a breadth, then on without a design level"}
-"""Those that every change of the project is held against; the others run on demand."""
-RUNS: dict[str, tuple[Callable[[SmallStudy], object], ...]] = {
+RUNS: dict[str, tuple[Callable[[SmallStudy], object], ...]] = {  # the first in every change, the others on demand
     "reports off and a breadth, then on without a design level": (
         _both(_settings(reports=False), _file("structures.yaml", "_m: 0.5", "_m: 0.6")),
         _settings(design_spectrum=None, study="A town"),
@@ -198,8 +265,8 @@ RUNS: dict[str, tuple[Callable[[SmallStudy], object], ...]] = {
 @pytest.mark.parametrize(
     "edits",
     [
-        pytest.param(edits, id=name, marks=[] if name in IN_CI else [pytest.mark.slow])
-        for name, edits in RUNS.items()
+        pytest.param(edits, id=name, marks=[pytest.mark.slow] if place else [])
+        for place, (name, edits) in enumerate(RUNS.items())
     ],
 )
 def test_the_runs_after_edits_leave_the_files_of_a_run_from_scratch(run, tmp_path: Path, edits) -> None:
