@@ -260,7 +260,8 @@ def test_a_component_that_is_a_copy_of_another_is_told_and_counted_once(
     station = open_station(record)
     assert [channel.component for channel in station.horizontal] == horizontal
     assert (station.vertical is not None) == has_vertical
-    is_told = RecordKind.SAME_MOTION in {warning.kind for warning in station.horizontal[0].warnings}
-    assert is_told == (len(horizontal) + has_vertical < 3)
+    copies = [warning for warning in station.horizontal[0].warnings if warning.kind is RecordKind.SAME_MOTION]
+    assert bool(copies) == (len(horizontal) + has_vertical < 3)
+    assert {dict(copy.values)["other"] for copy in copies} <= {"NS", "EW"}, "by name, not by place"
     named = open_station(replace(record, component="NS;EW"))
     assert [channel.component for channel in named.horizontal] == horizontal

@@ -375,3 +375,10 @@ def test_levels_out_of_reach_and_too_far_apart_are_said():
     far = fragility(RECORDS, slender, levels=[0.1, 5.0], **own)
     assert far.gap == (0.1, 5.0) and "too far apart for an interval" in repr(far)
     assert 0.1 < near.interval[0] < near.interval[1] < 5.0  # which the two levels would hide
+
+
+def test_a_level_itself_is_reached_by_the_records_that_were_tried_at_it():
+    """Of three stations one was tried at the last of three levels, and two at the second, both ends of rounding."""
+    exceedance = np.array([[0.0, 1.0, 1.0], [0.0, 0.0, np.nan], [0.0, np.nan, np.nan]])
+    curve = fragility_of(np.array([0.1, 0.3, 0.9]), exceedance, _scattered(3))
+    assert [curve.reaching(level) for level in (0.1, 3 * 0.1, 0.3, 0.31, 0.9, 1.0)] == [3, 2, 2, 1, 1, 0]
