@@ -82,13 +82,15 @@ class Place:
             return None
         return support.first_period if support else 0.0
 
+    def support_of(self, period: float | None) -> Support | None:
+        """Return the support of a place on that axis; None on the ground."""
+        return next((support for support in self.supports if period and support.first_period == period), None)
+
     def measures(self, period: float, *, ground: Accelerogram, there: Accelerogram) -> FloorMeasures:
         """Return what the support of this first period makes of the ground, as the motion `there`; 0: the ground."""
         spectral_acceleration = math.nan
         by_code = math.nan
-        support = next(
-            (support for support in self.supports if period and support.first_period == period), None
-        )
+        support = self.support_of(period)
         if support is not None:
             spectral_acceleration = spectrum_of(there)(period, FLOOR_DAMPING)
             if has_code_spectrum(support):

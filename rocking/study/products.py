@@ -50,6 +50,7 @@ TRADE = Product(
     settings=("figures",),
     in_every_run=lambda settings: settings.trade.in_summary,
     opens_records=True,
+    after_records=True,
     is_measured=True,
     stays=True,
 )

@@ -76,8 +76,8 @@ def test_a_fault_in_the_trade_or_the_fragility_stops_nothing_and_is_kept_as_a_ro
     for file, before, planted in (
         (
             "products/trade/measure.py",
-            "    reference = integrate(",
-            'record.dt_min if "good_1" in record.source.path else 0',
+            "    case = case.held_against(motions)\n",
+            "[0 for record in motions.horizontal.values() if 'good_1' in record.source.path and record.dt_min]",
         ),
         (
             "fragility/curves.py",

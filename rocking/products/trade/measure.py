@@ -5,7 +5,7 @@ import platform
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from statistics import median
@@ -18,10 +18,10 @@ from rocking.assessment.settings import AssessmentSettings
 from rocking.earthquakes.sample import Sample, interval_words
 from rocking.errors import PulseError, RockingError
 from rocking.motion import integrate
+from rocking.motion.response import Response
 from rocking.products.trade.rows import TimedAnswer, TradeMethod, TradeRow, trade_row
 from rocking.pulses import DEMAND_CANDIDATES, PulseEvidence, extract_pulses
 from rocking.pulses.pulse import DOMINATES
-from rocking.quantities import counted
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_as_printed, predict_maximum
 from rocking.structures import EquivalentBlock, Mechanism, Structure
@@ -80,53 +80,119 @@ def trade(
     >>> [str(row.method) for row in rows if row.structure == "pier" and row.wrong_verdicts]
     ['Eq. 15 as printed', 'one sine', 'one sine, half the energy', 'five sines']
     """
-    chosen = settings or AssessmentSettings()
     mechanisms: dict[str, Mechanism] = {}
     for name, structure in structures.items():
         with within(name):
             mechanisms[name] = structure.mechanism()
-    answers: dict[tuple[TradeMethod, str], list[TimedAnswer]] = {}
+    cases = [TradeCase(structure=name, mechanism=mechanism) for name, mechanism in mechanisms.items()]
     tried: list[Accelerogram] = []
-    for number, record in enumerate(records, start=1):
-        tried.append(record)
+
+    def met() -> Iterator[tuple[GroundMotions, list[TradeCase]]]:
+        for record in records:
+            tried.append(record)
+            yield GroundMotions.of(record), cases
+
+    def sample() -> Sample:
+        return Sample.of(tried, each_unnamed=each_unnamed)
+
+    return trade_of_cases(met(), sample, mechanisms, settings=settings, tell=tell, within=within)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TradeCase:
+    """A structure that meets a motion. mechanism: with the crack that governs.
+
+    reference: the rotation ratio that methods are held against, with the time of the fall, s; nan where it is still to
+    be computed, at a tolerance of 1e-12. found: the rotation ratios that a study has found by method, which count
+    instead of those computed here. is_late: whether the pulse behind these begins after the fall.
+    """
+
+    structure: str
+    mechanism: Mechanism
+    reference: float = math.nan
+    fall_time: float = math.nan
+    found: Mapping[TradeMethod, float] = field(default_factory=dict)
+    is_late: bool = False
+
+    def held_against(self, motions: GroundMotions) -> "TradeCase":
+        """Return it with its reference."""
+        if not math.isnan(self.reference):
+            return self
+        response = _followed(self.mechanism, motions, REFERENCE_TOLERANCE, history=True)
+        return replace(self, reference=response.rotation_ratio, fall_time=response.fall_time)
+
+
+def trade_of_cases(
+    met: Iterable[tuple[GroundMotions, Sequence[TradeCase]]],
+    sample: Callable[[], Sample],
+    structures: Iterable[str],
+    *,
+    settings: AssessmentSettings | None = None,
+    tell: Callable[[str], None] = lambda _line: None,
+    within: Callable[[str], AbstractContextManager[None]] = lambda _structure: nullcontext(),
+) -> list[TradeRow]:
+    """Return the rows of `trade` for the cases that are met under motions of one component.
+
+    sample: of these motions, once all were met. structures: names, in the order of their rows.
+    """
+    chosen = settings or AssessmentSettings()
+    answers: dict[tuple[TradeMethod, str], list[TimedAnswer]] = {}
+    for number, (motions, cases) in enumerate(met, start=1):
         sines: tuple[PulseEvidence, ...] | None = None
         with within(""):
+            (record,) = motions.horizontal.values()
             sines, searched_s = _timed(partial(best_sines, record, chosen))
         if sines is None:
             continue
-        for name, mechanism in mechanisms.items():
+        for case in cases:
+            name = case.structure
             try:
                 with within(name):
-                    for method, answer in list(_answers(mechanism, record, sines, searched_s, chosen)):
+                    for method, answer in list(_answers(case, motions, sines, searched_s, chosen)):
                         for whose in ("", name):
                             answers.setdefault((method, whose), []).append(replace(answer, record=number - 1))
             except RockingError as error:
                 tell(f"record {number}, {name}: {error}")
-        tell(f"record {number}: {len(mechanisms)} structures")
+        tell(f"record {number}: {len(cases)} structures")
     machine = machine_in_words()
-    sample = Sample.of(tried, each_unnamed=each_unnamed)
+    of_motions = sample()
     return [
-        trade_row(method, structure, answers[method, structure], machine, sample)
-        for structure in ("", *mechanisms)
+        trade_row(
+            method,
+            structure,
+            answers[method, structure],
+            answers.get((TradeMethod.MECHANISM, structure), []),
+            machine,
+            of_motions,
+        )
+        for structure in ("", *structures)
         for method in TradeMethod
         if (method, structure) in answers
     ]
 
 
 def _answers(
-    mechanism: Mechanism,
-    record: Accelerogram,
+    case: TradeCase,
+    motions: GroundMotions,
     sines: Sequence[PulseEvidence],
     searched_s: float,
     settings: AssessmentSettings,
 ) -> Iterator[tuple[TradeMethod, TimedAnswer]]:
     """Yield the answer of each method to one case. searched_s: processor time of the search for the sines."""
-    reference = integrate(mechanism, record, REFERENCE_TOLERANCE).rotation_ratio
-    for method, run in _runs(mechanism, record, sines, settings).items():
+    case = case.held_against(motions)
+    begins_late = bool(sines) and sines[0].pulse.start_time > case.fall_time
+    for method, run in _runs(case, motions, sines, settings).items():
         rotation_ratio, cpu_s = _timed(run, 0 if method is TradeMethod.ENSEMBLE else REPEATS)
-        record_s = searched_s if method in _BY_SINES else 0.0
+        by_first = method in (TradeMethod.PRINTED, TradeMethod.ONE_SINE)
+        rotation_ratio = case.found.get(method, rotation_ratio)
+        if math.isnan(rotation_ratio):
+            continue
         answer = TimedAnswer(
-            rotation_ratio=rotation_ratio, reference=reference, cpu=cpu_s, preparation=record_s
+            rotation_ratio=rotation_ratio,
+            reference=case.reference,
+            cpu=cpu_s,
+            preparation=searched_s if method in _BY_SINES else 0.0,
+            is_late=by_first and (case.is_late if method in case.found else begins_late),
         )
         yield method, answer
         if method is TradeMethod.ONE_SINE and sines[0].explained_energy >= DOMINATES:
@@ -134,26 +200,31 @@ def _answers(
 
 
 def _runs(
-    mechanism: Mechanism, record: Accelerogram, sines: Sequence[PulseEvidence], settings: AssessmentSettings
+    case: TradeCase, motions: GroundMotions, sines: Sequence[PulseEvidence], settings: AssessmentSettings
 ) -> dict[TradeMethod, Callable[[], float]]:
-    """The computation of the largest rotation by each method; no closed form for a record without pulses."""
+    """The computation of the largest rotation by each method; no closed form for a record without pulses.
+
+    Of five sines those count that begin before the fall.
+    """
+    mechanism = case.mechanism
     block = mechanism.equivalent_block("exact_at_rest")
 
     def worst(some: Sequence[PulseEvidence]) -> float:
-        return max(predict_maximum(block, evidence.pulse).rotation_ratio for evidence in some)
+        return max((predict_maximum(block, one.pulse).rotation_ratio for one in some), default=0.0)
 
     def rotation(structure: EquivalentBlock | Mechanism, tolerance: float) -> float:
-        return integrate(structure, record, tolerance).rotation_ratio
+        return _followed(structure, motions, tolerance).rotation_ratio
 
     def middle() -> float:
-        members = ensemble(mechanism, GroundMotions.of(record), settings.ensemble)
+        members = ensemble(mechanism, motions, settings.ensemble)
         return math.inf if members.overturning_share > 0.5 else members.rotation_ratio_median
 
     def as_printed() -> float:
         printed = predict_as_printed(mechanism, sines[0].pulse)
         return math.nan if printed is None else printed.rotation_ratio
 
-    by_sines = {TradeMethod.ONE_SINE: sines[:1], TradeMethod.SINES: sines} if sines else {}
+    in_time = [one for one in sines if not one.pulse.start_time > case.fall_time]
+    by_sines = {TradeMethod.ONE_SINE: sines[:1], TradeMethod.SINES: in_time} if sines else {}
     return {
         **({TradeMethod.PRINTED: as_printed} if sines else {}),
         **{method: partial(worst, some) for method, some in by_sines.items()},
@@ -161,6 +232,14 @@ def _runs(
         **{method: partial(rotation, mechanism, tolerance) for method, tolerance in TOLERANCES.items()},
         TradeMethod.ENSEMBLE: middle,
     }
+
+
+def _followed(
+    structure: EquivalentBlock | Mechanism, motions: GroundMotions, tolerance: float, *, history: bool = False
+) -> Response:
+    """The response to one component, and to the vertical one where that acts."""
+    (record,) = motions.horizontal.values()
+    return integrate(structure, record, tolerance, vertical=motions.vertical, history=history)
 
 
 def best_sines(record: Accelerogram, settings: AssessmentSettings) -> tuple[PulseEvidence, ...]:
@@ -185,12 +264,6 @@ def _timed(run: Callable[[], T], repeats: int = 0) -> tuple[T, float]:
     return answer, median(spent[1:] or spent)
 
 
-def break_even(sine: TradeRow, other: TradeRow) -> float:
-    """Return the number of structures a record from which one sine costs no more than another method; inf: never."""
-    saved = other.cpu_s - sine.cpu_s
-    return math.ceil(sine.preparation_record_s / saved) if saved > 0 else math.inf
-
-
 def what_follows(rows: Iterable[TradeRow]) -> Iterator[str]:
     """Yield, in a sentence each, what the rows over all structures say of the closed form against the integration."""
     of_all = {row.method: row for row in rows if row.structure == ""}
@@ -198,12 +271,7 @@ def what_follows(rows: Iterable[TradeRow]) -> Iterator[str]:
     mechanism = of_all.get(TradeMethod.MECHANISM)
     if sine is None or mechanism is None:
         return
-    structures = break_even(sine, mechanism)
-    upto = (
-        f"below {counted(int(structures), 'structure')} per record"
-        if structures < math.inf
-        else "for any number"
-    )
+    upto = f"below {sine.break_even_in_words}" if sine.break_even < math.inf else "for any number"
     yield (
         f"One sine takes {1e3 * sine.cpu_s:.2g} ms per structure, and {1e3 * sine.preparation_record_s:.2g} ms per "
         f"record for its search, the mechanism on the record {1e3 * mechanism.cpu_s:.2g} ms: {upto} the closed form is "
