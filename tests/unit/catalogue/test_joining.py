@@ -190,6 +190,12 @@ def test_one_odd_file_parts_no_other(tmp_path: Path) -> None:
     assert joined == ["s.HNE.AT2;s.HNN.AT2;s.HNZ.AT2"]
 
 
+def test_of_three_horizontal_components_the_two_at_a_right_angle_are_the_pair(tmp_path: Path) -> None:
+    for component in ("000", "045", "090"):
+        peer(tmp_path, f"{component}.AT2", component)
+    assert set(rows(tmp_path)) == {"000.AT2;090.AT2", "045.AT2"}
+
+
 def test_where_two_pairs_could_be_meant_none_is(tmp_path: Path) -> None:
     for name, component in (("a", "000"), ("b", "090"), ("c", "090")):
         peer(tmp_path, f"{name}.AT2", component, 4000 - (name == "c"))
