@@ -49,6 +49,15 @@ def test_a_series_that_is_wrapped_is_one_series(tmp_path, width):
     assert np.allclose(record.acceleration, WAVES[0][: record.acceleration.size], atol=1e-6)
 
 
+@pytest.mark.parametrize("parted", [",", ";"])
+def test_of_few_rows_commas_or_semicolons_say_that_columns_are_channels(tmp_path, parted):
+    rows = WAVES[0][250:285].reshape(7, 5)
+    (record,) = opened(written(tmp_path, rows))
+    assert record.acceleration.size == 35
+    with pytest.raises(AskedError):
+        opened(written(tmp_path, rows, parted=parted))
+
+
 def test_names_and_units_in_a_comment_are_read(tmp_path):
     head = "# made by a program\n# time(sec) N-S(cm/s/s) E-W(cm/s/s) U-D(cm/s/s)\n"
     records = read(written(tmp_path, np.transpose([TIMES, *WAVES]), head))
