@@ -26,7 +26,7 @@ NUMBERS = "a b S C F T M"
 """What depends on every number: both records, summary, checks, fragility, trade and map."""
 JOBS = {
     "Summary of all records": "S",
-    **{f"{each.name}: {each.does}": each.name[0].upper() for each in PRODUCTS},
+    **{f"{product.name}: {product.does}": product.name[0].upper() for product in PRODUCTS},
 }
 """By the message of its rule the letter of a job; that of a record is its name."""
 
@@ -122,8 +122,8 @@ def _move_structures() -> None:
 
 
 def _structures_as_csv() -> None:
-    keys = list({key: None for each in STRUCTURES for key in each})
-    lines = [keys, *([str(each.get(key, "")) for key in keys] for each in STRUCTURES)]
+    keys = list({key: None for structure in STRUCTURES for key in structure})
+    lines = [keys, *([str(structure.get(key, "")) for key in keys] for structure in STRUCTURES)]
     Path("list.csv").write_text("\n".join(map(",".join, lines)))
     write_settings(structures="list.csv")
 

@@ -36,7 +36,7 @@ def test_no_record_can_take_the_name_of_a_folder_of_the_results():
     research = (ROOT / "docs" / "research" / "research.smk").read_text(encoding="utf-8")
     rules = [path.read_text(encoding="utf-8") for path in (ROOT / "workflow").rglob("*.smk")]
     folders = set(re.findall(r"\{RESULTS\}/(\w+)", "".join(rules)))
-    outputs = (each.path for of_kind in OUTPUTS.values() for each in of_kind)
+    outputs = (output.path for of_kind in OUTPUTS.values() for output in of_kind)
     folders |= {path.partition("/")[0] for path in outputs if "/" in path and not path.startswith(("{", "."))}
     # A target of the research names its folder.
     folders |= set(re.findall(r'^    "(\w+)": \(', research, re.M))

@@ -44,7 +44,9 @@ def test_every_method_has_a_row_for_each_structure_and_for_all(rows):
 
 def test_errors_are_those_of_the_methods(rows, records):
     block = STRUCTURES["block"]
-    reference, answer = (rocking.integrate(block, records[0], each).rotation_ratio for each in (1e-12, 1e-3))
+    reference, answer = (
+        rocking.integrate(block, records[0], tolerance).rotation_ratio for tolerance in (1e-12, 1e-3)
+    )
     assert 0.001 < reference < 1
     assert rows[TradeMethod.COARSE, "block"].error == pytest.approx(abs(answer / reference - 1), rel=1e-9)
     assert rows[TradeMethod.MECHANISM, "block"].error < 1e-6

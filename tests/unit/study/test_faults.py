@@ -68,14 +68,17 @@ def test_a_fault_in_one_structure_is_named_and_costs_no_other(
     outcomes = list(outcomes_in(both.results, [record]))
     write_summary(outcomes, both.study.structures, both.results / "summary", False)
 
-    for each in (ComparisonRow, VerdictRow):
-        of_block = [row for row in outcomes[0].rows[each] if row.structure == "block"]
-        assert list(csv_lines(each, of_block)) == list(csv_lines(each, expected.rows[each]))
+    for row_class in (ComparisonRow, VerdictRow):
+        of_block = [row for row in outcomes[0].rows[row_class] if row.structure == "block"]
+        assert list(csv_lines(row_class, of_block)) == list(csv_lines(row_class, expected.rows[row_class]))
     tables = {
-        each: list(read_rows(each, both.results / "summary" / each.table.file_name))
-        for each in (StructureRow, CapacityRow, FailureRow)
+        row_class: list(read_rows(row_class, both.results / "summary" / row_class.table.file_name))
+        for row_class in (StructureRow, CapacityRow, FailureRow)
     }
-    assert all(any(row.structure == "block" for row in tables[each]) for each in (StructureRow, CapacityRow))
+    assert all(
+        any(row.structure == "block" for row in tables[row_class])
+        for row_class in (StructureRow, CapacityRow)
+    )
     told = [row for row in tables[FailureRow] if "ZeroDivisionError" in row.message]
     assert told and {row.structure for row in told} <= {"pier", ""}
     assert all("pier" in row.message for row in told)

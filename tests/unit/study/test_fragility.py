@@ -65,7 +65,7 @@ def _records(folder: Path, count: int) -> list[CatalogueRecord]:
 
 def _but_earthquakes(reasons: list[str]) -> list[str]:
     """What is said of anything but the earthquakes: the made records are of one."""
-    return [each for each in reasons if "earthquake" not in each]
+    return [reason for reason in reasons if "earthquake" not in reason]
 
 
 def test_what_cannot_overturn_is_left_out_and_said(tmp_path):
@@ -96,7 +96,7 @@ def test_a_table_beside_the_curves_fails_alone(tmp_path, monkeypatch, capsys):
     said = "a fault of rocking in its rows of intensity_measures.csv (LinAlgError: Singular matrix)"
     assert fault.message.startswith(said) and fault.message.endswith(f", with {log}.")
     assert "LinAlgError: Singular matrix\n" in capsys.readouterr().err
-    rows = {name: read_table(each, tmp_path / "out") for name, each in FRAGILITY_TABLES.items()}
+    rows = {name: read_table(row_class, tmp_path / "out") for name, row_class in FRAGILITY_TABLES.items()}
     assert {name for name, held in rows.items() if not held} == {"intensity_measures"}
 
 
@@ -123,14 +123,17 @@ def test_a_fault_of_a_record_or_a_structure_costs_no_other_and_is_a_row(tmp_path
     monkeypatch.setattr(Study, "open", opened)
     log = tmp_path / "fragility.log"
     written, reasons = write_fragility(records, study, tmp_path / "out", lambda *_: None, log)
-    assert [(each.record, each.structure) for each in written[FailureRow]] == [("made2", ""), ("", "stout")]
+    assert [(failure.record, failure.structure) for failure in written[FailureRow]] == [
+        ("made2", ""),
+        ("", "stout"),
+    ]
     trace = capsys.readouterr().err
-    for each, said in zip(written[FailureRow], ("ZeroDivisionError", "KeyError: 'planted'"), strict=True):
-        assert said in each.message and each.message.endswith(f", with {log}.")
+    for failure, said in zip(written[FailureRow], ("ZeroDivisionError", "KeyError: 'planted'"), strict=True):
+        assert said in failure.message and failure.message.endswith(f", with {log}.")
         assert said in trace
     assert _but_earthquakes(reasons) == []
-    for each in FRAGILITY_TABLES.values():
-        names = [folder / each.table.file_name for folder in (tmp_path / "out", tmp_path / "expected")]
+    for row_class in FRAGILITY_TABLES.values():
+        names = [folder / row_class.table.file_name for folder in (tmp_path / "out", tmp_path / "expected")]
         assert names[0].read_bytes() == names[1].read_bytes()
     told: list[dict] = []
     monkeypatch.setattr(
@@ -148,7 +151,7 @@ def test_where_every_structure_has_a_fault_the_page_says_so(tmp_path, monkeypatc
     monkeypatch.setattr("rocking.products.fragility.work.fragility", lambda *_, **__: 1 // 0)
     job = made_job(_records(tmp_path, 2), _study(), tmp_path / "results", "fragility")
     written, _ = write_fragility(job.records, job.study, tmp_path / "out", log=job.log)
-    assert [each.structure for each in written[FailureRow]] == list(STRUCTURES)
+    assert [failure.structure for failure in written[FailureRow]] == list(STRUCTURES)
     told: list[dict] = []
     monkeypatch.setattr(
         "rocking.reports.printing.compile_document", lambda page: told.append(page) or b"%PDF"
@@ -171,8 +174,8 @@ def test_the_tables_tell_the_curves_and_a_bad_record_costs_no_other(tmp_path):
     (unused,) = _but_earthquakes(reasons)
     assert "made2" in unused and told == ["1 of 3: slender", "2 of 3: stout", "3 of 3: spire"]
     rows = {
-        name: list(read_rows(each, tmp_path / "out" / each.table.file_name))
-        for name, each in FRAGILITY_TABLES.items()
+        name: list(read_rows(row_class, tmp_path / "out" / row_class.table.file_name))
+        for name, row_class in FRAGILITY_TABLES.items()
     }
     curves = [row for row in rows["fragility"] if row.structure == "slender" and math.isinf(row.threshold)]
     for curve in curves:
@@ -189,11 +192,11 @@ def test_the_tables_tell_the_curves_and_a_bad_record_costs_no_other(tmp_path):
     assert all(probability >= of_statics[place] for place, probability in governing.items())
     medians = {row.structure: row.median for row in rows["fragility_summary"] if math.isinf(row.threshold)}
     assert medians["slender"] < medians["stout"]
-    for structure, each in STRUCTURES.items():
+    for structure, body in STRUCTURES.items():
         names = {row.intensity_measure for row in rows["intensity_measures"] if row.structure == structure}
-        assert names == {measure.name for measure in compared(each.mechanism())}
+        assert names == {measure.name for measure in compared(body.mechanism())}
     assert written.pop(FailureRow) == []
-    assert {each.table.name: of_it for each, of_it in written.items()} == rows
+    assert {row_class.table.name: of_it for row_class, of_it in written.items()} == rows
     write_fragility_report(written, tmp_path / "curves.pdf", tmp_path / "curves.svg")
     assert (tmp_path / "curves.pdf").read_bytes().startswith(b"%PDF")
 
@@ -224,7 +227,7 @@ def test_openquake_gets_a_function_of_each_structure(tmp_path):
     out = tmp_path / "out"
     _, reasons = write_fragility(_records(tmp_path, 2), _study(), out)
     root = ElementTree.parse(out / "fragility.xml").getroot()
-    functions = {each.get("id"): each for each in root.findall(".//{*}fragilityFunction")}
+    functions = {function.get("id"): function for function in root.findall(".//{*}fragilityFunction")}
     rows = [row for row in read_table(FragilityRow, out) if math.isinf(row.threshold)]
     rows = [row for row in rows if not math.isnan(row.probability)]
     assert any(row.governing for row in rows if row.structure == "spire")
@@ -352,7 +355,7 @@ def test_the_rate_of_each_period_of_a_support_is_the_one_by_hand(tmp_path):
                 if row.support_period_s == period and row.station == f"made; {record.station}"
             ]
             factors = [row.level * GRAVITY / ground.peak_acceleration for row in own]
-            falls = [math.isinf(integrate(BODY, floor.scaled(each)).rotation_ratio) for each in factors]
+            falls = [math.isinf(integrate(BODY, floor.scaled(factor)).rotation_ratio) for factor in factors]
             assert [row.overturning_share for row in own] == falls
             curve = [(row.level, row.overturning_share) for row in own]
             widths += [math.log(after.level / before.level) for before, after in pairwise(own)]

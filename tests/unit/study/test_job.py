@@ -95,9 +95,11 @@ def test_a_record_that_fails_has_all_its_tables_and_says_why(tmp_path: Path) -> 
     record = _record(tmp_path, content=b"not a record")
     (sentence,) = _assessed(record, _study(), tmp_path / "out")
     assert "made.AT2" in sentence
-    for each in RECORD_TABLES:
-        rows = frame(each, tmp_path / "out" / each.table.file_name)
-        assert len(rows) == (1 if each.table.name in ("failures", "timings") else 0), each.table.name
+    for row_class in RECORD_TABLES:
+        rows = frame(row_class, tmp_path / "out" / row_class.table.file_name)
+        assert len(rows) == (1 if row_class.table.name in ("failures", "timings") else 0), (
+            row_class.table.name
+        )
 
 
 def test_a_record_that_fails_has_every_output_of_its_rule_and_keeps_what_was_kept(tmp_path: Path) -> None:
@@ -137,11 +139,11 @@ def of_four(tmp_path: Path) -> tuple[Path, list[CatalogueRecord]]:
 def test_the_summary_holds_every_row_of_every_record_in_its_order(of_four) -> None:
     results, records = of_four
     write_summary(outcomes_in(results, records), {}, results / "summary", False)
-    for each in (PulseRow, ComparisonRow, FailureRow):
-        found = [getattr(_rows(record, _study()), each.table.name) for record in records]
-        lines = list(csv_lines(each, chain.from_iterable(found)))
-        assert "".join(lines) == (results / "summary" / each.table.file_name).read_text(encoding="utf-8")
-        assert each is FailureRow or len(lines) > 3
+    for row_class in (PulseRow, ComparisonRow, FailureRow):
+        found = [getattr(_rows(record, _study()), row_class.table.name) for record in records]
+        lines = list(csv_lines(row_class, chain.from_iterable(found)))
+        assert "".join(lines) == (results / "summary" / row_class.table.file_name).read_text(encoding="utf-8")
+        assert row_class is FailureRow or len(lines) > 3
 
 
 def test_an_outcome_holds_the_rows_to_the_last_digit(of_four) -> None:
@@ -150,8 +152,10 @@ def test_an_outcome_holds_the_rows_to_the_last_digit(of_four) -> None:
         kept = next(outcomes_in(results, [record])).rows
         computed = _rows(record, _study()).tables
         assert set(kept) == set(computed)
-        for each in set(kept) - {TimingRow}:
-            assert list(csv_lines(each, kept[each])) == list(csv_lines(each, computed[each])), each
+        for row_class in set(kept) - {TimingRow}:
+            assert list(csv_lines(row_class, kept[row_class])) == list(
+                csv_lines(row_class, computed[row_class])
+            ), row_class
 
 
 @pytest.mark.parametrize("damaged", [b"", b"{", b"[]", b'{"rows": {}}'])
@@ -196,7 +200,7 @@ def test_a_summary_draws_the_trade_where_its_study_measures_it(tmp_path, monkeyp
     summarise(job)
     assert len(trades[0]) == in_summary
     told = read_rows(FailureRow, results / "summary" / "failures.csv")
-    assert [(each.structure, each.message) for each in told] == [("pier", "a fault.")] * in_summary
+    assert [(fault.structure, fault.message) for fault in told] == [("pier", "a fault.")] * in_summary
 
 
 def test_the_tables_of_one_record_are_those_that_it_has_alone(of_four, tmp_path: Path) -> None:
@@ -204,7 +208,7 @@ def test_the_tables_of_one_record_are_those_that_it_has_alone(of_four, tmp_path:
     write_summary(outcomes_in(results, records), {}, results / "summary", False)
     for record in records:
         written = Results(results).write_record(record.id, tmp_path / "copy" / record.id)
-        assert [path.name for path in written] == [each.table.file_name for each in RECORD_TABLES]
+        assert [path.name for path in written] == [row_class.table.file_name for row_class in RECORD_TABLES]
         _assessed(record, _study(), tmp_path / "alone")
         for path in written:
             if path.name != "timings.csv":
@@ -238,7 +242,7 @@ def test_a_fault_of_this_package_costs_no_other_record_and_asks_to_be_reported(t
     jobs.record(records[0], job.study, job.log)
     jobs.record(records[1], replace(job.study, scenes=_study().scenes), job.log)
     first, second = (outcome.rows for outcome in outcomes_in(results, records))
-    assert {each.structure for each in first[FailureRow]} == {"faulty"}
+    assert {failure.structure for failure in first[FailureRow]} == {"faulty"}
     for failure in first[FailureRow]:
         assert "faulty (ZeroDivisionError: of the machine)" in failure.message
         assert str(job.log) in failure.message
@@ -274,7 +278,9 @@ def test_a_job_reads_each_file_once_and_writes_all_from_what_it_has(tmp_path: Pa
     assert opened.count(str(tmp_path / "made.AT2")) == 1
     folder = tmp_path / "results" / "made"
     assert (folder / "report.pdf").read_bytes().startswith(b"%PDF")
-    assert {each.table.file_name for each in RECORD_TABLES} <= {path.name for path in folder.iterdir()}
+    assert {row_class.table.file_name for row_class in RECORD_TABLES} <= {
+        path.name for path in folder.iterdir()
+    }
     (outcome,) = outcomes_in(tmp_path / "results", [record])
     assert outcome.page["cases"]["block"]["moves"]
     own = json.loads((folder / RECORD_SCRIPT).read_text().removeprefix("rockingRecord(").removesuffix(");\n"))

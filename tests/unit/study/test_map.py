@@ -12,7 +12,7 @@ from rocking.assessment.rows import VerdictRow
 from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import EnsembleSettings
 from rocking.catalogue.catalogue import CatalogueRecord
-from rocking.catalogue.place import Place
+from rocking.catalogue.place import Coordinates
 from rocking.products.map.geojson import geojson
 from rocking.products.map.report import drawn_together, map_figure, map_panel, origin_of, plane
 from rocking.products.map.rows import StationRow
@@ -90,23 +90,29 @@ def test_each_station_with_coordinates_is_a_point_with_its_row_and_its_words(mad
     folder, rows, told = made
     found = features((folder / "stations.geojson").read_bytes())
     stations = {
-        each["properties"]["record"]: each for each in found if each["properties"]["kind"] == "station"
+        feature["properties"]["record"]: feature
+        for feature in found
+        if feature["properties"]["kind"] == "station"
     }
     assert list(stations) == ["near", "far"] and ["2 stations" in line for line in told] == [True]
-    by_name = {each.record: each for each in read_table(StationRow, folder)}
+    by_name = {row.record: row for row in read_table(StationRow, folder)}
     verdicts = rows_of(VerdictRow, rows)
     for record, feature in stations.items():
         place = PLACES[record]
         row, properties = by_name[record], feature["properties"]
         assert feature["geometry"]["coordinates"] == [place["station_longitude"], place["station_latitude"]]
         assert properties["peak_acceleration_m_s2"] == row.peak_acceleration_m_s2 > 0
-        shares = {each.structure: each.overturning_share for each in verdicts if each.record == record}
+        shares = {
+            verdict.structure: verdict.overturning_share for verdict in verdicts if verdict.record == record
+        }
         assert properties["expected_falls"] == pytest.approx(sum(shares.values()))
         for structure, share in shares.items():
             assert properties[f"{structure}: share"] == share
-        words = {each.structure: str(each.decision.word) for each in verdicts if each.record == record}
+        words = {
+            verdict.structure: str(verdict.decision.word) for verdict in verdicts if verdict.record == record
+        }
         assert {name: properties[f"{name}: word"] for name in STRUCTURES} == words
-    (star,) = [each for each in found if each["properties"]["kind"] == "epicentre"]
+    (star,) = [feature for feature in found if feature["properties"]["kind"] == "epicentre"]
     assert star["geometry"]["coordinates"] == [13.38, 42.35], "once, though two rows give it"
 
 
@@ -145,7 +151,7 @@ def test_the_plane_keeps_distances_also_across_the_date_line():
             assert np.abs(east).max() < 100 and abs(east.max() + east.min()) < 1e-6
             for k in range(1, 8):
                 one, other = (
-                    Place(latitude=latitude + spread[place, 1], longitude=easts[place]) for place in (0, k)
+                    Coordinates(latitude=latitude + spread[place, 1], longitude=easts[place]) for place in (0, k)
                 )
                 flat = math.hypot(east[k] - east[0], north[k] - north[0])
                 assert flat == pytest.approx(one.distance_to(other), rel=0.015, abs=0.1)
@@ -163,11 +169,11 @@ def test_stations_of_one_earthquake_are_drawn_together_and_those_of_many_not():
 @pytest.mark.parametrize("count", [1, 2, 60])
 def test_every_station_is_drawn_where_it_is_in_the_colour_of_its_word(made, count):
     _, rows, _ = made
-    of_near = next(each for each in rows_of(VerdictRow, rows) if each.structure == "slender")
+    of_near = next(verdict for verdict in rows_of(VerdictRow, rows) if verdict.structure == "slender")
     stations = [station(f"s{k}", 42 + 0.01 * k, 13 - 0.02 * k) for k in range(count)]
-    verdicts = [replace(of_near, record=each.record) for each in stations]
+    verdicts = [replace(of_near, record=station.record) for station in stations]
     axes = map_figure(stations, verdicts, ["slender"]).axes[0]
-    drawn = np.array([each.get_offsets()[0] for each in axes.collections])
+    drawn = np.array([collection.get_offsets()[0] for collection in axes.collections])
     origin = origin_of(stations)
     expected = np.column_stack(plane(-0.02 * np.arange(count) + 13, 0.01 * np.arange(count) + 42, origin))
     assert sorted(map(tuple, drawn.round(6))) == sorted(map(tuple, expected.round(6)))

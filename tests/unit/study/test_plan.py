@@ -205,7 +205,7 @@ def test_what_walls_are_taken_for_is_a_remark_of_the_study_that_asks_nothing_bef
     free = f"- {{name: boundary, type: free_wall, {sizes}}}\n"
     plan = make_plan(_write(tmp_path, f"a,a.AT2,{SHA256}\n", entries + free))
     told = study_remarks(plan.settings, plan.scenes)
-    assert [(each.kind, each.about) for each in told] == [
+    assert [(remark.kind, remark.about) for remark in told] == [
         (AssessmentKind.HELD_AT_CEILING, f"w{number}") for number in range(10)
     ]
     assert plan.doubts == ()

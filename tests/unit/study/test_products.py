@@ -26,7 +26,7 @@ from tests.synthetic import SyntheticRecord, at2_text
 from tests.unit.study.made_jobs import made_job, worked
 
 HEAVY = {"numpy", "yaml", "pandas", "matplotlib", "numba", "scipy", "pydantic"}
-IDS = [each.name for each in PRODUCTS]
+IDS = [product.name for product in PRODUCTS]
 
 
 @pytest.mark.process
@@ -45,7 +45,7 @@ def test_names_of_products_tables_and_files_are_taken_once() -> None:
     tables = [table for product in PRODUCTS for table in product.tables]
     for names in (IDS, paths, tables):
         assert len(names) == len(set(names))
-    assert not any(is_safe_id(each.folder) for each in PRODUCTS), "no record has such a folder"
+    assert not any(is_safe_id(product.folder) for product in PRODUCTS), "no record has such a folder"
 
 
 @pytest.mark.parametrize("product", PRODUCTS, ids=IDS)
@@ -55,7 +55,7 @@ def test_a_face_names_a_work_and_tables_that_there_are(product: Product) -> None
     assert {name for name in vars(type(work)) if name[:1] != "_"} <= set(vars(Work))
     classes = {rows_of_table(product, name) for name in product.tables}
     assert {*work.sheets} <= {*work.shown} & classes
-    assert {each.__module__ for each in classes} == {product.rows}
+    assert {row_class.__module__ for row_class in classes} == {product.rows}
     assert {*product.opened} <= {*product.files} and product.does
 
 

@@ -33,9 +33,9 @@ def _timing(record: str) -> TimingRow:
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    for each in SUMMARY_TABLES:
-        rows = [_timing("b"), _timing("a")] if each is TimingRow else []
-        write_rows(each, rows, tmp_path / "summary" / each.table.file_name)
+    for row_class in SUMMARY_TABLES:
+        rows = [_timing("b"), _timing("a")] if row_class is TimingRow else []
+        write_rows(row_class, rows, tmp_path / "summary" / row_class.table.file_name)
     return tmp_path
 
 
@@ -59,7 +59,9 @@ def test_an_outcome_keeps_the_decision_with_the_values_of_its_remarks(tmp_path: 
     (of_station,) = verdicts([station(case("EW", 0.3, falls=32))])
     row = replace(of_station, decision=decision, reserve=reserve)
     path = outcome_of(tmp_path, "a")
-    keep_outcome(path, RecordOutcome({each: [] for each in RECORD_TABLES} | {VerdictRow: [row]}, {}, {}, {}))
+    keep_outcome(
+        path, RecordOutcome({row_class: [] for row_class in RECORD_TABLES} | {VerdictRow: [row]}, {}, {}, {})
+    )
     (kept,) = verdicts_of([path])
     assert kept.decision == decision
     assert repr(kept.reserve) == repr(reserve)

@@ -56,7 +56,7 @@ def test_what_a_part_of_the_package_takes_by_default_is_the_default_of_a_study()
         (settings, AssessmentSettings()),
         (settings.processing, UNPROCESSED_DEFAULT),
     ):
-        assert {each.name: getattr(of_study, each.name) for each in fields(of_part)} == vars(of_part)
+        assert {part.name: getattr(of_study, part.name) for part in fields(of_part)} == vars(of_part)
 
 
 def test_the_names_of_settings_are_those_of_the_codes_and_the_measures() -> None:
@@ -223,9 +223,9 @@ def test_the_schema_allows_what_the_tree_allows(name: tuple[str, ...], value: ob
 def test_what_a_study_is_told_by_stands_in_every_report_and_changes_no_number() -> None:
     """Whatever declares that it is told, which the job of every document can read."""
     told = {
-        each.name: each.more["printed_as"]
-        for each in described_values(Settings).values()
-        if "printed_as" in each.more
+        setting.name: setting.more["printed_as"]
+        for setting in described_values(Settings).values()
+        if "printed_as" in setting.more
     }
     assert {"study", "client", "author", "date", "project_number"} <= told.keys()
     settings = replace(Settings(), **{name: f"the {name}" for name in told})

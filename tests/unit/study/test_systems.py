@@ -35,7 +35,7 @@ def test_without_locks_a_command_that_runs_no_study_works(
 ) -> None:
     (tmp_path / "records").mkdir()
     (tmp_path / "records" / RECORD.name).write_bytes(RECORD.read_bytes())
-    verb = [str(tmp_path / each) if each == "records" else each for each in verb]
+    verb = [str(tmp_path / argument) if argument == "records" else argument for argument in verb]
     done = python(f"{WITHOUT}from rocking.study.cli import main\nraise SystemExit(main(sys.argv[1:]))", *verb)
     assert done.returncode == 0 and words in done.stdout
 
