@@ -14,7 +14,7 @@ from functools import cached_property, lru_cache, partial
 
 import numpy as np
 
-from rocking.assessment.decide import CrackFacts, Facts, Verdict
+from rocking.assessment.decide import CrackFacts, Facts, Verdict, may_change
 from rocking.assessment.ensemble import CAUSES, Ensemble, Origin, design, drawn, ensemble, grown
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.motions import GroundMotions
@@ -38,15 +38,15 @@ what is in doubt, as a mechanism may rotate more than its block."""
 class FollowedCrack:
     """What following one candidate under the motions found, without the structure, so that it can be kept in a file.
 
-    description, position [m], counts, bulges, of_geometry, part: as of `Candidate`. slides: whether it slides before it
-    lifts, under a motion that reaches so far.
+    description, position [m], counts, bulges, of_geometry, part: as of `Candidate`. slides_at: acceleration [g] at
+    which it slides before it lifts, under a motion that reaches so far; nan of one that lifts.
     """
 
     description: str
     position: float
     ensemble: Ensemble
     _: KW_ONLY
-    slides: bool = False
+    slides_at: float = math.nan
     counts: bool = True
     bulges: bool = False
     of_geometry: bool = False
@@ -54,12 +54,12 @@ class FollowedCrack:
 
     @classmethod
     def of(cls, candidate: Candidate, ensemble: Ensemble, *, slides: bool) -> "FollowedCrack":
-        """Return what the ensemble of a candidate found of it."""
+        """Return what the ensemble of a candidate found of it. slides: whether the motion lets it slide first."""
         return cls(
             candidate.description,
             candidate.position,
             ensemble,
-            slides=slides,
+            slides_at=slides_at(candidate) if slides else math.nan,
             counts=candidate.counts,
             bulges=candidate.bulges,
             of_geometry=candidate.of_geometry,
@@ -70,7 +70,13 @@ class FollowedCrack:
     def facts(self) -> CrackFacts:
         """The facts of it from which the decision follows."""
         of_members = self.ensemble.facts(self.description)
-        return replace(of_members, slides=self.slides, counts=self.counts, bulges=self.bulges, part=self.part)
+        return replace(
+            of_members,
+            slides_at=self.slides_at,
+            counts=self.counts,
+            bulges=self.bulges,
+            part=self.part,
+        )
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -78,12 +84,12 @@ class CrackEnsembles:
     """The ensemble of every crack that was followed, the one that is known or that statics chooses first.
 
     The crack that governs gives every number of the case: the worst of those that count (`decide.Facts`). Along
-    with a known crack others are reported, and only the bulge of a held wall counts as it does. slides_at: the least
-    acceleration [g] at which one that counts slides before it lifts and is left out; nan where none is.
+    with a known crack others are reported, and only the bulge of a held wall counts as it does. left_out: those that
+    count, slide before they lift and may not stand, where another lifts: of them only the decision knows.
     """
 
     followed: tuple[FollowedCrack, ...]
-    slides_at: float = math.nan
+    left_out: tuple[FollowedCrack, ...] = ()
 
     def __repr__(self) -> str:
         return f"<CrackEnsembles: {len(self.followed)} followed, {self.governing.ensemble!r}>"
@@ -92,14 +98,20 @@ class CrackEnsembles:
     def facts(self) -> Facts:
         """The facts of the cracks alone from which the decision follows."""
         risk = self.followed[0].ensemble.settings.risk
-        of_each = tuple(crack.facts for crack in self.followed)
-        return Facts(cracks=of_each, slides_at=self.slides_at, risk=risk)
+        of_each = tuple(crack.facts for crack in (*self.followed, *self.left_out))
+        return Facts(cracks=of_each, risk=risk)
 
     @cached_property
     def governing(self) -> FollowedCrack:
         """The worst crack that counts; that of statics among equals."""
         governing = self.facts.governing
         return self.followed[self.facts.cracks.index(governing) if governing else 0]
+
+    @property
+    def deciding(self) -> list[FollowedCrack]:
+        """The crack that governs, then those whose own count may still change the word."""
+        reach = [crack for crack in self.followed if may_change(self.facts, crack.facts)]
+        return [self.governing, *reach]
 
     @property
     def reported_statics(self) -> FollowedCrack | None:
@@ -250,12 +262,14 @@ def ensemble_over_cracks(
     """Return the ensembles of the cracks that may govern, of the structure and of each leaf that may part.
 
     Leaves are followed each by itself, the weakest part first, until one overturns. Of each part: where the crack that
-    statics chooses overturns, it says all; where one that is known does, the others are followed only until one of them
-    overturns, too, so that the worst of them can be reported. Otherwise the bulge of a held wall is followed in
-    full, and every crack that `screened` leaves in doubt, and the one that then governs with as many members as its
-    word needs. A crack other than a bulge that slides before it lifts is left out where one that counts is left.
-    exhaustive: every crack is followed, whatever the screen says; docs/pages/validation.md counts what it misses. With
-    fidelity: quick only as many members are followed as the verdict needs. Raises MotionError as `integrate` does.
+    statics chooses overturns, it says all; where one that is known does, the others are followed only until one of
+    them overturns, too, so that the worst of them can be reported. Otherwise the bulge of a held wall is followed in
+    full, and every crack that `screened` leaves in doubt; the one that then governs, and those whose count may still
+    change the word (`decide.may_change`), with as many members as their words need. A crack other than a bulge that
+    slides before it lifts is left out where one that counts is left, and followed all the same where it is in doubt:
+    the decision says what it would do. exhaustive: every crack is followed, whatever the screen says;
+    docs/pages/validation.md counts what it misses. With fidelity: quick only as many members are followed as the
+    verdict needs. Raises MotionError as `integrate` does.
     """
     every = cracks(structure)
     parts: list[CrackEnsembles] = []
@@ -267,8 +281,7 @@ def ensemble_over_cracks(
     if len(parts) == 1:
         return parts[0]
     followed = tuple(crack for part in parts for crack in part.followed)
-    left_out_at = [ensembles.slides_at for ensembles in parts if not math.isnan(ensembles.slides_at)]
-    return CrackEnsembles(followed, min(left_out_at, default=math.nan))
+    return CrackEnsembles(followed, tuple(crack for part in parts for crack in part.left_out))
 
 
 def _of_part(
@@ -283,8 +296,7 @@ def _of_part(
     counting = [candidate for candidate in several if candidate.counts]
     sliding = sliding_first(several, motions)
     lifting = [candidate for candidate in counting if candidate not in sliding] or counting
-    left_out = [slides_at(candidate) for candidate in counting if candidate not in lifting]
-    left_out_at = min(left_out, default=math.nan)
+    left_out = [candidate for candidate in counting if candidate not in lifting]
     first, *others = *lifting, *(candidate for candidate in several if not candidate.counts)
     of_statics = ensemble(
         first.mechanism,
@@ -299,34 +311,35 @@ def _of_part(
     settled = statics.facts.step(risk) is Verdict.OVERTURNS
     if settled:
         others = [candidate for candidate in others if not candidate.counts]
-    if not others:
-        return CrackEnsembles((statics,), left_out_at)
-    doubtful = others
-    if not exhaustive:
-        always = [candidate for candidate in others if candidate.bulges]
-        rest = [candidate for candidate in others if not candidate.bulges]
-        doubtful = always + screened(rest, of_statics, motions, settings, first.multiplier)
+        left_out = []
+
+    def in_doubt(several: Sequence[Candidate]) -> list[Candidate]:
+        if exhaustive:
+            return list(several)
+        always = [candidate for candidate in several if candidate.bulges]
+        rest = [candidate for candidate in several if not candidate.bulges]
+        return always + screened(rest, of_statics, motions, settings, first.multiplier)
+
+    def followed(candidate: Candidate) -> FollowedCrack:
+        of_one = _alone(candidate, motions, settings)
+        return FollowedCrack.of(candidate, of_one, slides=candidate in sliding)
+
     mechanisms = {}
-    for candidate in doubtful:
-        followed = FollowedCrack.of(
-            candidate, _alone(candidate, motions, settings), slides=candidate in sliding
-        )
-        mechanisms[followed] = candidate.mechanism
-        if settled and followed.facts.step(risk) is Verdict.OVERTURNS:
+    for candidate in in_doubt(others):
+        crack = followed(candidate)
+        mechanisms[crack] = candidate.mechanism
+        if settled and crack.facts.step(risk) is Verdict.OVERTURNS:
             break
-    ensembles = CrackEnsembles((statics, *mechanisms), left_out_at)
-    while (governing := ensembles.governing) in mechanisms:
-        # Another crack may govern once this one has its members; each grows once.
+    ensembles = CrackEnsembles((statics, *mechanisms), tuple(map(followed, in_doubt(left_out))))
+    # Another crack may govern, or come within reach, once one has its members; each grows once.
+    while growing := [crack for crack in ensembles.deciding if crack in mechanisms]:
+        own = growing[0]
         more = grown(
-            governing.ensemble,
-            mechanisms.pop(governing),
-            motions,
-            settings.ensemble,
-            tolerance=settings.tolerance,
+            own.ensemble, mechanisms.pop(own), motions, settings.ensemble, tolerance=settings.tolerance
         )
-        grew = replace(governing, ensemble=more)
+        grew = replace(own, ensemble=more)
         ensembles = replace(
-            ensembles, followed=tuple(grew if crack is governing else crack for crack in ensembles.followed)
+            ensembles, followed=tuple(grew if crack is own else crack for crack in ensembles.followed)
         )
     return ensembles
 
@@ -356,14 +369,15 @@ def slides_at(candidate: Candidate) -> float:
     """Return the acceleration [g] at which a joint slides before a mechanism lifts; nan where none does.
 
     By statics of all joints, where the structure knows it; else until it lifts the forces of the joints of the
-    mechanism are taken to grow with the acceleration.
+    mechanism are taken to grow with the acceleration. Of one with a joint that nothing presses statics knows no such
+    level: it is no mechanism that forms.
     """
     of_all_joints = candidate.structure.slides_at()
     if not math.isnan(of_all_joints):
         return of_all_joints
     needed = _lifting_friction(candidate.structure)
     friction = candidate.structure.joints.friction
-    if not needed > friction:
+    if not friction < needed < math.inf:
         return math.nan
     return candidate.multiplier * friction / needed
 

@@ -123,10 +123,11 @@ class CrackFacts:
     """The fate of the members with one crack.
 
     name: of the crack; "" where only one may form. falls: of those `followed`, that overturn. failed: members that
-    could not be followed. farthest: largest rotation ratio of those followed; nan without any. slides: whether its
-    joint slides before it lifts, under a motion that reaches so far. counts: whether it takes part in the word;
-    otherwise it is reported along with the known crack. bulges: whether it is the bulge of a held wall, which may
-    form wherever that is cracked. part: the leaf that falls alone, "" of the whole structure. Raises ValueError.
+    could not be followed. farthest: largest rotation ratio of those followed; nan without any. slides_at: acceleration
+    [g] at which its joint slides before it lifts, under a motion that reaches so far; nan of one that lifts. counts:
+    whether it takes part in the word; otherwise it is reported along with the known crack. bulges: whether it is the
+    bulge of a held wall, which may form wherever that is cracked. part: the leaf that falls alone, "" of the whole
+    structure. Raises ValueError.
     """
 
     name: str
@@ -135,7 +136,7 @@ class CrackFacts:
     failed: int = 0
     farthest: float = math.nan
     _: KW_ONLY
-    slides: bool = False
+    slides_at: float = math.nan
     counts: bool = True
     bulges: bool = False
     part: str = ""
@@ -153,6 +154,11 @@ class CrackFacts:
                 f"crack {self.name!r}: farthest {self.farthest}, but must be inf where a member falls, nan where none "
                 "was followed."
             )
+
+    @property
+    def slides(self) -> bool:
+        """Whether its joint slides before it lifts."""
+        return not math.isnan(self.slides_at)
 
     @property
     def members(self) -> int:
@@ -192,6 +198,11 @@ class CrackFacts:
         """Whether one of the four edges between words lies within the error, so that more members may change it."""
         edges = risk, 1 / 3, 2 / 3, 1 - risk  # those of `step`
         return self.share_error > 0 and any(abs(self.share - edge) <= self.share_error for edge in edges)
+
+    def step_at_worst(self, risk: float) -> Verdict:
+        """Return the word of its members if so many more overturn as the error of their share covers."""
+        falls = min(self.falls + self.failed + int(LATTICE_ERROR), self.members)
+        return step(falls=falls, members=self.members, risk=risk)
 
     def step_of_followed(self, risk: float) -> Verdict:
         """Return the word of those that were followed alone.
@@ -261,7 +272,7 @@ class Facts:
     cracks: those that were followed, first the one that is known or that statics chooses. rests: whether nothing can
     lift. run_ratio: largest rotation ratio of single runs, where no members were followed; nan without one.
     never_overturns_because: why no motion can overturn it with a crack that counts; "" where one can. slides_at: the
-    least acceleration [g] at which the joints of a crack that counts slide before it lifts, where the motion reaches
+    acceleration [g] at which its joints slide where none of its cracks that count lifts before, and the motion reaches
     it; else nan. top: what its top needs and does not get, so that it slips; None where it holds, or there is none.
     stacks: stacks of courses that fall in contact dynamics, of how many; None where none was followed. as_stones: as
     what chain of stones it is followed then, "as voussoirs"; "" where as a stack of courses. stackable: whether contact
@@ -463,7 +474,8 @@ def decide(facts: Facts, limits: Iterable[Limit] = ()) -> Decision:
     10   a limit at which nothing can be told, or a component is missing   cannot be told, unless it falls anyway
     ===  ================================================================  =============================================
 
-    A crack that slides first and is left out is reported as a doubt with every word better than probably overturns.
+    A crack that slides first is left out where another lifts; where its members would make a worse word, it is a doubt
+    with every word better than probably overturns.
     A further limit, failure or fall never makes the word safer, nor the share smaller. The share is the largest among
     the cracks that count and the stacks, members that failed counted as falling: at it, the members of the crack or the
     stacks that make the word have a step no safer than the word. Row 5 and limits are of the word, not of the share.
@@ -546,9 +558,8 @@ def _in_order(doubts: Iterable[Remark]) -> tuple[Remark, ...]:
 
 
 def _left_out(facts: Facts) -> tuple[Remark, ...]:
-    """That a crack that slides first was left out."""
-    none_left = facts.slides_throughout and not facts.rests
-    return () if none_left or math.isnan(facts.slides_at) else (Remark(AssessmentKind.SLIDES_FIRST),)
+    """That a crack that slides first was left out, whose members would make a worse word."""
+    return (Remark(AssessmentKind.SLIDES_FIRST),) if _worse_left_out(facts) else ()
 
 
 def _of_mechanisms(facts: Facts, *, is_limited: bool) -> tuple[Decision, bool]:
@@ -604,8 +615,10 @@ def _of_members(facts: Facts, governing: CrackFacts, worse_other: CrackFacts | N
     # Not that of the worst step: by their error fewer members may have the worse word and the smaller share.
     share = max(crack.share for crack in followed)
     why = _counted(facts, worse_other)
-    if _left_out(facts):
-        why = f"{why}; another crack slides first, at {facts.slides_at:.2g} g"
+    left_out = _worse_left_out(facts)
+    if left_out is not None:
+        would = f"the {left_out.name} would overturn {left_out.count}"
+        why = f"{why}; {would} if it did not slide first, at {left_out.slides_at:.2g} g"
     if facts.top is not None:
         why = f"{why}; {facts.top.brief}"
         would_settle = (*would_settle, Remark(AssessmentKind.TIE_THE_TOP))
@@ -624,6 +637,15 @@ def _of_members(facts: Facts, governing: CrackFacts, worse_other: CrackFacts | N
         would_settle = (Remark(AssessmentKind.TOLERANCE),)
     failed = (Remark(AssessmentKind.MEMBERS_FAILED),) if any(crack.failed for crack in followed) else ()
     return Decision(word, share, interval, why, failed, would_settle)
+
+
+def may_change(facts: Facts, crack: CrackFacts) -> bool:
+    """Return whether the word of the cracks may get worse by the error of the share of one of them."""
+    if not crack.is_near_an_edge(facts.risk):
+        return False
+    steps = [(other, other.step(facts.risk)) for other in facts.followed]
+    at_worst = [(other, other.step_at_worst(facts.risk) if other is crack else word) for other, word in steps]
+    return _envelope(at_worst).badness > _envelope(steps).badness
 
 
 def _envelope(words: Iterable[tuple[CrackFacts, Verdict]]) -> Verdict:
@@ -651,13 +673,22 @@ def _envelope_of_part(each_with_word: Sequence[tuple[CrackFacts, Verdict]]) -> V
 
 def _worse_than_known(facts: Facts) -> CrackFacts | None:
     """The worst crack other than the known one, where its word is worse."""
-    others = [crack for crack in facts.cracks if not crack.counts and crack.members and not crack.slides]
-    worst = max(others, key=lambda crack: crack.severity(facts.risk), default=None)
+    return _worse(facts, (crack for crack in facts.cracks if not crack.counts and not crack.slides))
+
+
+def _worse_left_out(facts: Facts) -> CrackFacts | None:
+    """The worst crack that slides first where another lifts, where its word would be worse."""
+    return _worse(facts, (crack for crack in facts.cracks if crack.counts and crack.slides))
+
+
+def _worse(facts: Facts, others: Iterable[CrackFacts]) -> CrackFacts | None:
+    """The worst of others than make the word, where its own is worse than that of the crack that governs."""
+    with_members = (crack for crack in others if crack.members)
+    worst = max(with_members, key=lambda crack: crack.severity(facts.risk), default=None)
     if worst is None or facts.governing is None:
         return None
-    if worst.step(facts.risk).badness <= facts.governing.step(facts.risk).badness:
-        return None
-    return worst
+    is_worse = worst.step(facts.risk).badness > facts.governing.step(facts.risk).badness
+    return worst if is_worse else None
 
 
 def _counted(facts: Facts, worse_other: CrackFacts | None) -> str:

@@ -11,6 +11,7 @@ from rocking.assessment.decide import (
     Verdict,
     _counted,
     _envelope,
+    _worse_left_out,
     _worse_than_known,
     step,
     worse,
@@ -41,8 +42,8 @@ def decide(facts: AllFacts) -> Decision:
     worse_other = _worse_than_known(facts)
     doubts = (*unsettled, *missing, *([Remark(AssessmentKind.OTHER_CRACK_WORSE)] if worse_other else []))
     sliding = _slides_throughout(facts)
-    none_left = sliding and not facts.rests
-    left_out = () if none_left or math.isnan(facts.slides_at) else (Remark(AssessmentKind.SLIDES_FIRST),)
+    crack_left_out = _worse_left_out(facts)
+    left_out = (Remark(AssessmentKind.SLIDES_FIRST),) if crack_left_out else ()
     asks_for_stacks = facts.stackable and facts.stacks is None
     contact_dynamics = (Remark(AssessmentKind.CONTACT_DYNAMICS),) if asks_for_stacks else ()
     if unsettled and not facts.stackable:
@@ -92,8 +93,9 @@ def decide(facts: AllFacts) -> Decision:
         # Not that of the worst step: by their error fewer members may have the worse word and the smaller share.
         share = max(crack.share for crack in followed)
         why = _counted(facts, worse_other)
-        if left_out:
-            why = f"{why}; another crack slides first, at {facts.slides_at:.2g} g"
+        if crack_left_out:
+            would = f"the {crack_left_out.name} would overturn {crack_left_out.count}"
+            why = f"{why}; {would} if it did not slide first, at {crack_left_out.slides_at:.2g} g"
         if facts.top is not None:
             why = f"{why}; {facts.top.brief}"
             would_settle = (*would_settle, Remark(AssessmentKind.TIE_THE_TOP))

@@ -102,7 +102,7 @@ def test_no_crack_is_followed_beyond_doubt_and_none_by_more_than_its_ensemble(st
 
 
 def test_the_counts_that_are_told_of_two_cracks_are_not_of_members_that_leave_their_words_open():
-    """With 16 members asked for, the crack of statics and the one that governs grow by the same rule."""
+    """With 16 members asked for, the crack of statics and all that may change the word grow by the same rule."""
     settings = AssessmentSettings(ensemble=EnsembleSettings(members=16))
     both = 0
     structure = WALL
@@ -110,7 +110,7 @@ def test_the_counts_that_are_told_of_two_cracks_are_not_of_members_that_leave_th
         motions = GroundMotions.of(record(severity * structure.static_multiplier * 9.80665))
         ensembles = ensemble_over_cracks(structure, motions, settings)
         both += ensembles.governing is not ensembles.followed[0]
-        for case in (ensembles.followed[0], ensembles.governing):
+        for case in (ensembles.followed[0], *ensembles.deciding):
             assert case.ensemble.members == 1024 or not case.facts.is_near_an_edge(
                 case.ensemble.settings.risk
             )
@@ -143,6 +143,27 @@ def test_a_body_that_needs_more_friction_than_it_has_slides_as_the_ground_reache
     block = Block.of_size(1.0, 1.25)
     slide = [slides_at(cracks(block.on_joints(Joints(friction)))[0]) for friction in (0.3, 0.6, 0.81)]
     assert slide == pytest.approx([0.3, 0.6, math.nan], nan_ok=True)
+
+
+def test_what_slides_first_is_followed_as_if_it_lifted_and_makes_no_word():
+    """Its count is that of its mechanism alone; on joints that let nothing slide it takes part in the word."""
+    friction = 0.5
+    wall = WALL.on_joints(Joints(friction))
+    slides = cracks(wall)[0]
+    settings = AssessmentSettings()
+    in_doubt = 0
+    for severity in (1.6, 1.8, 2.0, 3.5):
+        motions = GroundMotions.of(record(severity * wall.static_multiplier * 9.80665))
+        ensembles = ensemble_over_cracks(wall, motions, settings)
+        assert slides.description not in [crack.description for crack in ensembles.followed]
+        for left_out in ensembles.left_out:
+            assert left_out.slides_at == pytest.approx(slides.multiplier * friction / 0.596, rel=2e-3)
+            alone = ensemble(slides.mechanism, motions, settings.ensemble, grows=False)
+            assert left_out.facts.count == alone.facts().count
+        in_doubt += len(ensembles.left_out)
+        on_rough = ensemble_over_cracks(WALL.on_joints(ROUGH), motions, settings)
+        assert on_rough.followed[0].description == slides.description and not on_rough.left_out
+    assert in_doubt
 
 
 def test_the_crack_that_governs_is_found_by_its_description():
