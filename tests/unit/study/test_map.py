@@ -151,7 +151,8 @@ def test_the_plane_keeps_distances_also_across_the_date_line():
             assert np.abs(east).max() < 100 and abs(east.max() + east.min()) < 1e-6
             for k in range(1, 8):
                 one, other = (
-                    Coordinates(latitude=latitude + spread[place, 1], longitude=easts[place]) for place in (0, k)
+                    Coordinates(latitude=latitude + spread[place, 1], longitude=easts[place])
+                    for place in (0, k)
                 )
                 flat = math.hypot(east[k] - east[0], north[k] - north[0])
                 assert flat == pytest.approx(one.distance_to(other), rel=0.015, abs=0.1)
