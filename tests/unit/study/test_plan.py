@@ -83,6 +83,11 @@ def test_the_files_that_the_lists_name_are_those_by_which_every_job_knows_the_st
         settings["structures"],
         "push.csv",
     ]
+    lines = "pier,block,,,,1,6", "tower,capacity_curve,push.csv,100,0.9,,"
+    Path("list.csv").write_text(
+        "name,type,file,weight_kN,restitution,breadth_m,height_m\n" + "\n".join(lines)
+    )
+    assert make_plan(settings | {"structures": "list.csv"}).listed[2:] == ["list.csv", "push.csv"]
 
 
 def test_all_defects_of_all_three_files_stand_in_one_message(tmp_path: Path) -> None:
