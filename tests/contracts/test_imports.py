@@ -213,7 +213,6 @@ SAVES = {
     "scipy.special": 0.16,
     "scipy.stats": 0.63,
     "snakemake": 0.50,
-    "rocking.assessment.case": 0.21,
     "rocking.assessment.cracks": 0.18,
     "rocking.fragility": 0.18,
     "rocking.motion": 0.18,
