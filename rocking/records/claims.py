@@ -6,9 +6,9 @@ vocabulary reads them all; `agreed` returns what holds, or asks, naming the two 
 
 import re
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import IntEnum
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any, Literal, TypeVar
 
 from rocking.errors import RecordError, UndeclaredError
@@ -377,6 +377,7 @@ _UNIT_IN_NAME = re.compile(
 )
 
 
+@lru_cache(maxsize=64)
 def claims_of_name(file: str) -> tuple[Claim, ...]:
     """Return what the name of a file says of its unit and its step, "kobe_dt0.005", "x_100Hz", "acc_cm_s2"."""
     stem = re.sub(r"(?i)\.(txt|csv|dat|at2|asc|acc|th|out|prn|xlsx)$", "", file.rpartition("/")[2])
@@ -530,67 +531,68 @@ def azimuth_of_sensor(lines: Sequence[str]) -> str:
 
 @dataclass(frozen=True)
 class Declarations:
-    """What one text says, None (the component, the samples: "") where it says nothing, or several things.
+    """All that one text says. is_resampled: whether it speaks of sampling, so that a rate may be another's."""
 
-    unit: of acceleration. time_step: s. component: where the only channel points. samples: their number, as written.
-    stated_steps: the steps [s] of every rate that is spoken of, but for those of filters. words: all its claims.
-    """
-
-    unit: str | None = None
-    time_step: float | None = None
-    component: str = ""
-    samples: str = ""
-    stated_steps: tuple[float, ...] = ()
-    words: tuple[Claim, ...] = field(default=(), compare=False)
+    claims: tuple[Claim, ...] = ()
+    is_resampled: bool = False
 
     @classmethod
     def of(cls, lines: Sequence[str]) -> "Declarations":
         """Return what the `lines` of a text, without their marks, declare."""
         claims = tuple(claim for line in lines for claim in _claims_of(line))
-        said: dict[str, list[Any]] = {}
-        for claim in claims:
-            said.setdefault(claim.what, []).append(claim.value)
-        steps = set(said.get("time_step", ()))
-        stated = {1 / rate for rate in said.get("rate", ())} | steps
-        # A rate next to another one may be the one that the numbers were recorded at, and not theirs.
-        is_twice = (
-            bool(stated)
-            and max(stated) > min(stated) * (1 + _SAME_STEP)
-            and any(_SAMPLED.search(line) for line in lines if not _OF_PEAK.search(line))
-        )
-        components = {name.upper(): name for name in said.get("direction", ())}
-        return cls(
-            _the_only(set(said.get("unit", ()))),
-            None if is_twice else _the_only(steps),
-            _the_only(components.values()) or "",
-            _the_only(set(said.get("samples", ()))) or "",
-            tuple(sorted(stated)),
-            claims,
-        )
+        return cls(claims, any(_SAMPLED.search(line) for line in lines if not _OF_PEAK.search(line)))
 
-    def claims(self) -> tuple[Claim, ...]:
-        """Return the claims of a text on the unit and the step; a rate counts where it is not that of the step."""
-        is_twice = self.time_step is None
+    def _values(self, what: What) -> dict[Any, None]:
+        return dict.fromkeys(claim.value for claim in self.claims if claim.what == what)
+
+    @cached_property
+    def unit(self) -> str | None:
+        """The unit of acceleration, None where it says none, or several."""
+        return _the_only(self._values("unit"))
+
+    @cached_property
+    def stated_steps(self) -> tuple[float, ...]:
+        """The steps [s] of every rate that is spoken of, but for those of filters, the least first."""
+        return tuple(sorted({1 / rate for rate in self._values("rate")} | set(self._values("time_step"))))
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether it says nothing but a peak."""
+        return {claim.what for claim in self.claims} <= {"peak"}
+
+    @cached_property
+    def time_step(self) -> float | None:
+        """The step, s, None where it says none, or several: one of two rates is that of the recorder."""
+        steps = self.stated_steps
+        is_twice = bool(steps) and steps[-1] > steps[0] * (1 + _SAME_STEP) and self.is_resampled
+        return None if is_twice else _the_only(self._values("time_step"))
+
+    @cached_property
+    def component(self) -> str:
+        """Where the only channel points, "" where it says nothing, or several things."""
+        return _the_only({name.upper(): name for name in self._values("direction")}.values()) or ""
+
+    def of_numbers(self) -> tuple[Claim, ...]:
+        """Return the claims on the unit and the step; of several steps those of all rates."""
+        is_twice = self.time_step is None and len(self.stated_steps) > 1
         return tuple(
             Claim("time_step", 1 / claim.value, claim.where, claim.text) if claim.what == "rate" else claim
-            for claim in self.words
-            if claim.what in ("unit", "time_step")
-            or (claim.what == "rate" and is_twice and len(self.stated_steps) > 1)
+            for claim in self.claims
+            if claim.what in ("unit", "time_step") or (claim.what == "rate" and is_twice)
         )
 
     def count(self, held: int) -> str:
         """Return the number of samples that a text declares, of several that which is `held`; "" where it says none."""
-        counts = [claim for claim in self.words if claim.what == "samples"]
-        if not self.samples and counts:
-            agreed("samples", [*counts, Claim("samples", held, Where.SAMPLES)])
-            return str(held)
-        return self.samples
+        if len(counts := self._values("samples")) < 2:
+            return _the_only(counts) or ""
+        agreed("samples", [*self.claims, Claim("samples", held, Where.SAMPLES)])
+        return str(held)
 
 
 def doubts_of_claims(channel: Accelerogram, said: Declarations) -> tuple[Remark, ...]:
     """Return a remark where the peak or the direction of the only channel is not what the text above it says."""
     doubts = []
-    peaks = [claim.value for claim in said.words if claim.what == "peak"]
+    peaks = [claim.value for claim in said.claims if claim.what == "peak"]
     if peaks and not any(_SAME["peak"](abs(peak), channel.peak_acceleration) for peak in peaks):
         values = {"peak_m_s2": channel.peak_acceleration, "stated_m_s2": abs(peaks[0])}
         doubts.append(Remark.of(RecordKind.PEAK_UNLIKE_HEADER, **values))

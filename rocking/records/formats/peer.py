@@ -61,7 +61,7 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
         raise RecordError(
             f"this is a PEER {quantity} file; use the AT2 file of the same record.", quantity=quantity
         )
-    unit = agreed("unit", [*Declarations.of(head).claims(), *options.said("unit")]) or ""
+    unit = agreed("unit", [*Declarations.of(head).of_numbers(), *options.said("unit")]) or ""
     declared = count("NPTS", size["npts"])
     values, warnings = whole(numbers(after_lines(content, len(head))), declared, per_line=8)
     parts = [part.strip() for part in head[1].split(",")] if len(head) > 1 else [""]

@@ -154,7 +154,7 @@ class NumberTable:
 
         Of text that declares unit and step it is enough that it speaks of no factor.
         """
-        undeclared = [line for line in self.words if Declarations.of([line]) == Declarations()]
+        undeclared = [line for line in self.words if Declarations.of([line]).is_empty]
         is_title = len(undeclared) < 2 and not any(
             re.search(r"[:=]|^[\d\s.,;+-]+$", line) for line in undeclared
         )
@@ -744,7 +744,7 @@ def _claims(
         *(("time_step", rate, Where.SPOKEN, "") for rate in said.stated_steps if is_answer),
     )
     own = (Claim(*words) for words in told if words[1])
-    return (*own, *said.claims(), *options.said("unit"), *options.said("time_step"))
+    return (*own, *said.of_numbers(), *options.said("unit"), *options.said("time_step"))
 
 
 _MEANT = {"n": "the number of samples", "dt": "the time step", "hz": "the rate", "-": "the number of series"}

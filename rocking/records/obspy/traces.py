@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from rocking.errors import RecordError
-from rocking.quantities import GRAVITY
+from rocking.quantities import acceleration_factor, acceleration_unit
 from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import BURIED
 from rocking.remarks import Remark
@@ -65,9 +65,6 @@ def _level_rates(result: Any) -> None:
             trace.stats.sampling_rate = rate
 
 
-_PREFIXES = {"N": 1e-9, "NANO": 1e-9, "U": 1e-6, "MICRO": 1e-6, "M": 1e-3, "C": 1e-2, "K": 1e3, "": 1.0}
-_ORDERS = {"M": 2, "M/S": 1, "M/S**2": 0, "M/S^2": 0, "M/S2": 0, "M/S/S": 0}
-"""The number of differentiations that turn the unit of an instrument into an acceleration."""
 LARGEST_GAIN = 1e20
 """Counts per m/s² beyond which a sensitivity is damaged; the most sensitive seismometers have 1e10."""
 _SAME_FREQUENCY = 0.01
@@ -75,18 +72,15 @@ _STAGES_AGREE = 0.05
 """Difference of the overall sensitivity from the product of its stages up to which the two are the same."""
 
 
-def measured_as(units: str) -> tuple[float, int]:
-    """Return (factor to SI, number of differentiations to an acceleration) of the input units of a response.
+def measured_as(units: str) -> tuple[str, int]:
+    """Return the unit of acceleration that the input units of a response lead to, and by how many differentiations.
 
-    "M/S**2" is (1, 0), "nm/s" is (1e-9, 1), "G" is (9.80665, 0). Raises ValueError for what is no motion, as volts.
+    "M/S**2" is ("m/s2", 0), "nm/s" is ("nm/s2", 1), "G" is ("g", 0). Raises ValueError for what is no motion, as volts.
     """
-    name = units.strip().upper().replace("SEC", "S")
-    if name in ("G", "GRAVITY"):
-        return GRAVITY, 0
-    for prefix in sorted(_PREFIXES, key=len, reverse=True):
-        rest = name.removeprefix(prefix)
-        if name.startswith(prefix) and rest in _ORDERS:
-            return _PREFIXES[prefix], _ORDERS[rest]
+    name = units.lower().replace("nano", "n").replace("micro", "u").replace("gravity", "g")
+    for order, rate in enumerate(("", "/s", "/s/s")):
+        if unit := acceleration_unit(name.strip() + rate):
+            return unit, order
     raise ValueError(f"the instrument of this channel measures {units!r}, which is no motion of the ground")
 
 
@@ -116,9 +110,10 @@ def calibrated(trace: Any, inventory: Any, response: str) -> Calibrated:
             f"the StationXML holds no response of {trace.id} at {stats.starttime}.", inventory=trace.id
         ) from error
     try:
-        factor, order = measured_as(units)
+        unit, order = measured_as(units)
     except ValueError as error:
         raise RecordError(f"{error}; use a channel of acceleration or velocity.", quantity=units) from None
+    factor = acceleration_factor(unit)
     doubts = _check_gain(gain, of, trace.id, response)
     staged = bool(getattr(of, "response_stages", None))
     if response == "sensitivity" and (order == 0 or (order == 1 and not staged)):
@@ -323,7 +318,7 @@ def unit_left_by(trace: Any) -> str | None:
     """
     try:
         units = str(trace.stats.response.instrument_sensitivity.input_units)
-        factor, order = measured_as(units)
+        unit, order = measured_as(units)
     except (AttributeError, ValueError):
         return None
     if order:
@@ -331,7 +326,7 @@ def unit_left_by(trace: Any) -> str | None:
             f"its sensitivity was removed, which leaves {units}; give acceleration: remove_response(output='ACC').",
             quantity=units,
         )
-    return {1.0: "m/s2", 1e-2: "cm/s2", 1e-3: "mm/s2", 1e-9: "nm/s2", GRAVITY: "g"}.get(factor)
+    return unit
 
 
 def first_line(error: object) -> str:
