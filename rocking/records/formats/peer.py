@@ -46,6 +46,7 @@ _FIRST = re.compile(
 
 
 def _read(content: bytes, options: Options) -> list[Accelerogram]:
+    content = content.lstrip(b"\n")  # or a blank line above stands in the place of the title
     head = lines(content, _HEADER_LINES)
     steps = ((place, pattern.search(line[:200])) for place, line in enumerate(head) for pattern in _STEPS)
     found = next(((place, match) for place, match in steps if match), None)

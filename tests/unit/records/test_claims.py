@@ -53,6 +53,13 @@ def test_the_title_of_an_at2_may_be_cut_within_its_bracket(
     assert (record.vertical, record.azimuth) == (vertical, azimuth)
 
 
+def test_blank_lines_above_an_at2_leave_its_title_where_it_is(tmp_path: Path) -> None:
+    path = at2(tmp_path, "QUAKE, STATION, UP")
+    path.write_bytes(b"\n\n\n" + path.read_bytes())
+    (record,) = read(path)
+    assert (record.component, record.station, record.vertical) == ("UP", "STATION", True)
+
+
 @pytest.mark.parametrize(
     "first", ["Scale factor = 8", "RECORD SCALED BY 2.5", "multiplied by 1.7 g", "Gain: 4"]
 )
