@@ -146,9 +146,10 @@ def film(tail: str, counted: int) -> str:
     ("", False), (" 2.010E+00 9.999E+02 2.011E+00 9.999E+02 2.012E+00 9.999E+02 2.013E+00 9.999E+02\n", True),
     ("|second trace\n 0.000E+00 9.999E+02 1.000E-01 9.999E+02\n", True),
 ])  # fmt: skip
-def test_points_of_film_end_at_a_seam(tmp_path: Path, tail: str, is_cut: bool) -> None:
+@pytest.mark.parametrize("counted", [FILM.size, 2 * FILM.size], ids=["points", "numbers"])
+def test_points_of_film_end_at_a_seam(tmp_path: Path, tail: str, is_cut: bool, counted: int) -> None:
     """Sixteen of seventeen files of the kind end in a line of another trace, which their count leaves out."""
-    (record,) = opened(tmp_path, film(tail, 2 * FILM.size), "made.smc")
+    (record,) = opened(tmp_path, film(tail, counted), "made.smc")
     expected = [RecordKind.SEAM_CUT, RecordKind.UNEVEN_FILM] if is_cut else [RecordKind.UNEVEN_FILM]
     assert [remark.kind for remark in record.warnings] == expected
     times = 0.005 * np.arange(record.acceleration.size)
