@@ -146,3 +146,10 @@ def test_its_words_say_the_periods_that_were_asked_for_and_the_factors(pool):
     assert own.words.startswith("10 records of as many stations out of 30 of 30 stations of 30 earthquakes; ")
     assert "of the target from 0.2 to 1.5 s; " in own.words
     assert f"factors from {min(used):.3g} to {max(used):.3g}, median {np.median(used):.3g}; " in own.words
+
+
+def test_as_many_random_sets_are_drawn_as_are_asked_for():
+    stations = np.array(list("aabcde"))
+    drawn = np.concatenate(list(random_sets(stations, 3, 2300, np.random.default_rng(1))))
+    assert drawn.shape == (2300, 3)
+    assert all(len(set(stations[places])) == 3 for places in drawn)
