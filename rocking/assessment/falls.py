@@ -16,6 +16,7 @@ import numpy as np
 from rocking.assessment.contacts import contact_share, signs, stackable
 from rocking.assessment.cracks import counting_cracks, sliding_first, weakest_not_followed
 from rocking.assessment.evidence.bodies import why_open
+from rocking.assessment.evidence.walls import anchors_slide
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.records import Accelerogram
@@ -90,6 +91,10 @@ def _falls_at(
     if all(crack in sliding for crack in counting) and (structure.joints.fall_by_sliding or largest > 0):
         return Falls(0.0, 1.0, Model.NONE)
     told = Falls(share, share, Model.MECHANISM)
+    if contacts and share < 1 and anchors_slide(structure, motions):
+        plane = contact_share(structure.held_all_along, motions, settings, DRAWS, until_sure=False)
+        if plane.runs and (more := max(share, plane.falls / plane.runs)):
+            return Falls(more, more, Model.CONTACTS)
     if share == 1 or not largest > 0:
         return told
     of_contacts = math.nan

@@ -64,11 +64,16 @@ class Anchors:
         return word.badness < Verdict.CANNOT_BE_TOLD.badness and not asked.is_settled
 
     def look(self, asked: Asked) -> Limit | None:
-        level = min(part.anchors_slide_at for _, part in parts_of(asked.structure))
-        if not (math.isfinite(level) and asked.motions.excitation > level):
+        if not anchors_slide(asked.structure, asked.motions):
             return None
         settles = (Remark(AssessmentKind.ANCHORS),)
         return Limit(doubt=Remark(AssessmentKind.ANCHOR_GIVES), settles=settles, at_rest=True)
+
+
+def anchors_slide(structure: Structure, motions: GroundMotions) -> bool:
+    """Whether an anchor of one part slides out."""
+    level = min(part.anchors_slide_at for _, part in parts_of(structure))
+    return math.isfinite(level) and motions.excitation > level
 
 
 class Ties:

@@ -33,6 +33,21 @@ PIERS: Structure = structure_from_config(
 )
 
 
+FRONT: Structure = structure_from_config(
+    {
+        "type": "facade",
+        "storey_heights_m": [3.4, 3.0],
+        "thicknesses_m": [0.45, 0.4],
+        "unit_weight_kN_m3": 18,
+        "floor_loads_kN_m": [8, 6],
+        "behind": "cross_walls",
+        "restitution": 0.5,
+        "tie_heights_m": [6.0],
+        "tie_stiffness_kN_m2": 20000,
+    }
+)
+
+
 def shaken(peak_g: float, period: float = 0.8) -> Accelerogram:
     """Three cycles that swell and fade."""
     times = np.arange(600) * 0.01
@@ -68,6 +83,17 @@ def test_courses_that_may_be_thrown_are_followed_and_all_of_them():
     assert under(SPIRE, 0.5, [0.1, 0.2]) == Falls(share, share, Model.CONTACTS)
     assert under(SPIRE, 0.5, [0.1, 0.2], contacts=False) == Falls(0.0, 1.0, Model.NONE)
     assert under(SPIRE, 0.5, [math.inf, math.inf]) == Falls(1.0, 1.0, Model.MECHANISM)
+
+
+def test_a_wall_whose_anchors_slide_out_is_followed_as_stacks_also_at_rest():
+    motions = GroundMotions.of(shaken(0.8))
+    assert motions.excitation > FRONT.anchors_slide_at
+    runs = contact_share(FRONT, motions, SETTINGS, DRAWS, until_sure=False)
+    assert runs.falls
+    share = runs.falls / runs.runs
+    assert under(FRONT, 0.8, [0.0, 0.1]) == Falls(share, share, Model.CONTACTS)
+    assert under(FRONT, 0.8, [0.0, 0.0]).low == share
+    assert under(FRONT, 0.8, [0.0, 0.1], contacts=False) == Falls(0.0, 0.0, Model.MECHANISM)
 
 
 def test_of_an_arch_on_piers_only_its_stones_may_say_that_it_stands():
