@@ -336,7 +336,7 @@ def _notices(
         notices.append(Notice(f"{counted(failures, 'failure')}, listed below."))
     scaled = sorted({row.record for row in records if row.scale_factor != 1})
     if scaled:
-        names = listed(scaled, most=20)
+        names = listed(scaled, most=6)
         text = f"By a declared factor, not as recorded: {names}."
         notices.append(Notice(text))
     return notices
