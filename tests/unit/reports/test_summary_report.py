@@ -223,7 +223,7 @@ def test_long_lists_are_cut_and_say_how_much_was_left_out():
     assert data.unsafe.caption.endswith(" Another 81 cases in comparison.csv.")
     assert len(data.records.table.rows) == 200
     assert data.records.caption.endswith(" Another 50 components in record.csv.")
-    assert "and 230 others" in data.notices[-1].text
+    assert "and 244 others" in data.notices[-1].text
 
 
 @pytest.mark.usefixtures("undrawn")
