@@ -15,7 +15,6 @@ from rocking.assessment.cracks import (
     counting_cracks,
     cracks,
     decided_by,
-    is_own,
     never_overturns_because,
     worth_measuring,
 )
@@ -33,7 +32,7 @@ from rocking.records import Accelerogram
 from rocking.remarks import Remark
 from rocking.sine_pulse import AsPrinted, Maximum
 from rocking.structures import EquivalentBlock, Outcome, Structure
-from rocking.structures.structure import Candidate
+from rocking.structures.cracks import Candidate
 
 DECISIVE = ("responses", "directions")
 """Stages whose failure leaves a structure without a result; the others only leave out a comparison."""
@@ -321,7 +320,7 @@ class PeriodResult:
             if candidate.description == case.crack:
                 return case.check
             case = case.statics
-        return case.check if case is not None and is_own(candidate, self.scene.structure) else None
+        return case.check if case is not None and candidate.is_own_of(self.scene.structure) else None
 
     @property
     def decision(self) -> Decision:

@@ -21,11 +21,10 @@ from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.motion.response import lifting_friction
 from rocking.motion.table import table_of
-from rocking.remarks import Phrase, Remark
+from rocking.remarks import Remark
 from rocking.structures import Structure
 from rocking.structures.crackable import WEAK_MASONRY
-from rocking.structures.leaves import of_leaf
-from rocking.structures.structure import CRACKS, Candidate
+from rocking.structures.cracks import CRACKS, Candidate, with_geometry
 
 IN_DOUBT = 0.3
 """Rotation ratio of a member beyond which it is in doubt that a mechanism other than that of statics stands."""
@@ -131,34 +130,15 @@ def cracks(structure: Structure) -> tuple[Candidate, ...]:
     """
     every = structure.candidates(CRACKS)
     if not structure.leaves_alone:
-        return _with_geometry(every)
+        return with_geometry(every)
     forming: list[Candidate] = []
-    alone = dict(structure.leaves_alone)
+    alone = {leaf.name: leaf for leaf in structure.leaves_alone}
     for part in dict.fromkeys(candidate.part for candidate in every):
         if part:
-            forming += [of_leaf(part, candidate) for candidate in cracks(alone[part])]
+            forming += alone[part].named(cracks(alone[part].structure))
         else:
-            forming += _with_geometry(tuple(candidate for candidate in every if not candidate.part))
+            forming += with_geometry(tuple(candidate for candidate in every if not candidate.part))
     return tuple(forming)
-
-
-def _with_geometry(several: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
-    """The candidates of one part, with the first crack once more where its restitution is typed too low."""
-    first = next((candidate for candidate in several if candidate.counts and not candidate.bulges), None)
-    balanced = None if first is None else first.structure.restitution_of_geometry
-    if first is None or balanced is None:
-        return several
-    own, with_own = balanced
-    livelier = replace(
-        first,
-        description=f"restitution {own:.2f} of its geometry",
-        structure=with_own,
-        of_geometry=True,
-    )
-    if len(several) == 1:
-        typed = first.mechanism.restitution
-        several = (replace(first, description=Phrase("restitution {typed:.2f} as typed", typed=typed)),)
-    return (*several, livelier)
 
 
 @lru_cache(maxsize=256)
@@ -166,25 +146,9 @@ def mechanisms_of(structure: Structure) -> tuple[Candidate, ...]:
     """Return every mechanism: those that may be followed, and behind them those that statics alone lists."""
     forming = cracks(structure)
     listed = (
-        candidate for candidate in structure.mechanisms() if not any(_same(candidate, own) for own in forming)
+        candidate for candidate in structure.mechanisms() if not any(candidate.is_as(own) for own in forming)
     )
     return (*forming, *listed)
-
-
-def _same(one: Candidate, other: Candidate) -> bool:
-    """Whether two candidates are one mechanism, whose hinge two searches place a little apart."""
-    if one.structure is other.structure or one.description == other.description:
-        return True
-    return not other.refusal and is_own(one, other.structure)
-
-
-def is_own(candidate: Candidate, structure: Structure) -> bool:
-    """Whether a candidate is the mechanism that a structure has as it is described."""
-    if candidate.refusal:
-        return False
-    one, other = candidate.mechanism, structure.mechanism()
-    alike = math.isclose(one.uplift_multiplier, other.uplift_multiplier, rel_tol=1e-6)
-    return alike and math.isclose(one.critical_rotation, other.critical_rotation, rel_tol=1e-3)
 
 
 @lru_cache(maxsize=256)

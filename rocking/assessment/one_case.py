@@ -16,7 +16,6 @@ from rocking.assessment.cracks import (
     counting_cracks,
     cracks,
     ensemble_over_cracks,
-    is_own,
 )
 from rocking.assessment.evidence import gathered
 from rocking.assessment.evidence.asked import Asked
@@ -44,7 +43,7 @@ from rocking.pulses import Pulse, PulseEvidence, predicting_pulse
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_as_printed, predict_maximum
 from rocking.structures import Mechanism, Outcome, Structure
-from rocking.structures.structure import Candidate
+from rocking.structures.cracks import Candidate
 
 
 @dataclass
@@ -196,7 +195,7 @@ def other_cracks(
     vertical: acts with the accelerogram. Raises RockingError where one of them cannot be followed.
     """
     others = sorted(structure.candidates(count) if count else (), key=lambda candidate: candidate.position)
-    if len(others) < 2 and all(is_own(candidate, structure) for candidate in others):
+    if len(others) < 2 and all(candidate.is_own_of(structure) for candidate in others):
         return []
     variations = []
     for candidate in others:

@@ -23,9 +23,9 @@ from rocking.quantities import GRAVITY, kind_of, positive
 from rocking.remarks import Phrase, Remark
 from rocking.structures import Structure
 from rocking.structures.crackable import Crackable
+from rocking.structures.cracks import AS_DESCRIBED, Candidate
 from rocking.structures.joints import USUAL
-from rocking.structures.leaves import of_leaf, parts_of
-from rocking.structures.structure import AS_DESCRIBED, Candidate
+from rocking.structures.leaves import parts_of
 
 _SAME = 1e-9
 """Relative difference below which two levels are one but for rounding: the mechanism that is named first decides."""
@@ -193,8 +193,8 @@ def _opening(structure: Structure) -> Iterator[Candidate]:
             hinge = Phrase("hinge at {height:.4g} m", height=candidate.opening.hinge)
             opens = Phrase("{does}, {opens}", does=opens, opens=hinge)
         yield replace(candidate, description=opens)
-    for name, leaf in structure.leaves_alone:
-        yield from (of_leaf(name, candidate) for candidate in _opening(leaf))
+    for leaf in structure.leaves_alone:
+        yield from leaf.named(_opening(leaf.structure))
 
 
 def _sides(body: Structure) -> Iterator[tuple[int, str]]:

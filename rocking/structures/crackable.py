@@ -11,10 +11,11 @@ import numpy as np
 
 from rocking.errors import DoesNotStandError, SizeError, StructureError, StructureWarning
 from rocking.remarks import Phrase, Remark
+from rocking.structures.cracks import CRACKS, Candidate, by_multiplier
 from rocking.structures.fields import CompressiveStrength, Value
 from rocking.structures.kinds import StructureKind
 from rocking.structures.linkage import HIGHEST_SHARE
-from rocking.structures.structure import CRACKS, Candidate, Structure
+from rocking.structures.structure import Structure
 
 USUAL_WEIGHT = 20e3
 """Weight of masonry where none is given, N/m³."""
@@ -99,7 +100,7 @@ class Crackable(Crushable):
             return Remark(StructureKind.CRACK_KNOWN)
         return Remark.of(StructureKind.CRACK_KNOWN_AT, height_m=float(self.crack_position))
 
-    def _ranked_candidates(self, count: int) -> tuple[Candidate, ...]:
+    def _cracked(self, count: int) -> tuple[Candidate, ...]:
         others = self._may_form(count)
         if not self.crack_is_known:
             for candidate in others:
@@ -174,12 +175,8 @@ class CrackedAtHeight(Crackable):
         cracked = [
             candidate for candidate in formed if candidate.structure.mechanism().can_overturn
         ] or formed
-        # Of multipliers that are equal but for rounding, as all along a solid spire, the lowest crack comes first.
-        rounded = [float(f"{candidate.uplift_multiplier:.9g}") for candidate in cracked]
-        order = np.argsort(rounded, kind="stable")
-        ranked = [cracked[place] for place in order]
-
-        least = int(order[0])
+        ranked = by_multiplier(cracked)
+        least = cracked.index(ranked[0])
         low = cracked[max(least - 1, 0)].position
         high = cracked[min(least + 1, len(cracked) - 1)].position
         weakest = self._weakest_between(low, high) if low < high else None

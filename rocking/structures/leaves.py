@@ -2,18 +2,19 @@
 
 import warnings
 from abc import abstractmethod
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 
 from rocking.errors import DoesNotStandError, SizeError, StructureWarning
-from rocking.remarks import Phrase, Remark
+from rocking.remarks import Remark
+from rocking.structures.cracks import LeafAlone
 from rocking.structures.drawing import Mark, Path, plane, rectangle, span
 from rocking.structures.fields import Value, length
 from rocking.structures.kinds import StructureKind
-from rocking.structures.structure import AS_DESCRIBED, CRACKS, Candidate, LeafAlone, Structure
+from rocking.structures.structure import Structure
 
 LEAVES = {2: ("outer leaf", "inner leaf"), 3: ("outer leaf", "middle leaf", "inner leaf")}
 """What leaves are called from outside in, by their number."""
@@ -164,23 +165,6 @@ class Leaved(Structure):
             return {"one_sided": True, "restitution": self._given_restitution}
         return {"one_sided": False, "restitution": None}
 
-    def candidates(self, count: int = CRACKS) -> tuple[Candidate, ...]:
-        """Return the mechanisms that may form, those of each leaf among them; of the weakest part they come first."""
-        known: dict[int, tuple[Candidate, ...]] = self.__dict__.setdefault("_with_leaves", {})
-        if count not in known:
-            together = [
-                replace(candidate, description=_together(candidate.description))
-                for candidate in super().candidates(count)
-            ]
-            groups = [together if self.leaves_alone else super().candidates(count)]
-            groups += [
-                [of_leaf(name, candidate) for candidate in structure.candidates(count)]
-                for name, structure in self.leaves_alone
-            ]
-            groups.sort(key=lambda group: group[0].uplift_multiplier)
-            known[count] = tuple(candidate for group in groups for candidate in group)
-        return known[count]
-
     @property
     def assumptions(self) -> tuple[Remark, ...]:
         """What is taken for granted, and that its leaves do not part where nothing is said of them."""
@@ -246,20 +230,6 @@ class Leaved(Structure):
         }
 
 
-def of_leaf(name: str, candidate: Candidate) -> Candidate:
-    """Return a mechanism of a leaf as one of the wall, which names it."""
-    alone = Phrase("{part} alone", part=name)
-    opens = Phrase("{alone}, {opens}", alone=alone, opens=candidate.description)
-    description = alone if candidate.description == AS_DESCRIBED else opens
-    does = Phrase("{alone} {does}", alone=alone, does=candidate.name)
-    return replace(candidate, description=description, name=does, part=name)
-
-
 def parts_of(structure: Structure) -> tuple[LeafAlone, ...]:
     """Return what falls by itself: the structure, under no name, and each of its leaves that may part."""
     return LeafAlone("", structure), *structure.leaves_alone
-
-
-def _together(description: str) -> str:
-    """The description of a mechanism of all leaves as one body."""
-    return "all leaves together" if description == AS_DESCRIBED else description

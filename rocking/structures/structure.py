@@ -4,17 +4,18 @@ import math
 import warnings
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import KW_ONLY, dataclass, field, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from rocking.errors import SizeError, StructureError, StructureWarning
-from rocking.quantities import GRAVITY, within
+from rocking.quantities import within
 from rocking.remarks import Remark
 from rocking.structures.capacity import StaticCapacity, StaticCurve
+from rocking.structures.cracks import AS_DESCRIBED, CRACKS, Candidate, LeafAlone, of_parts, ranked
 from rocking.structures.description import Description
 from rocking.structures.drawing import Bay, Dimension, Mark, Path, plane
 from rocking.structures.fields import PlainSignature, Value, constructor
@@ -33,22 +34,16 @@ from rocking.structures.linkage import (
     largest_so_far,
     momentum_balance,
 )
-from rocking.structures.mechanism import Mechanism, Side
+from rocking.structures.mechanism import Mechanism
 from rocking.structures.stack import Course, Held, Stack, stops_behind
 from rocking.structures.stones import Stones
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from rocking.structures.held_wall import Opening
-
 
 _SEATS = 65
 """Rotations up to the critical one at which it is asked how far floors have moved, with lines between them."""
-AS_DESCRIBED = "as described"
-"""The description of the one mechanism of what does not crack."""
-CRACKS = 11
-"""Number of mechanisms that are followed where more than one may form."""
 TYPED_LOWER = 0.05
 """Difference by which a typed restitution may lie below that of the geometry before both are followed."""
 TYPED_ABOVE = 0.02
@@ -451,7 +446,7 @@ class Structure(ABC):
         """Return which ties have yielded or broken once a signed `rotation` [rad] was reached, in words; "" if none."""
         return ""
 
-    def candidates(self, count: int = CRACKS) -> "tuple[Candidate, ...]":
+    def candidates(self, count: int = CRACKS) -> tuple[Candidate, ...]:
         """Return the mechanisms that may form, `count` or one more; the first decides, the others by their λ.
 
         The first is the one that statics chooses, of least λ; where the crack is known that one, and the others do not
@@ -461,19 +456,25 @@ class Structure(ABC):
         """
         known: dict[int, tuple[Candidate, ...]] = self.__dict__.setdefault("_candidates", {})
         if count not in known:
-            known[count] = self._ranked_candidates(count)
+            own = ranked(self._cracked(count), self._bulges, is_known=self.crack_is_known)
+            known[count] = of_parts(own, [leaf.candidates(count) for leaf in self.leaves_alone])
         return known[count]
 
-    def _ranked_candidates(self, count: int) -> "tuple[Candidate, ...]":
-        """The candidates in their order."""
+    def _cracked(self, count: int) -> tuple[Candidate, ...]:
+        """The cracks of it that may form, `count` or one more; first the one that is known, or that statics chooses."""
         return (Candidate(AS_DESCRIBED, np.nan, self),)
 
-    def mechanisms(self) -> "tuple[Candidate, ...]":
+    @property
+    def _bulges(self) -> tuple[Candidate, ...]:
+        """What may form of a held wall wherever it is cracked, by their λ."""
+        return ()
+
+    def mechanisms(self) -> tuple[Candidate, ...]:
         """Return every mechanism in which it may fall; a wall that is held at several heights has many by name."""
         return self.candidates()
 
     @property
-    def leaves_alone(self) -> "tuple[LeafAlone, ...]":
+    def leaves_alone(self) -> tuple[LeafAlone, ...]:
         """Its leaves that may part, each as a structure of its own; () of what has one."""
         return ()
 
@@ -617,110 +618,3 @@ class Structure(ABC):
     def _dimensions(self) -> Mapping[str, Path | list[Path]]:
         """The dimension of each parameter that a drawing can show, or of each value of a list."""
         return {}
-
-
-@dataclass(frozen=True)
-class Candidate:
-    """One mechanism that may form: a `structure` whose crack is known, at `position` [m] above the base.
-
-    description: in words, "hinge at 2.56 m". position: nan where no height describes it, as of an arch's hinges.
-    name: what it does, "bulges between foot and tie". limit: its λ by limit analysis, in which a tie pulls with the
-    force at which it yields; None where it has no such tie. sign: of the rotation to the side to which it falls; 0:
-    both sides. counts: whether it takes part in the verdict; otherwise it is reported along with the known crack.
-    of_geometry: whether it is another candidate once more, with the restitution of the geometry in place of a lower one
-    that is typed. part: the leaf that falls alone, "outer leaf"; "" where all of the structure does.
-    """
-
-    description: str
-    position: float
-    structure: Structure
-    _: KW_ONLY
-    name: str = ""
-    limit: float | None = None
-    sign: int = 0
-    counts: bool = True
-    of_geometry: bool = False
-    part: str = ""
-
-    def __post_init__(self) -> None:
-        """Take the name of what its structure does, where it has none of its own."""
-        object.__setattr__(self, "name", self.name or self.structure.does)
-
-    @property
-    def mechanism(self) -> Mechanism:
-        """The mechanism itself; the same object at every call."""
-        return self.structure.mechanism()
-
-    @property
-    def opening(self) -> "Opening | None":
-        """How a held wall opens in it, where that is no crack of its description."""
-        own: Opening | None = getattr(self.structure, "opening", None)
-        return own
-
-    @property
-    def bulges(self) -> bool:
-        """Whether a held wall bulges in it, or slips below its top, which it may wherever it is cracked."""
-        return self.opening is not None
-
-    @property
-    def stays_shut(self) -> bool:
-        """Whether a tie without a strength would have to stretch for it to open outwards."""
-        return not getattr(self.structure, "lets_go", True)
-
-    @property
-    def multiplier(self) -> float:
-        """λ of its mechanism."""
-        return self.mechanism.uplift_multiplier
-
-    @property
-    def uplift_multiplier(self) -> float:
-        """λ of limit analysis, with ties at the force at which they yield; without ties where its motion begins."""
-        return self.multiplier if self.limit is None else self.limit
-
-    @property
-    def critical_rotation(self) -> float:
-        """φ_cr of its mechanism to its side, rad; nan where its motion cannot be followed, as `refusal` says."""
-        return math.nan if self.refusal else self.side.critical_rotation
-
-    @cached_property
-    def refused(self) -> StructureError | None:
-        """Why its motion cannot be followed; None where it can."""
-        try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore", StructureWarning)  # nobody asked for its restitution
-                for side in self.structure.mechanism().sides:
-                    _ = side.arc
-        except StructureError as wrong:
-            return wrong
-        return None
-
-    @property
-    def refusal(self) -> str:
-        """Why its motion cannot be followed, in a sentence; "" where it can."""
-        return str(self.refused or "")
-
-    @property
-    def reactions(self) -> tuple[Reaction, ...]:
-        """What holds it back as it starts to its side, N per metre; () of what cannot be followed or is not known."""
-        if self.refusal:
-            return ()
-        wall = self.structure
-        try:
-            if self.sign >= 0:
-                return wall.reactions()
-            least = -1e-12 * self.side.end_rotation
-            return wall.reactions([least], [0.0], ground=[self.side.uplift_multiplier * GRAVITY])
-        except UnknownContacts:
-            return ()
-
-    @property
-    def side(self) -> Side:
-        """The side to which it falls; of two alike the positive one."""
-        return self.mechanism.sides[-1 if self.sign < 0 else 0]
-
-
-class LeafAlone(NamedTuple):
-    """A leaf by its name, "outer leaf", as a structure of its own."""
-
-    name: str
-    structure: Structure

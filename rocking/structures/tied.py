@@ -15,11 +15,12 @@ from rocking.errors import DoesNotStandError, SizeError, StructureError, Structu
 from rocking.quantities import GRAVITY
 from rocking.remarks import Phrase, Remark
 from rocking.structures.crackable import CrackedAtHeight
+from rocking.structures.cracks import Candidate, every
 from rocking.structures.drawing import Bay, Mark, plane, rectangle
 from rocking.structures.fields import Value
 from rocking.structures.held_wall import LEAST_STIFFNESS, Chain, HeldWall, Hold, Opening
 from rocking.structures.kinds import StructureKind
-from rocking.structures.leaves import Leaf, Leaved, of_leaf
+from rocking.structures.leaves import Leaf, Leaved
 from rocking.structures.linkage import (
     GRIPPED,
     STILL,
@@ -32,7 +33,7 @@ from rocking.structures.linkage import (
 )
 from rocking.structures.mechanism import Tie
 from rocking.structures.stack import Course, Held, Stop, course_at
-from rocking.structures.structure import Candidate, Structure
+from rocking.structures.structure import Structure
 
 UnitWeight = Annotated[float, Value("Weight of the masonry", 20.0, "kN/m³", (8, 30), bounds={"ge": 1e-6})]
 Eccentricity = Annotated[
@@ -371,13 +372,7 @@ class Tied(CrackedAtHeight, Leaved):
         others = self._bulges if self.crack_is_known or self._is_one_bulge else self._family
         if self.symmetric:
             others = tuple(candidate for candidate in others if candidate.sign >= 0)
-        further = [candidate for candidate in others if not any(_is_that(own, candidate) for own in cracked)]
-        of_leaves = [
-            of_leaf(name, candidate) for name, leaf in self.leaves_alone for candidate in leaf.mechanisms()
-        ]
-        return tuple(
-            sorted((*cracked, *further, *of_leaves), key=lambda candidate: candidate.uplift_multiplier)
-        )
+        return every(cracked, others, [leaf.mechanisms() for leaf in self.leaves_alone])
 
     @cached_property
     def _bulges(self) -> tuple[Candidate, ...]:
@@ -422,56 +417,16 @@ class Tied(CrackedAtHeight, Leaved):
         candidate = super()._candidate(height)
         return candidate and self._limited(candidate)
 
-    def _ranked_candidates(self, count: int) -> tuple[Candidate, ...]:
-        """The cracks, the bulge of least λ whose motion can be followed, and what falls as its top slips (theory:
-        section 12.6).
-
-        Either comes first where limit analysis, in which ties pull with the force at which they yield, finds it weaker
-        than every crack. Unless it is known, a crack that ties keep shut for good is left out, as far as something else
-        is left, and one below a top that slips before: what would hold it there does not.
-        """
-        cracked = [self._limited(candidate) for candidate in super()._ranked_candidates(count)]
+    def _cracked(self, count: int) -> tuple[Candidate, ...]:
+        cracked = tuple(map(self._limited, super()._cracked(count)))
         self._check_restitution()
-        followed = [bulge for bulge in self._bulges if not bulge.refusal]
-        between = [bulge for bulge in followed if self._falls_between_ties(bulge)][:1]
-        at_ties = [bulge for bulge in followed if not self._falls_between_ties(bulge)]
-        slipping = [bulge for bulge in at_ties if self._slips(bulge)][:1]
-        bulging = [bulge for bulge in at_ties if not self._slips(bulge)][:1]
-        counting = [crack for crack in cracked if crack.counts]
-        not_counting = [
-            crack for crack in cracked if not crack.counts and math.isfinite(crack.uplift_multiplier)
-        ]
-        if not self.crack_is_known:
-            opens = [crack for crack in counting if math.isfinite(crack.uplift_multiplier)]
-            counting = opens if opens or followed else counting
-        if not followed:
-            return (*counting, *not_counting)
-        if not self.crack_is_known and any(
-            candidate.structure.mechanism().can_overturn for candidate in (*bulging, *slipping, *between)
-        ):
-            counting = [crack for crack in counting if crack.structure.mechanism().can_overturn]
-        if slipping and not self.crack_is_known:
-            slips_at = slipping[0].uplift_multiplier
-            counting = [crack for crack in counting if crack.uplift_multiplier <= slips_at]
-        for bulge in (*bulging, *slipping, *between):
-            is_weakest = all(bulge.uplift_multiplier < crack.uplift_multiplier for crack in counting)
-            counting.insert(0 if is_weakest else len(counting), bulge)
-        return (*counting, *not_counting)
+        return cracked
 
     def _check_restitution(self) -> None:
         """Refuse what bulges with no restitution of the geometry: it may fall so, and no record could say whether."""
         for bulge in self._bulges:
             if bulge.refused is not None and bulge.refused.field == "restitution":
                 raise bulge.refused
-
-    def _falls_between_ties(self, candidate: Candidate) -> bool:
-        """Whether it falls between two ties of a row."""
-        return isinstance(candidate.structure, Tied) and candidate.structure._opens.between
-
-    def _slips(self, candidate: Candidate) -> bool:
-        """Whether it is its top that slips."""
-        opening = candidate.structure.opening if isinstance(candidate.structure, Tied) else None
-        return opening is not None and bool(self.held_wall.slip(opening))
 
     @cached_property
     def static_multiplier(self) -> float:
@@ -891,9 +846,3 @@ class Tied(CrackedAtHeight, Leaved):
                 ", but must be 0 unless the wall cannot move inwards (one_sided, or behind: cross_walls of a façade): "
                 "moving inwards, a tightened tie goes slack.",
             )
-
-
-def _is_that(own: Candidate, listed: Candidate) -> bool:
-    """Whether a candidate is a mechanism of the family, which that places where λ is least, or a weaker one."""
-    alike = own.name == listed.name and own.uplift_multiplier <= (1 + 1e-6) * listed.uplift_multiplier
-    return alike or own.structure is listed.structure
