@@ -128,8 +128,8 @@ class Leaved(Structure):
             )
             raise SizeError.of("bonders", repr(self.bonders), said)
         for height in self.bonder_heights:
-            if not 1e-6 * top < height <= top * (1 + _SAME):
-                said = f" m, but must lie on the wall, above its foot and up to {top:.6g} m."
+            if not 0 < height <= top * (1 + _SAME):
+                said = f" m, but must lie on the wall, above 0 and up to {top:.6g} m."
                 raise SizeError.of("bonders", repr(height), said)
         _ = self.leaves_alone  # one that is pushed over at rest is refused at birth
 

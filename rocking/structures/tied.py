@@ -98,10 +98,10 @@ def check_eccentricity(*, value: float, thickness: float) -> None:
 
 
 def check_inside(field: str, value: float, height: float) -> None:
-    """Refuse a height above the ground [m] that is not on a wall of that `height`, or at its foot but for rounding."""
-    if not _SAME * height < value <= height:
+    """Refuse a height above the ground [m] that is not on a wall of that `height`."""
+    if not 0 < value <= height:
         raise SizeError.of(
-            field, repr(value), f" m, but must lie on the wall, above its foot and up to {height:.6g} m."
+            field, repr(value), f" m, but must lie on the wall, above 0 and up to {height:.6g} m."
         )
 
 
@@ -721,11 +721,15 @@ class Tied(CrackedAtHeight, Leaved):
 
     @cached_property
     def _tie_levels(self) -> tuple[float, ...]:
-        """The heights of the ties, m, each that of a top or of another tie where it is one but for rounding."""
-        levels = [top for _, top, _, _ in self._sections]
+        """The heights of the ties, m, each that of a top or of another tie where it is one but for rounding.
+
+        What is at the foot but for rounding holds nothing, and is left out.
+        """
+        levels = [0.0, *(top for _, top, _, _ in self._sections)]
+        first = len(levels)
         for height in self.tie_heights:
             levels.append(next((level for level in levels if self._is_at(level, height)), height))
-        return tuple(levels[len(self._sections) :])
+        return tuple(level for level in levels[first:] if level)
 
     def _is_at(self, level: float, height: float) -> bool:
         """Whether two heights [m] are one but for rounding, between which no part is thick enough to move by itself."""
