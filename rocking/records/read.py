@@ -75,7 +75,8 @@ def read(
         Time between two samples, s, needed where the file does not declare it; refused where it declares
         otherwise.
     inventory : str, Path or None, optional
-        StationXML of a miniSEED or SAC file; None: the one next to it that names the same station.
+        StationXML, dataless SEED or RESP of a miniSEED or SAC file; None: the StationXML next to it that names the same
+        station.
     response : {'sensitivity', 'full'}, default 'sensitivity'
         "sensitivity" divides counts by the overall sensitivity; "full" removes the whole instrument response.
 

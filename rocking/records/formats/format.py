@@ -52,13 +52,13 @@ _UNDECLARED = "{} is not declared, neither in the file nor by the caller; {}."
 class Options:
     """The facts that a caller declares for the file: used where the file is silent, refused where it says otherwise.
 
-    unit: of the numbers. time_step: s. inventory: a StationXML file; folder: where to look for one. response: whether
-    counts are divided by the overall sensitivity or the full response is removed. file: its name, whose ending may
-    speak of another quantity. layouts: the answers to what tables hold; None: those in the folder. described: files of
-    StationXML that are looked into before those of the folder. scale_factor: by which the caller will multiply the
-    samples, which one below 1 may bring within the limits of a ground motion. is_stand_in: whether unit or time step
-    only stand in for what nobody declares, so that a name that says otherwise is right. Raises RecordError for an
-    unknown unit or response, or a time step that is not positive.
+    unit: of the numbers. time_step: s. inventory: what describes the instrument; folder: where to look for its
+    StationXML. response: whether counts are divided by the overall sensitivity or the full response is removed. file:
+    its name, whose ending may speak of another quantity. layouts: the answers to what tables hold; None: those in the
+    folder. described: files of StationXML that are looked into before those of the folder. scale_factor: by which the
+    caller will multiply the samples, which one below 1 may bring within the limits of a ground motion. is_stand_in:
+    whether unit or time step only stand in for what nobody declares, so that a name that says otherwise is right.
+    Raises RecordError for an unknown unit or response, or a time step that is not positive.
     """
 
     unit: str | None = None
