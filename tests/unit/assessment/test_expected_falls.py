@@ -12,6 +12,7 @@ from rocking.assessment.rows import (
     falls_over,
     falls_under,
     interval_of_mean,
+    worst_period_each,
 )
 from rocking.earthquakes.sample import Sample
 from tests.unit.assessment.made_rows import broken, case, station, verdicts
@@ -163,3 +164,8 @@ def test_stations_of_one_earthquake_say_no_more_than_their_mean() -> None:
     apart = interval_of_mean(falls, 50, Sample.scattered("abcdef"))
     assert of_means[0] < apart[0] and apart[1] < of_means[1]
     assert interval_of_mean(falls, 50, Sample(tuple("abcdef"), ("one",) * 6)) == (0.0, 50.0)
+
+
+def test_the_worst_verdict_comes_first() -> None:
+    stations = [station(case("EW", 0.1, "arch", falls=0)), station(case("EW", math.inf, "pier", falls=64))]
+    assert [row.structure for row in worst_period_each(verdicts(stations, "a"))] == ["pier", "arch"]

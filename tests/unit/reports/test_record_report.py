@@ -496,3 +496,10 @@ def test_every_figure_that_a_campaign_measured_names_where_it_stands():
         assert (root / figure.source).exists()
         page = (root / "docs" / "pages" / figure.page).read_text(encoding="utf-8")
         assert NUMBER.findall(figure.figure)[0] in page
+
+
+@pytest.mark.parametrize(("pulse_like", "printed"), [(True, "yes"), (False, "no")])
+def test_whether_a_record_is_pulse_like_is_printed(example, pulse_like, printed):
+    rows = [replace(row, velocity_pulse_like=pulse_like) for row in example.tables.record]
+    texts = texts_of(with_tables(example, record=rows))
+    assert texts.count(printed) >= len(rows) and {"yes": "no", "no": "yes"}[printed] not in texts
