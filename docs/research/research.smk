@@ -52,7 +52,7 @@ TARGETS_OF_RESEARCH = {
     "voussoirs": (
         "Hold arches and portals that stand beside other chains of stones, and beside LMGC90",
         [*REAL_RECORDS, f"{HOME}/records/catalogue.csv"],
-        ["voussoirs.csv", "lmgc90.csv"],
+        ["voussoirs.csv", "disagreements.csv", "lmgc90.csv"],
     ),
     "stand": (
         "Hold verdicts with and without contact dynamics against stacks",

@@ -2,15 +2,18 @@
 
 Arches with and without fill, with the voussoirs that they state or without, arches on piers and frames of two columns
 are drawn, and each stands under a real motion. What is said to stand, or probably to, by the package or by its
-mechanism alone, is followed as stones of other numbers and at finer steps than `fidelity: contact` takes. Nothing was
-chosen on these. A share of them LMGC90 follows as well, below and above the level at which they fall.
+mechanism alone, is followed as stones of other numbers and at finer steps than `fidelity: contact` takes. Of arches
+whose mechanism does not stand, on joints of several frictions, the runs of a study are held beside such stones. Nothing
+was chosen on these. A share of them LMGC90 follows as well, below and above the level at which they fall.
 """
 
 import json
 import sys
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
 from functools import partial
+from itertools import product
 from typing import Any, Literal
 
 import numpy as np
@@ -21,7 +24,7 @@ from docs.research.comparison.bodies import RigidBodies, properties, rectangle
 from docs.research.comparison.bodies import rigid_bodies as bodies_of_voussoirs
 from docs.research.comparison.codes import Question, ask
 from docs.research.comparison.lmgc90 import FALLEN, follow
-from docs.research.report import Target
+from docs.research.report import Tables, Target
 from docs.research.sites import (
     SiteRecord,
     Trial,
@@ -34,12 +37,16 @@ from docs.research.sites import (
 )
 from docs.research.stacks import strong_part
 from rocking import Arch, ArchOnPiers, Block, Frame, Verdict, assess
-from rocking.assessment.decide import decide
+from rocking.assessment.contacts import contact_share
+from rocking.assessment.decide import Facts, decide
+from rocking.assessment.ensemble import ensemble
+from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.contacts.dynamics import follow_stack
-from rocking.errors import StructureError
+from rocking.errors import RockingError, StructureError
 from rocking.quantities import GRAVITY
-from rocking.structures.joints import USUAL
+from rocking.records import Accelerogram
+from rocking.structures.joints import USUAL, Joints
 from rocking.structures.stones import Stone, Stones
 from rocking.tables import column, row
 
@@ -47,6 +54,13 @@ CAMPAIGN = 14
 """Structures and scales are drawn anew for each campaign."""
 TRIALS = {"arch": 8, "arch on piers": 2, "frame of two columns": 3}
 """Under one component of each site."""
+ON_FRICTION = ("arch", "arch on piers", "arch", "arch")
+"""Under one component of each site: on FRICTIONS in turn, first the one whose turn it is at the site."""
+FRICTIONS = (0.4, 0.5, 0.6)
+LIMITS = 1.3 * 1.15 ** np.arange(16)
+"""Peak acceleration over that of uplift at which the level is sought at which the mechanism no longer stands."""
+BEYOND = (1.0, 1.1)
+"""That level is multiplied by, so that stones stand in some cases and fall in others."""
 UPLIFTS = {"arch": (1.1, 3.0), "arch on piers": (1.1, 3.0), "frame of two columns": (1.1, 5.0)}
 """Ranges of peak acceleration over the least uplift acceleration to which records are scaled, log-uniform."""
 MOST = 1.5
@@ -90,6 +104,25 @@ class StonesTrial(Trial):
     true_runs: int | None = column("True chains of stones that were followed")
     turn_rad: float = column("Largest turn of a stone of these, as far as it was followed, rad")
     verdict_s: float = column("CPU time of the verdict, s")
+
+
+@row(
+    "disagreements",
+    "One row per arch whose mechanism does not stand: the runs of a study, and the true stones",
+)
+class DisagreementTrial(Trial):
+    """One trial. The record is that stretch of it which LMGC90 is given, too."""
+
+    friction: float = column("Friction of its joints")
+    voussoirs: int | None = column("Voussoirs that the arch states; empty: none")
+    multiplier: float = column("Uplift multiplier: ground acceleration over g")
+    mechanism: Verdict = column("What the members of its mechanism say")
+    member_falls: int = column("Members that overturn, of the number in the settings")
+    verdict: Verdict = column("What they and the chains of stones of a study say")
+    stack_falls: int = column("Chains of stones of a study that fall in contact dynamics")
+    stack_runs: int = column("Chains of stones that contact dynamics followed")
+    true_falls: int = column("True chains of stones that fall")
+    true_runs: int = column("True chains of stones that were followed")
 
 
 @row("lmgc90", "One row per arch and level of its motion, near that at which it falls as stones")
@@ -147,11 +180,11 @@ DRAWN: dict[str, Callable[[np.random.Generator], Arch | Frame]] = {
 }
 
 
-def drawn(kind: str, draw: np.random.Generator) -> Arch | Frame:
+def drawn(kind: str, draw: np.random.Generator, joints: Joints = USUAL) -> Arch | Frame:
     """Return the first structure drawn that stands and rocks below MOST. Raises StructureError where none does."""
     for _ in range(DRAWS):
         try:
-            structure = DRAWN[kind](draw)
+            structure = DRAWN[kind](draw).on_joints(joints)
         except StructureError:
             continue  # drawn so that it does not stand at rest
         if 0.02 < structure.static_multiplier < MOST / UPLIFTS[kind][0]:
@@ -170,14 +203,25 @@ def voussoirs(target: Target) -> None:
             )
         own = [trial.verdict for trial in trials if trial.structure == kind]
         target.tell(f"{kind}: {len(own)} trials, {own.count(Verdict.STANDS)} stand")
+    apart: list[DisagreementTrial] = []
+    for place, component in enumerate(components):
+        name = f"{component.identifier} on its joints"
+        apart += target.kept(DisagreementTrial, name, disagreement_trials(component, place))
+        target.tell(f"{component.identifier}: {len(apart)} arches whose mechanism does not stand")
     checks: list[CheckedTrial] = []
     for place, component in enumerate(components[:CHECKED]):
         name = f"{component.identifier} in LMGC90"
         checks += target.kept(CheckedTrial, name, checked_trials(component, place))
         target.tell(f"{component.identifier}: {len(checks)} runs of LMGC90")
     subtitle = "Arches, arches on piers and frames of two columns, beside other chains of stones and LMGC90."
-    found = [*stones_scores(trials), *checked_scores(checks)]
-    target.publish("Stones", subtitle, {StonesTrial: trials, CheckedTrial: checks, scores.Score: found})
+    found = [*stones_scores(trials), *disagreement_scores(apart), *checked_scores(checks)]
+    tables: Tables = {
+        StonesTrial: trials,
+        DisagreementTrial: apart,
+        CheckedTrial: checks,
+        scores.Score: found,
+    }
+    target.publish("Stones", subtitle, tables)
 
 
 def stones_trials(component: SiteRecord, kind: str) -> Iterator[StonesTrial]:
@@ -269,6 +313,83 @@ def stones_scores(trials: Sequence[StonesTrial]) -> Iterator[scores.Score]:
         yield from scores.scored(str(kind), "all trials", measures, sample_of(own.site, own.earthquake))
 
 
+def disagreement_trials(component: SiteRecord, place: int) -> Iterator[DisagreementTrial]:
+    """Yield the arches of ON_FRICTION whose mechanism does not stand under the stretch at the level sought for it."""
+    for turn, kind in enumerate(ON_FRICTION):
+        joints = Joints(FRICTIONS[(place + turn) % len(FRICTIONS)])
+        draw = draw_of(component.identifier, CAMPAIGN + 1, turn)
+        with suppress(RockingError):
+            structure = drawn(kind, draw, joints)
+            beyond = float(draw.uniform(*BEYOND))
+            trial = disagreement_trial(component, kind, structure, beyond)
+            if trial is not None:
+                yield trial
+
+
+def disagreement_trial(
+    component: SiteRecord, kind: str, structure: Arch | Frame, beyond: float
+) -> DisagreementTrial | None:
+    """Return one trial, its level `beyond` times that at which the mechanism no longer stands; None where it stands."""
+    record = component.accelerogram
+    multiplier = structure.static_multiplier
+    unit = strongest(record).scaled(multiplier * GRAVITY / record.peak_acceleration)
+    settings = AssessmentSettings()
+
+    def facts_at(level: float) -> Facts:
+        motions = GroundMotions.of(unit.scaled(level))
+        members = ensemble(structure.mechanism(), motions, settings.ensemble, verdict_only=True, grows=False)
+        joints = structure.joints
+        of_members = (members.facts(),)
+        return Facts(cracks=of_members, as_stones=joints.as_stones, hinges_migrate=joints.hinges_migrate)
+
+    levels = (level for level in LIMITS.tolist() if decide(facts_at(level)).word not in STANDING)
+    limit = next(levels, None)
+    if limit is None:
+        return None
+    facts = facts_at(beyond * limit)
+    mechanism = decide(facts).word
+    if mechanism in STANDING:
+        return None
+    motion = unit.scaled(beyond * limit)
+    share = contact_share(structure, GroundMotions.of(motion), settings)
+    falls = [
+        follow_stack(stones, motion.scaled(amplitude), min(step, stones.longest_step)).falls
+        for stones, step, amplitude in true_stones(structure)
+    ]
+    return DisagreementTrial(
+        **component.named,
+        structure=kind,
+        scale_factor=float(motion.peak_acceleration / record.peak_acceleration),
+        friction=structure.joints.friction,
+        voussoirs=getattr(structure, "voussoirs", None),
+        multiplier=multiplier,
+        mechanism=mechanism,
+        member_falls=facts.cracks[0].falls,
+        verdict=decide(replace(facts, stacks=(share.falls, share.runs))).word,
+        stack_falls=share.falls,
+        stack_runs=share.runs,
+        true_falls=sum(falls),
+        true_runs=len(falls),
+    )
+
+
+def disagreement_scores(trials: Sequence[DisagreementTrial]) -> Iterator[scores.Score]:
+    """Yield the shares of which some true stones fall, by the runs of a study and by friction."""
+    if not trials:
+        return
+    every = pd.DataFrame(trials)
+    of_runs = {
+        "none of its runs falls": every.stack_falls == 0,
+        "some of its runs fall": every.stack_falls > 0,
+    }
+    for (runs, has), friction in product(of_runs.items(), (None, *FRICTIONS)):
+        own = every[has if friction is None else has & (every.friction == friction)]
+        if not own.empty:
+            subject = "an arch that does not stand as a mechanism" + (f", on {friction}" if friction else "")
+            measures = {"some true stones fall": (own.true_falls > 0).astype(float).to_numpy()}
+            yield from scores.scored(subject, runs, measures, sample_of(own.site, own.earthquake))
+
+
 @dataclass(frozen=True)
 class CheckedArch:
     """An arch of voussoirs, on piers where their width and height are given, as LMGC90 follows it: m, rad."""
@@ -358,16 +479,21 @@ def checked_arch(draw: np.random.Generator, on_piers: bool) -> CheckedArch:
     raise StructureError(f"none of {DRAWS} drawn arches stands; draw them in other sizes.")
 
 
+def strongest(record: Accelerogram) -> Accelerogram:
+    """Return the CHECKED_SECONDS of a record about its peak."""
+    peak = int(np.abs(record.acceleration).argmax())
+    span = round(CHECKED_SECONDS / record.time_step)
+    start = max(peak - span // 2, 0)
+    return replace(record, acceleration=record.acceleration[start : start + span])
+
+
 def checked_trials(component: SiteRecord, place: int) -> Iterator[CheckedTrial]:
     """Yield the runs of both codes of one arch, below and above the level at which its stones fall."""
     record = component.accelerogram
     draw = draw_of(component.identifier, CAMPAIGN, len(TRIALS), place)
     of_arch = checked_arch(draw, place % ON_PIERS == ON_PIERS - 1)
     stones = of_arch.stones
-    strongest = int(np.abs(record.acceleration).argmax())
-    span = round(CHECKED_SECONDS / record.time_step)
-    start = max(strongest - span // 2, 0)
-    stretch = replace(record, acceleration=record.acceleration[start : start + span])
+    stretch = strongest(record)
     unit = stretch.scaled(stones.resting_multiplier * GRAVITY / stretch.peak_acceleration)
     step = CHECKED_STEP / 2
     limit = next((level for level in LEVELS if follow_stack(stones, unit.scaled(level), step).falls), None)

@@ -70,11 +70,8 @@ class Conclusion:
         """What to do about it; where there is nothing to do, what explains the word."""
         decision = self.verdict.decision
         word = decision.word
-        falls = self.verdict.stack_falls
-        runs = self.verdict.stack_runs
-        # A range whose upper end is that of contact dynamics is not one of cracks.
-        if falls and runs and falls / runs == decision.interval[1] > decision.interval[0]:
-            return Remark.of(AssessmentKind.STACKS_FALL, falls=falls, runs=runs)
+        if decision.other_model is not None:
+            return decision.other_model
         if not math.isnan(self.verdict.friction_needed):
             return self._sliding(self.verdict.friction_needed)
         if decision.would_settle and not word.is_sure:
@@ -85,7 +82,7 @@ class Conclusion:
         if shares and "–" in (share := percents(*shares)):
             return Remark.of(AssessmentKind.OTHER_PERIODS, share=share)
         # Runs of contact dynamics are on the friction that it has.
-        if self.case is not None and self.case.slides and not runs:
+        if self.case is not None and self.case.slides and not self.verdict.stack_runs:
             return self._sliding(self.case.required_friction)
         falls = self.ratios[-1] == math.inf
         if word is Verdict.PROBABLY_OVERTURNS and not falls:

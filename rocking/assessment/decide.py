@@ -201,8 +201,8 @@ class CrackFacts:
 
     def step_at_worst(self, risk: float) -> Verdict:
         """Return the word of its members if so many more overturn as the error of their share covers."""
-        falls = min(self.falls + self.failed + int(LATTICE_ERROR), self.members)
-        return step(falls=falls, members=self.members, risk=risk)
+        falls = self.falls + self.failed + math.ceil(self.share_error * self.members)
+        return step(falls=min(falls, self.members), members=self.members, risk=risk)
 
     def step_of_followed(self, risk: float) -> Verdict:
         """Return the word of those that were followed alone.
@@ -275,10 +275,10 @@ class Facts:
     acceleration [g] at which its joints slide where none of its cracks that count lifts before, and the motion reaches
     it; else nan. top: what its top needs and does not get, so that it slips; None where it holds, or there is none.
     stacks: stacks of courses that fall in contact dynamics, of how many; None where none was followed. as_stones: as
-    what chain of stones it is followed then, "as voussoirs"; "" where as a stack of courses. stackable: whether contact
-    dynamics can follow it and has not done so yet. remarks: what would reduce the disagreement of the members.
-    failures: why components gave no result. risk: largest probability of the outcome opposite to "stands" or
-    "overturns". Raises ValueError.
+    what chain of stones it is followed then, "as voussoirs"; "" where as a stack of courses. hinges_migrate: whether
+    hinges of these would move in flight, which its mechanism leaves. stackable: whether contact dynamics can follow it
+    and has not done so yet. remarks: what would reduce the disagreement of the members. failures: why components gave
+    no result. risk: largest probability of the outcome opposite to "stands" or "overturns". Raises ValueError.
     """
 
     cracks: tuple[CrackFacts, ...] = ()
@@ -289,6 +289,7 @@ class Facts:
     top: Remark | None = None
     stacks: tuple[int, int] | None = None
     as_stones: str = ""
+    hinges_migrate: bool = False
     stackable: bool = True
     remarks: tuple[Remark, ...] = ()
     failures: tuple[str, ...] = ()
@@ -348,8 +349,10 @@ class Decision:
     would_settle : tuple of Remark, optional
         What would tell more.
     by_stacks_alone : bool, default False
-        Whether contact dynamics says worse than its mechanisms, and no better than uncertain: how far their
-        members are from falling then says nothing of it.
+        Whether contact dynamics says worse than its mechanisms, and no better than uncertain, or answers in their
+        place: how far their members are from falling then says nothing of it.
+    other_model : Remark or None, default None
+        How many fall by the model that does not make the share: contact dynamics, or the mechanism.
 
     Examples
     --------
@@ -365,6 +368,7 @@ class Decision:
     doubts: tuple[Remark, ...] = ()
     would_settle: tuple[Remark, ...] = ()
     by_stacks_alone: bool = False
+    other_model: Remark | None = None
 
     @property
     def remark(self) -> Remark | None:
@@ -451,7 +455,9 @@ def decide(facts: Facts, limits: Iterable[Limit] = ()) -> Decision:
     """Return the decision on `facts`, and on what evidence sets against them.
 
     The step of a crack is the word of its members (`step`), those that failed counted as falling. The first of rows 1
-    to 7 whose test holds names the word of the mechanisms; rows 8 to 10 make it worse, and never safer.
+    to 7 whose test holds names the word of the mechanisms; rows 8 to 10 make it worse, and never safer, but where the
+    stones of an arch were followed and none of these falls: they then answer in place of its mechanism, which leaves
+    its hinges where they are and has another restitution (docs/pages/validation.md).
 
     ===  ================================================================  =============================================
     row  facts                                                             word
@@ -470,15 +476,17 @@ def decide(facts: Facts, limits: Iterable[Limit] = ()) -> Decision:
     7    a crack without one member, or only with the members that failed  cannot be told
          does it (probably) overturn
     8    limits that the runs of contact dynamics do not lift              no safer than each
-    9    contact dynamics ran                                              no safer than its step
+    9    contact dynamics ran                                              no safer than its step; of stones of which
+                                                                           none falls that alone, with the limits
     10   a limit at which nothing can be told, or a component is missing   cannot be told, unless it falls anyway
     ===  ================================================================  =============================================
 
     A crack that slides first is left out where another lifts; where its members would make a worse word, it is a doubt
     with every word better than probably overturns.
     A further limit, failure or fall never makes the word safer, nor the share smaller. The share is the largest among
-    the cracks that count and the stacks, members that failed counted as falling: at it, the members of the crack or the
-    stacks that make the word have a step no safer than the word. Row 5 and limits are of the word, not of the share.
+    the cracks that count and the stacks, members that failed counted as falling, and that of the stones where these
+    answer: at it, the members of the crack or the stacks that make the word have a step no safer than the word. It is
+    of one model, and the mark of the other one stands next to it. Row 5 and limits are of the word, not of the share.
     Under row 7 the share is empty, and its interval reaches from the members that fall to those that fall or failed;
     under row 10 from the share at least to 1.
     """
@@ -498,33 +506,31 @@ def decide(facts: Facts, limits: Iterable[Limit] = ()) -> Decision:
     if ends:
         return replace(alone, doubts=_in_order(doubts))
 
+    by_stones = False
+    if facts.stacks is not None:
+        fallen, runs = facts.stacks
+        of_stacks = step(falls=fallen, members=runs, risk=facts.risk)
+        by_stones = facts.hinges_migrate and bool(facts.as_stones) and not fallen
+        alone = _with_stacks(facts, alone, by_stones=by_stones)
+        doubts = doubts if not by_stones else [limit.doubt for limit in untold]
     why = alone.why
     share = alone.share
     interval = alone.interval
-    if facts.stacks is not None:
-        fallen, runs = facts.stacks
-        followed_as = f"runs {facts.as_stones}" if facts.as_stones else "stacks of courses"
-        why = f"{why}; {fallen} of {runs} {followed_as} fall in contact dynamics"
-        share = max(share, fallen / runs)
-        interval = interval[0], share
     if alone.word is Verdict.OVERTURNS:
-        return Decision(alone.word, share, interval, why, _in_order(doubts))
+        return replace(alone, doubts=_in_order(doubts), would_settle=())
     # 8
     word = worse(alone.word, *(limit.at_best for limit in limiting))
     doubts += [limit.doubt for limit in limiting]
     would_settle = (*alone.would_settle, *_settling(facts, limiting))
     # 9
     if facts.stacks is not None:
-        of_stacks = step(falls=fallen, members=runs, risk=facts.risk)
         if of_stacks.badness > word.badness and runs < UNANIMOUS and not fallen:
             # More runs of which none falls would say more.
             would_settle = (*would_settle, Remark(AssessmentKind.CONTACT_DYNAMICS))
-        if of_stacks is not word:
-            interval = min(interval[0], fallen / runs), interval[1]
         word = worse(word, of_stacks)
     # 10: a mechanism that stands says nothing of what it does not follow.
     if word.badness < Verdict.PROBABLY_OVERTURNS.badness:
-        doubts += _left_out(facts)
+        doubts += () if by_stones else _left_out(facts)
         if untold:
             word = Verdict.CANNOT_BE_TOLD
             interval = interval[0], 1.0
@@ -541,8 +547,34 @@ def decide(facts: Facts, limits: Iterable[Limit] = ()) -> Decision:
         why,
         _in_order(doubts),
         would_settle,
-        by_stacks_alone=facts.stacks is not None and word.badness > by_mechanisms.badness,
+        by_stacks_alone=by_stones or (facts.stacks is not None and word.badness > by_mechanisms.badness),
+        other_model=alone.other_model,
     )
+
+
+def _with_stacks(facts: Facts, alone: Decision, *, by_stones: bool) -> Decision:
+    """The decision on the mechanisms with the share and the reason of the model that makes the word, next to the other.
+
+    by_stones: whether its stones answer in its place.
+    """
+    assert facts.stacks is not None
+    fallen, runs = facts.stacks
+    followed_as = f"runs {facts.as_stones}" if facts.as_stones else "stacks of courses"
+    counted = f"{fallen} of {runs} {followed_as} fall in contact dynamics"
+    share = fallen / runs
+    members = facts.governing.count if facts.governing else f"{alone.share:.0f} of 1"
+    other_model = None
+    if share < alone.share and not by_stones:
+        other_model = Remark.of(AssessmentKind.STACKS_FALL, falls=fallen, runs=runs)
+    elif share != alone.share:
+        other_model = Remark.of(AssessmentKind.MECHANISM_FALLS, members=members)
+    if by_stones:
+        why = f"{counted}; its mechanism: {alone.why}"
+        return Decision(Verdict.STANDS, share, (share, share), why, other_model=other_model)
+    why = f"{alone.why}; {counted}"
+    largest = max(share, alone.share)
+    interval = alone.interval if largest == alone.share else (share, share)
+    return replace(alone, share=largest, interval=interval, why=why, other_model=other_model)
 
 
 def _settling(facts: Facts, limits: Sequence[Limit]) -> tuple[Remark, ...]:

@@ -59,6 +59,7 @@ class AssessmentKind(Kind):
     STANDS_AS_RECORDED = auto(), "as recorded it stands", "as recorded: stands"
     STACKS_FALL = auto(), """in contact dynamics {falls} of {runs} runs
         fall""", "contact dynamics: {falls} of {runs} fall"
+    MECHANISM_FALLS = auto(), "as a mechanism {members} fall", "as a mechanism: {members} fall"
     STRENGTHEN = auto(), "strengthen or tie it", "strengthen"
     SEATS = auto(), """lengthen or tie the bearings of what lies on it: some lose them
         (support_loss_m)""", "bearings lost"

@@ -69,7 +69,7 @@ def _note(in_words: bool, more: int, still: Sequence[str]) -> tuple[str, ...]:
     share = "Share: the largest that overturns, of members or stacks." if in_words else ""
     return (
         share,
-        "Range: cracks or models disagree.",
+        "Range: cracks disagree.",
         f"Another {more} in verdicts.csv." if more > 0 else "",
         f"Nothing lifts under {listed(still)}." if still else "",
     )

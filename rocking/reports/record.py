@@ -394,7 +394,7 @@ def _legend(report: RecordReport, drawn: Sequence[Conclusion]) -> str:
     """What the columns mean, and what page two explains. drawn: the structures that have a row."""
     sentences = [
         _reserve_in_words(drawn),
-        "Members vary motion and restitution; a range: cracks or models disagree; grey: mechanism alone.",
+        "Members vary motion and restitution; a range: cracks disagree; grey: mechanism alone.",
     ]
     if any(conclusion.verdict.decision.word is Verdict.CANNOT_BE_TOLD for conclusion in report.conclusions):
         sentences.append("Hatched: what was left out may decide.")

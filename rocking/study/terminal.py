@@ -124,7 +124,7 @@ def closing_lines(
         )
         yield f"{line}{conclusion.verdict.decision.word} {conclusion.verdict.decision.share_in_words}".rstrip()
     if any("–" in conclusion.verdict.decision.share_in_words for conclusion in worst[:_WORST]):
-        yield "A range: two cracks, or the mechanism and contact dynamics, disagree."
+        yield "A range: two cracks disagree."
     others = [
         (conclusion.verdict.decision.word, _cut(conclusion.verdict.structure, 30))
         for conclusion in worst[_WORST:]

@@ -121,8 +121,9 @@ def decide(facts: AllFacts) -> Decision:
         fallen, runs = facts.stacks
         followed_as = f"runs {facts.as_stones}" if facts.as_stones else "stacks of courses"
         why = f"{why}; {fallen} of {runs} {followed_as} fall in contact dynamics"
+        # since then: the interval is that of the model of the larger share
+        interval = interval if fallen / runs <= share else (fallen / runs, fallen / runs)
         share = max(share, fallen / runs)
-        interval = interval[0], share
 
     # 8
     if word is Verdict.OVERTURNS:
@@ -153,8 +154,6 @@ def decide(facts: AllFacts) -> Decision:
                 *would_settle,
                 Remark(AssessmentKind.CONTACT_DYNAMICS),
             )  # more runs of which none falls would say more
-        if of_stacks is not word:
-            interval = min(interval[0], fallen / runs), interval[1]
         word = worse(word, of_stacks)
     if word.badness < Verdict.PROBABLY_OVERTURNS.badness:
         doubts = (*doubts, *left_out)

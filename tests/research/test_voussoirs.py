@@ -12,9 +12,11 @@ from docs.research.sites import SiteRecord
 from docs.research.voussoirs import (
     DRAWN,
     CheckedTrial,
+    DisagreementTrial,
     StonesTrial,
     checked_arch,
     checked_scores,
+    disagreement_scores,
     drawn,
     stones_scores,
     true_stones,
@@ -109,6 +111,47 @@ def test_one_true_run_that_falls_counts_as_a_fall():
     assert value(scores, '"probably stands"', falls) == (0.0, 1)
     assert value(scores, '"stands" by its mechanism', falls) == (0.25, 4)
     assert value(scores, "all trials", '"stands"') == (0.6, 5)
+
+
+def test_shares_are_of_arches_of_whose_runs_none_falls_or_some_do_by_friction():
+    """One true chain that falls counts, and an interval is by earthquake."""
+    one = DisagreementTrial(
+        record="a",
+        site="a site",
+        earthquake="one",
+        structure="arch",
+        scale_factor=1.0,
+        friction=0.4,
+        voussoirs=None,
+        multiplier=0.2,
+        mechanism=Verdict.UNCERTAIN,
+        member_falls=30,
+        verdict=Verdict.PROBABLY_STANDS,
+        stack_falls=0,
+        stack_runs=18,
+        true_falls=0,
+        true_runs=3,
+    )
+    other = replace(one, site="another", earthquake="two", friction=0.6, true_falls=1)
+    trials = [one, other, replace(other, stack_falls=3, true_falls=3)]
+    found = {(score.subject, score.part): score for score in disagreement_scores(trials)}
+    subject = "an arch that does not stand as a mechanism"
+    of_all = found[subject, "none of its runs falls"]
+    assert (of_all.value, of_all.cases, of_all.earthquakes) == (0.5, 2, 2)
+    assert found[f"{subject}, on 0.4", "none of its runs falls"].value == 0.0
+    assert found[subject, "some of its runs fall"].value == 1.0
+    assert not list(disagreement_scores([]))
+
+
+@pytest.mark.slow
+def test_a_disagreement_is_at_a_level_at_which_the_mechanism_does_not_stand():
+    component = SiteRecord("made", "a site", "made", SINE)
+    found = list(voussoirs.disagreement_trials(component, 0))
+    assert found
+    for trial in found:
+        assert trial.friction in voussoirs.FRICTIONS and trial.mechanism not in voussoirs.STANDING
+        assert (trial.verdict is Verdict.PROBABLY_STANDS) is (trial.stack_falls == 0)
+        assert trial.true_runs == 3
 
 
 def test_what_lmgc90_did_not_answer_counts_for_nothing():
