@@ -17,8 +17,8 @@ from rocking.quantities import GRAVITY
 from rocking.sine_pulse import overturning_amplitudes
 from rocking.structures.arch import Arch
 from rocking.structures.block import Spire
-from rocking.structures.cracks import Candidate
 from rocking.structures.mechanism import Scale, Side
+from rocking.structures.structure import Candidate
 from rocking.structures.wall import Wall
 from rocking.tables import Row, column, row
 

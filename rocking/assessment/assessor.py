@@ -44,7 +44,7 @@ from rocking.motion.integration import integrate
 from rocking.records import Accelerogram
 from rocking.signal import aligned
 from rocking.structures import Structure
-from rocking.structures.cracks import CRACKS
+from rocking.structures.structure import CRACKS
 
 T = TypeVar("T")
 I = TypeVar("I", bound=Inputs)

@@ -32,7 +32,7 @@ from rocking.records import Accelerogram
 from rocking.remarks import Remark
 from rocking.sine_pulse import AsPrinted, Maximum
 from rocking.structures import EquivalentBlock, Outcome, Structure
-from rocking.structures.cracks import Candidate
+from rocking.structures.structure import Candidate
 
 DECISIVE = ("responses", "directions")
 """Stages whose failure leaves a structure without a result; the others only leave out a comparison."""

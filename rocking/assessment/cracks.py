@@ -24,7 +24,7 @@ from rocking.motion.table import table_of
 from rocking.remarks import Remark
 from rocking.structures import Structure
 from rocking.structures.crackable import WEAK_MASONRY
-from rocking.structures.cracks import CRACKS, Candidate, with_geometry
+from rocking.structures.structure import CRACKS, Candidate, with_geometry
 
 IN_DOUBT = 0.3
 """Rotation ratio of a member beyond which it is in doubt that a mechanism other than that of statics stands."""

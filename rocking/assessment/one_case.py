@@ -43,7 +43,7 @@ from rocking.pulses import Pulse, PulseEvidence, predicting_pulse
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_as_printed, predict_maximum
 from rocking.structures import Mechanism, Outcome, Structure
-from rocking.structures.cracks import Candidate
+from rocking.structures.structure import Candidate
 
 
 @dataclass

@@ -14,7 +14,7 @@ from rocking.codes.kinds import CheckKind
 from rocking.quantities import GRAVITY
 from rocking.remarks import Remark
 from rocking.structures.capacity import StaticCapacity
-from rocking.structures.cracks import Candidate
+from rocking.structures.structure import Candidate
 
 _MOST_FALL = 0.5
 """Share of the largest capacity in acceleration by which it may fall as a part breaks (C8.7.1.2.1.6)."""

@@ -23,9 +23,9 @@ from rocking.quantities import GRAVITY, kind_of, positive
 from rocking.remarks import Phrase, Remark
 from rocking.structures import Structure
 from rocking.structures.crackable import Crackable
-from rocking.structures.cracks import AS_DESCRIBED, Candidate
 from rocking.structures.joints import USUAL
 from rocking.structures.leaves import parts_of
+from rocking.structures.structure import AS_DESCRIBED, Candidate
 
 _SAME = 1e-9
 """Relative difference below which two levels are one but for rounding: the mechanism that is named first decides."""

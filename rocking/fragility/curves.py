@@ -37,7 +37,7 @@ from rocking.quantities import GRAVITY, counted, listed
 from rocking.records import Accelerogram
 from rocking.signal.measures import peak_velocity
 from rocking.structures import EquivalentBlock, Mechanism, Structure
-from rocking.structures.cracks import Candidate
+from rocking.structures.structure import Candidate
 from rocking.structures.unknown_geometry import as_structure
 from rocking.tables import check_target, write_whole
 

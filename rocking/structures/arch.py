@@ -30,11 +30,11 @@ from rocking.structures.arch_mechanism import (
 )
 from rocking.structures.arch_ring import EXTRADOS, INTRADOS, PATTERN, Bars, Fill, Piers, Ring
 from rocking.structures.crackable import Crackable, unplaced
-from rocking.structures.cracks import Candidate
 from rocking.structures.drawing import Path, plane, span, swept
 from rocking.structures.fields import OptionalUnitWeight, Value, count, length, restitution_value
 from rocking.structures.linkage import PRESSED, STILL, Restitution, momentum_balance
 from rocking.structures.stones import Stones, chain, counted_voussoirs
+from rocking.structures.structure import Candidate
 
 _CRUSHINGS = 60
 _CRUSHED_ALIKE = 1e-14

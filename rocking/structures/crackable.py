@@ -11,11 +11,10 @@ import numpy as np
 
 from rocking.errors import DoesNotStandError, SizeError, StructureError, StructureWarning
 from rocking.remarks import Phrase, Remark
-from rocking.structures.cracks import CRACKS, Candidate, by_multiplier
 from rocking.structures.fields import CompressiveStrength, Value
 from rocking.structures.kinds import StructureKind
 from rocking.structures.linkage import HIGHEST_SHARE
-from rocking.structures.structure import Structure
+from rocking.structures.structure import CRACKS, Candidate, Structure, by_multiplier
 
 USUAL_WEIGHT = 20e3
 """Weight of masonry where none is given, N/m³."""

@@ -10,11 +10,10 @@ import numpy as np
 
 from rocking.errors import DoesNotStandError, SizeError, StructureWarning
 from rocking.remarks import Remark
-from rocking.structures.cracks import LeafAlone
 from rocking.structures.drawing import Mark, Path, plane, rectangle, span
 from rocking.structures.fields import Value, length
 from rocking.structures.kinds import StructureKind
-from rocking.structures.structure import Structure
+from rocking.structures.structure import LeafAlone, Structure
 
 LEAVES = {2: ("outer leaf", "inner leaf"), 3: ("outer leaf", "middle leaf", "inner leaf")}
 """What leaves are called from outside in, by their number."""

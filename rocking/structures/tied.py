@@ -15,7 +15,6 @@ from rocking.errors import DoesNotStandError, SizeError, StructureError, Structu
 from rocking.quantities import GRAVITY
 from rocking.remarks import Phrase, Remark
 from rocking.structures.crackable import CrackedAtHeight
-from rocking.structures.cracks import Candidate, every
 from rocking.structures.drawing import Bay, Mark, plane, rectangle
 from rocking.structures.fields import Value
 from rocking.structures.held_wall import LEAST_STIFFNESS, Chain, HeldWall, Hold, Opening
@@ -33,7 +32,7 @@ from rocking.structures.linkage import (
 )
 from rocking.structures.mechanism import Tie
 from rocking.structures.stack import Course, Held, Stop, course_at
-from rocking.structures.structure import Structure
+from rocking.structures.structure import Candidate, Structure, every
 
 UnitWeight = Annotated[float, Value("Weight of the masonry", 20.0, "kN/m³", (8, 30), bounds={"ge": 1e-6})]
 Eccentricity = Annotated[

@@ -28,9 +28,9 @@ from rocking.remarks import Remark
 from rocking.reports.pages import Fact, PageSettings
 from rocking.signal.processing import Processing
 from rocking.signal.scaling import ScalingTarget
-from rocking.structures.cracks import CRACKS
 from rocking.structures.joints import USUAL, Joints
 from rocking.structures.kinds import StructureKind
+from rocking.structures.structure import CRACKS
 from rocking.tables.yaml_file import scalar_value
 
 if TYPE_CHECKING:

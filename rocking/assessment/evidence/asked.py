@@ -10,7 +10,7 @@ from rocking.assessment.decide import Facts, Limit, Verdict
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.structures import Structure
-from rocking.structures.cracks import Candidate
+from rocking.structures.structure import Candidate
 
 
 @dataclass(eq=False)

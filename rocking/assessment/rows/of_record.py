@@ -38,8 +38,8 @@ from rocking.errors import RockingError, one_structure
 from rocking.floors.place import FloorMeasures
 from rocking.remarks import Kind, Remark
 from rocking.sine_pulse import Regime
-from rocking.structures.cracks import Candidate
 from rocking.structures.linkage import Reaction
+from rocking.structures.structure import Candidate
 from rocking.tables import Columns, Row, column, row
 
 if TYPE_CHECKING:  # else who reads a table would load numba

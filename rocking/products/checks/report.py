@@ -41,7 +41,7 @@ from rocking.reports.style import picture
 from rocking.reports.variants import strips
 from rocking.structures import Structure
 from rocking.structures.crackable import Crackable
-from rocking.structures.cracks import AS_DESCRIBED, Candidate
+from rocking.structures.structure import AS_DESCRIBED, Candidate
 
 _OFTEN = 0.1
 """Share of the records beyond which a structure that is verified is said to contradict it."""

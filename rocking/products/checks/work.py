@@ -28,7 +28,7 @@ from rocking.products.checks.rows import KINDS, CodeCheckRow, code_check_rows
 from rocking.remarks import Remark
 from rocking.reports.pages import Panel, Section
 from rocking.reports.printing import sentence, strong, table_of, words, write_document
-from rocking.structures.cracks import Candidate
+from rocking.structures.structure import Candidate
 from rocking.study.documents import made_or_failed
 from rocking.study.job import Job, Study
 from rocking.study.kept import Rows

@@ -25,8 +25,8 @@ from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.contacts.dynamics import STEP, follow_stack
 from rocking.errors import MotionError, StructureError
 from rocking.quantities import GRAVITY
-from rocking.structures.cracks import Candidate
 from rocking.structures.joints import Joints
+from rocking.structures.structure import Candidate
 from rocking.structures.unknown_geometry import as_structure
 
 CONTACT = AssessmentSettings(fidelity="contact")

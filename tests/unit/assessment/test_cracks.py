@@ -31,8 +31,8 @@ from rocking.motion import integrate
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.structures import Arch, Block, Facade, LoadedWall, Spire, Wall
-from rocking.structures.cracks import AS_DESCRIBED
 from rocking.structures.joints import Joints
+from rocking.structures.structure import AS_DESCRIBED
 
 STEP, TIMES = 0.01, np.arange(0, 4, 0.01)
 SPIRE = Spire(width=3.0, height=15.0, wall_thickness=0.3)

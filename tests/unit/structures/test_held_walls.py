@@ -13,10 +13,10 @@ import rocking
 from rocking.errors import ConfigurationError, StructureError
 from rocking.quantities import GRAVITY
 from rocking.structures import Facade, LoadedWall
-from rocking.structures.cracks import Candidate
 from rocking.structures.held_wall import Chain, Opening
 from rocking.structures.kinds import StructureKind
 from rocking.structures.linkage import Hung, Parts
+from rocking.structures.structure import Candidate
 from tests.refusals import refused
 
 PER_STOREY = 5

@@ -29,8 +29,8 @@ from rocking.reports.explore import explore_page
 from rocking.reports.pages import Fact
 from rocking.reports.sentences import Sentences
 from rocking.reports.summary import summary_data
-from rocking.structures.cracks import AS_DESCRIBED
 from rocking.structures.kinds import StructureKind
+from rocking.structures.structure import AS_DESCRIBED
 from rocking.study.job import Study
 from rocking.study.kept import keep_rows, kept_conclusion
 from rocking.study.settings import Settings, read_settings
