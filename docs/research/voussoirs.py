@@ -338,9 +338,7 @@ def disagreement_trial(
     def facts_at(level: float) -> Facts:
         motions = GroundMotions.of(unit.scaled(level))
         members = ensemble(structure.mechanism(), motions, settings.ensemble, verdict_only=True, grows=False)
-        joints = structure.joints
-        of_members = (members.facts(),)
-        return Facts(cracks=of_members, as_stones=joints.as_stones, hinges_migrate=joints.hinges_migrate)
+        return Facts(cracks=(members.facts(),), as_stones=structure.joints.as_stones)
 
     levels = (level for level in LIMITS.tolist() if decide(facts_at(level)).word not in STANDING)
     limit = next(levels, None)

@@ -217,7 +217,6 @@ class CaseResult:
             top=next((top.remark for top in tops), None),
             stacks=(self.contact.falls, self.contact.runs) if self.contact and self.contact.runs else None,
             as_stones=body.joints.as_stones,
-            hinges_migrate=body.joints.hinges_migrate,
             stackable=self.contact is None and stackable(body),
             remarks=(
                 *([Remark(AssessmentKind.SEATS)] if self.seat_lost else []),

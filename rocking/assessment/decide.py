@@ -275,10 +275,10 @@ class Facts:
     acceleration [g] at which its joints slide where none of its cracks that count lifts before, and the motion reaches
     it; else nan. top: what its top needs and does not get, so that it slips; None where it holds, or there is none.
     stacks: stacks of courses that fall in contact dynamics, of how many; None where none was followed. as_stones: as
-    what chain of stones it is followed then, "as voussoirs"; "" where as a stack of courses. hinges_migrate: whether
-    hinges of these would move in flight, which its mechanism leaves. stackable: whether contact dynamics can follow it
-    and has not done so yet. remarks: what would reduce the disagreement of the members. failures: why components gave
-    no result. risk: largest probability of the outcome opposite to "stands" or "overturns". Raises ValueError.
+    what chain of stones it is followed then, "as voussoirs"; "" where as a stack of courses. stackable: whether
+    contact dynamics can follow it and has not done so yet. remarks: what would reduce the disagreement of the members.
+    failures: why components gave no result. risk: largest probability of the outcome opposite to "stands" or
+    "overturns". Raises ValueError.
     """
 
     cracks: tuple[CrackFacts, ...] = ()
@@ -289,7 +289,6 @@ class Facts:
     top: Remark | None = None
     stacks: tuple[int, int] | None = None
     as_stones: str = ""
-    hinges_migrate: bool = False
     stackable: bool = True
     remarks: tuple[Remark, ...] = ()
     failures: tuple[str, ...] = ()
@@ -349,8 +348,8 @@ class Decision:
     would_settle : tuple of Remark, optional
         What would tell more.
     by_stacks_alone : bool, default False
-        Whether contact dynamics says worse than its mechanisms, and no better than uncertain, or answers in their
-        place: how far their members are from falling then says nothing of it.
+        Whether contact dynamics says worse than its mechanisms, and no better than uncertain: how far their
+        members are from falling then says nothing of it.
     other_model : Remark or None, default None
         How many fall by the model that does not make the share: contact dynamics, or the mechanism.
 
@@ -455,9 +454,7 @@ def decide(facts: Facts, limits: Iterable[Limit] = ()) -> Decision:
     """Return the decision on `facts`, and on what evidence sets against them.
 
     The step of a crack is the word of its members (`step`), those that failed counted as falling. The first of rows 1
-    to 7 whose test holds names the word of the mechanisms; rows 8 to 10 make it worse, and never safer, but where the
-    stones of an arch were followed and none of these falls: they then answer in place of its mechanism, which leaves
-    its hinges where they are and has another restitution (docs/pages/validation.md).
+    to 7 whose test holds names the word of the mechanisms; rows 8 to 10 make it worse, and never safer.
 
     ===  ================================================================  =============================================
     row  facts                                                             word
@@ -476,19 +473,18 @@ def decide(facts: Facts, limits: Iterable[Limit] = ()) -> Decision:
     7    a crack without one member, or only with the members that failed  cannot be told
          does it (probably) overturn
     8    limits that the runs of contact dynamics do not lift              no safer than each
-    9    contact dynamics ran                                              no safer than its step; of stones of which
-                                                                           none falls that alone, with the limits
+    9    contact dynamics ran                                              no safer than its step
     10   a limit at which nothing can be told, or a component is missing   cannot be told, unless it falls anyway
     ===  ================================================================  =============================================
 
     A crack that slides first is left out where another lifts; where its members would make a worse word, it is a doubt
     with every word better than probably overturns.
     A further limit, failure or fall never makes the word safer, nor the share smaller. The share is the largest among
-    the cracks that count and the stacks, members that failed counted as falling, and that of the stones where these
-    answer: at it, the members of the crack or the stacks that make the word have a step no safer than the word. It is
-    of one model, and the mark of the other one stands next to it. Row 5 and limits are of the word, not of the share.
-    Under row 7 the share is empty, and its interval reaches from the members that fall to those that fall or failed;
-    under row 10 from the share at least to 1.
+    the cracks that count and the stacks, members that failed counted as falling: at it, the members of the crack or
+    the stacks that make the word have a step no safer than the word. It is of one model, and the mark of the other one
+    stands next to it. Row 5 and limits are of the word, not of the share. Under row 7 the share is empty, and its
+    interval reaches from the members that fall to those that fall or failed; under row 10 from the share at least to
+    1.
     """
     evidence = list(limits)
     several = sorted(
@@ -506,13 +502,8 @@ def decide(facts: Facts, limits: Iterable[Limit] = ()) -> Decision:
     if ends:
         return replace(alone, doubts=_in_order(doubts))
 
-    by_stones = False
     if facts.stacks is not None:
-        fallen, runs = facts.stacks
-        of_stacks = step(falls=fallen, members=runs, risk=facts.risk)
-        by_stones = facts.hinges_migrate and bool(facts.as_stones) and not fallen
-        alone = _with_stacks(facts, alone, by_stones=by_stones)
-        doubts = doubts if not by_stones else [limit.doubt for limit in untold]
+        alone = _with_stacks(facts, alone)
     why = alone.why
     share = alone.share
     interval = alone.interval
@@ -524,13 +515,15 @@ def decide(facts: Facts, limits: Iterable[Limit] = ()) -> Decision:
     would_settle = (*alone.would_settle, *_settling(facts, limiting))
     # 9
     if facts.stacks is not None:
+        fallen, runs = facts.stacks
+        of_stacks = step(falls=fallen, members=runs, risk=facts.risk)
         if of_stacks.badness > word.badness and runs < UNANIMOUS and not fallen:
             # More runs of which none falls would say more.
             would_settle = (*would_settle, Remark(AssessmentKind.CONTACT_DYNAMICS))
         word = worse(word, of_stacks)
     # 10: a mechanism that stands says nothing of what it does not follow.
     if word.badness < Verdict.PROBABLY_OVERTURNS.badness:
-        doubts += () if by_stones else _left_out(facts)
+        doubts += _left_out(facts)
         if untold:
             word = Verdict.CANNOT_BE_TOLD
             interval = interval[0], 1.0
@@ -547,16 +540,13 @@ def decide(facts: Facts, limits: Iterable[Limit] = ()) -> Decision:
         why,
         _in_order(doubts),
         would_settle,
-        by_stacks_alone=by_stones or (facts.stacks is not None and word.badness > by_mechanisms.badness),
+        by_stacks_alone=facts.stacks is not None and word.badness > by_mechanisms.badness,
         other_model=alone.other_model,
     )
 
 
-def _with_stacks(facts: Facts, alone: Decision, *, by_stones: bool) -> Decision:
-    """The decision on the mechanisms with the share and the reason of the model that makes the word, next to the other.
-
-    by_stones: whether its stones answer in its place.
-    """
+def _with_stacks(facts: Facts, alone: Decision) -> Decision:
+    """The decision on the mechanisms with the larger share of both models, and the count of the other one."""
     assert facts.stacks is not None
     fallen, runs = facts.stacks
     followed_as = f"runs {facts.as_stones}" if facts.as_stones else "stacks of courses"
@@ -564,13 +554,10 @@ def _with_stacks(facts: Facts, alone: Decision, *, by_stones: bool) -> Decision:
     share = fallen / runs
     members = facts.governing.count if facts.governing else f"{alone.share:.0f} of 1"
     other_model = None
-    if share < alone.share and not by_stones:
+    if share < alone.share:
         other_model = Remark.of(AssessmentKind.STACKS_FALL, falls=fallen, runs=runs)
-    elif share != alone.share:
+    elif share > alone.share:
         other_model = Remark.of(AssessmentKind.MECHANISM_FALLS, members=members)
-    if by_stones:
-        why = f"{counted}; its mechanism: {alone.why}"
-        return Decision(Verdict.STANDS, share, (share, share), why, other_model=other_model)
     why = f"{alone.why}; {counted}"
     largest = max(share, alone.share)
     interval = alone.interval if largest == alone.share else (share, share)

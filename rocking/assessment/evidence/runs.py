@@ -9,17 +9,14 @@ from rocking.remarks import Remark
 
 class Stones:
     """An arch or a portal that does not stand as a mechanism, or that only its stones may say to stand: no better than
-    its runs as stones, which answer in its place where none of the voussoirs falls; with `fidelity: contact` always,
-    unless it rests, or overturns and is no arch.
+    its runs as stones; with `fidelity: contact` always, unless it rests or overturns as a mechanism.
     """
 
     def due(self, word: Verdict, asked: Asked) -> bool:
         fidelity = asked.settings.fidelity
-        joints = asked.structure.joints
-        may_stand = joints.hinges_migrate and word is Verdict.OVERTURNS and not asked.facts.rests
-        if fidelity == "quick" or not joints.as_stones or not (may_stand or asked.moves(word)):
+        if fidelity == "quick" or not asked.structure.joints.as_stones or not asked.moves(word):
             return False
-        return fidelity == "contact" or joints.need_stones or word is not Verdict.STANDS
+        return fidelity == "contact" or asked.structure.joints.need_stones or word is not Verdict.STANDS
 
     def look(self, asked: Asked) -> ContactShare:
         return asked.contacts()

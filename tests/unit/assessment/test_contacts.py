@@ -92,25 +92,6 @@ def test_walls_whose_contacts_open_and_whose_blocks_fall_do_not_stand(name, real
     )
 
 
-@pytest.mark.process
-def test_an_arch_on_piers_of_which_no_stone_falls_has_the_word_of_its_stones(real_records):
-    """Every member of its mechanism falls; of true chains of stones, finer and of other numbers, none does."""
-    porch = ArchOnPiers(3.0, 0.5, np.radians(150), pier_width=1.3, pier_height=3.0)
-    motion = rocking.read(real_records / "impvall1979_e06/RSN181_IMPVALL.H_H-E06140.AT2")[0]
-    followed = rocking.assess(motion, porch)
-    alone = decide(replace(followed.cases[motion.component].facts(porch), stacks=None))
-    assert (alone.word, alone.share_in_words) == (Verdict.OVERTURNS, "100\u00a0%")
-    assert (followed.verdict, followed.decision.share_in_words) == (Verdict.PROBABLY_STANDS, "0\u00a0%")
-    assert (followed.stacks.falls, followed.stacks.runs) == (0, 18)
-    assert followed.why.startswith(
-        "0 of 18 runs as voussoirs fall in contact dynamics; its mechanism: 64 of 64 "
-    )
-    assert str(followed.decision.other_model) == "as a mechanism 64 of 64 fall"
-    assert followed.reserve is None, "that of the mechanism is none of its own"
-    for number, time_step, factor in ((15, 3e-4, 1.0), (12, 2e-4, 0.98)):
-        assert not follow_stack(porch.stones(number), motion.scaled(factor), time_step).falls
-
-
 def test_a_spire_that_lifts_never_stands_by_its_mechanisms_alone():
     least = SPIRE.static_multiplier * GRAVITY
     for crack in (None, "known"):

@@ -10,15 +10,11 @@ from xml.etree import ElementTree
 
 import pytest
 
-import rocking
-from rocking import ArchOnPiers
-from rocking.assessment.assessor import Assessor
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.decide import Limit, Verdict
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.rows import VerdictRow, rows_of_record
-from rocking.assessment.scene import load_scenes, on_the_ground, placed
-from rocking.assessment.settings import AssessmentSettings
+from rocking.assessment.scene import load_scenes, placed
 from rocking.catalogue import load_catalogue
 from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.dynamic_check import check
@@ -278,14 +274,3 @@ def workbook_lines(tables):
         sheet = ElementTree.fromstring(book.read("xl/worksheets/sheet2.xml"))
     tag = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}row"
     return ["|".join("".join(cell.itertext()) for cell in line) for line in sheet.iter(tag)]
-
-
-@pytest.mark.process
-def test_page_one_prints_one_word_with_the_share_of_one_model_and_the_count_of_the_other(real_records):
-    """Of a porch that overturns as a mechanism, and of whose runs as voussoirs none falls."""
-    porch = ArchOnPiers(3.0, 0.5, math.radians(150), pier_width=1.3, pier_height=3.0)
-    motion = rocking.read(real_records / "impvall1979_e06/RSN181_IMPVALL.H_H-E06140.AT2")[0]
-    result = Assessor(AssessmentSettings()).assess("E06", [motion], on_the_ground({"porch": porch}))
-    (row,) = RecordReport(result, rows_of_record(result), {"porch": porch}, SETTINGS).page().page_one.rows
-    assert (row.chip.word, row.chip.share) == ("probably stands", f"0{NO_BREAK}%")
-    assert (row.remark, row.reserve) == ("as a mechanism: 64 of 64 fall", "")
