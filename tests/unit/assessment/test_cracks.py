@@ -403,7 +403,8 @@ def test_a_wall_whose_ties_swing_with_the_motion_only_probably_stands():
 def test_a_wall_at_rest_on_ties_that_give_only_probably_stands(share):
     """The ground never reaches the λ of a wall held rigidly, but the wall swings on its ties and then falls.
 
-    At .95 λ the stacks of the whole wall that contact dynamics follows show it.
+    At .95 λ the stacks of the whole wall that contact dynamics follows show it, of masonry rough enough that its anchors
+    do not slide out first: these take up the swing.
     """
     wall = Facade(
         (3.2,),
@@ -413,9 +414,9 @@ def test_a_wall_at_rest_on_ties_that_give_only_probably_stands(share):
         behind="cross_walls",
         restitution=0.5,
         tie_heights=(3.2,),
-        tie_stiffness=3e6,
+        tie_stiffness=1e6,
         anchor_height=3.2,
-    )
+    ).on_joints(Joints(0.9))
     times = np.arange(0, 6, STEP)
     swing = np.sin(2 * np.pi * times / wall.tie_swing[0]) * (times < 5)
     motion = Accelerogram(share * wall.static_multiplier * 9.80665 * swing, STEP)
