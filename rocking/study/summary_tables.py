@@ -41,7 +41,7 @@ from rocking.tables import (
     written_together,
 )
 
-ON_PAGES = (RecordRow, PulseRow, ComparisonRow, SupportRow, VerdictRow)
+ON_PAGES = (RecordRow, PulseRow, ComparisonRow, SupportRow, VerdictRow, FailureRow, RemarkRow)
 """The tables of records that the documents over all of them show; the others, far longer, are in no memory whole."""
 
 

@@ -157,12 +157,12 @@ BLOCK, WALL = STRUCTURES
 EDITS: list[Edit] = [
     ("nothing", lambda: None, ""),
     # What is told of the study stands in the report of a record, in the summary and on the pages to sign.
-    ("study", _setting(study="A town"), "a b S C M"),
-    ("client", _setting(client="A town"), "a b S C M"),
-    ("project_number", _setting(project_number="12"), "a b S C M"),
-    ("author", _setting(author="Somebody"), "a b S C M"),
-    ("date", _setting(date="1 May"), "a b S C M"),
-    ("display_units", _setting(display_units="g and cm"), "a b S C M"),
+    ("study", _setting(study="A town"), "a b S C T M"),
+    ("client", _setting(client="A town"), "a b S C T M"),
+    ("project_number", _setting(project_number="12"), "a b S C T M"),
+    ("author", _setting(author="Somebody"), "a b S C T M"),
+    ("date", _setting(date="1 May"), "a b S C T M"),
+    ("display_units", _setting(display_units="g and cm"), "a b S C T M"),
     ("figures", _setting(figures="svg"), "a b S C F T M"),
     ("language", _setting(language="it"), "S C"),
     # Where files lie changes nothing; what lies there does.
@@ -173,8 +173,8 @@ EDITS: list[Edit] = [
     ("cell of the structures as CSV", _content("list.csv", "3.2", "3.3"), NUMBERS, _structures_as_csv),
     ("unnamed_events", _setting(unnamed_events="each"), NUMBERS),
     # What else is written, and when.
-    ("reports", _setting(reports=False), "a b S C"),
-    ("histories", _setting(histories=True), "a b S C M"),
+    ("reports", _setting(reports=False), "a b S C T"),
+    ("histories", _setting(histories=True), "a b S C T M"),
     ("fragility.in_every_run", _section("fragility", in_every_run=False), "S"),
     ("trade.in_summary", _section("trade", in_summary=False), "S"),
     # Numbers.
@@ -208,8 +208,8 @@ EDITS: list[Edit] = [
     ("ensemble.risk", _section("ensemble", risk=0.1), NUMBERS),
     ("ensemble.reserve", _section("ensemble", reserve=2.0), NUMBERS),
     # The design level is drawn in reports; what only the checks use is theirs.
-    ("design level", _section("design_spectrum", points=None, ag_g=0.2, f0=2.5, tc_star_s=0.4), "a b S C M"),
-    ("design_spectrum.damping", _section("design_spectrum", damping=0.1), "a b S C M"),
+    ("design level", _section("design_spectrum", points=None, ag_g=0.2, f0=2.5, tc_star_s=0.4), "a b S C T M"),
+    ("design_spectrum.damping", _section("design_spectrum", damping=0.1), "a b S C T M"),
     ("checks.limit_state", _section("checks", limit_state="SLC"), "S C"),
     ("checks.confidence_factor", _section("checks", confidence_factor=1.2), "S C"),
     ("checks.behaviour_factor", _section("checks", behaviour_factor=1.5), "S C"),
@@ -221,7 +221,7 @@ EDITS: list[Edit] = [
     ("checks.longest_period_s", _section("checks", longest_period_s=1.5), "S C"),
     ("checks.seed", _section("checks", seed=1), "S C"),
     ("checks.pool", _section("checks", pool=None), "S C"),
-    ("content of design.csv", _content("design.csv", "0.06", "0.05"), "a b S C M"),
+    ("content of design.csv", _content("design.csv", "0.06", "0.05"), "a b S C T M"),
     ("content of a record of the pool", _bytes("pool/p.AT2", _waves(9)), "S C"),
     ("catalogue of the pool", lambda: write_catalogue("pool", "p", scale_factor="2"), "S C"),
     ("record of the pool away", lambda: Path("pool/p.AT2").unlink(), "S C"),
@@ -261,9 +261,9 @@ EDITS: list[Edit] = [
     ("comment in the list", lambda: _content("structures.yaml", "- ", "# old\n- ")(), ""),
     ("terms of the checks", _structures(BLOCK | {"elastic_period_s": 0.3}, WALL), "S C"),
     # What was written is made again where it is not there; what serves the next run alone nobody misses.
-    ("report away", _removed("a/report.pdf"), "a S C M"),
-    ("table of a record away", _removed("b/timings.csv"), "b S C M"),
-    ("outcome away", _removed(".kept/outcomes/a.json"), "a S C M"),
+    ("report away", _removed("a/report.pdf"), "a S C T M"),
+    ("table of a record away", _removed("b/timings.csv"), "b S C T M"),
+    ("outcome away", _removed(".kept/outcomes/a.json"), "a S C T M"),
     ("table of the summary away", _removed("summary/provenance.json"), "S"),
     ("sums away", _removed("SHA256SUMS"), "S"),
     ("page to sign away", _removed("summary/structures.pdf"), "S C"),

@@ -132,7 +132,7 @@ def _made_from() -> dict[str, object]:
 
 @pytest.mark.parametrize("edit", [edit for edit in EDITS if "away" not in edit[0]], ids=lambda edit: edit[0])
 def test_the_plan_makes_a_job_from_what_changes_it_and_from_nothing_else(study, edit) -> None:
-    """Summary, checks and map follow where a record is made again, and the summary where anything is."""
+    """Summary, checks, trade and map follow where a record is made again, and the summary where anything is."""
     _, change, expected, *first = edit
     for make in first:
         make()
@@ -141,7 +141,7 @@ def test_the_plan_makes_a_job_from_what_changes_it_and_from_nothing_else(study, 
     after = _made_from()
     again = set(expected.split())
     own = {letter for letter, made_from in after.items() if before.get(letter) != made_from}
-    follows = set("SCM") if own - set("CFTM") else {"S"}
+    follows = set("SCTM") if own - set("CFTM") else {"S"}
     assert again - follows <= own <= again
 
 

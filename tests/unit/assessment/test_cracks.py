@@ -403,8 +403,8 @@ def test_a_wall_whose_ties_swing_with_the_motion_only_probably_stands():
 def test_a_wall_at_rest_on_ties_that_give_only_probably_stands(share):
     """The ground never reaches the λ of a wall held rigidly, but the wall swings on its ties and then falls.
 
-    At .95 λ the stacks of the whole wall that contact dynamics follows show it, of masonry rough enough that its anchors
-    do not slide out first: these take up the swing.
+    At .95 λ the stacks of the whole wall that contact dynamics follows show it, of masonry rough enough that its
+    anchors do not slide out first: these take up the swing.
     """
     wall = Facade(
         (3.2,),

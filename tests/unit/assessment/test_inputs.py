@@ -42,6 +42,7 @@ OTHERS = {
         "structure": Block(2.0, 0.21),
         "crack": "hinge at 1 m",
         "settings": EnsembleSettings(reserve=2.0),
+        "support_loss": 0.1,
     },
 }
 
