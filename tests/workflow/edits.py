@@ -208,7 +208,11 @@ EDITS: list[Edit] = [
     ("ensemble.risk", _section("ensemble", risk=0.1), NUMBERS),
     ("ensemble.reserve", _section("ensemble", reserve=2.0), NUMBERS),
     # The design level is drawn in reports; what only the checks use is theirs.
-    ("design level", _section("design_spectrum", points=None, ag_g=0.2, f0=2.5, tc_star_s=0.4), "a b S C T M"),
+    (
+        "design level",
+        _section("design_spectrum", points=None, ag_g=0.2, f0=2.5, tc_star_s=0.4),
+        "a b S C T M",
+    ),
     ("design_spectrum.damping", _section("design_spectrum", damping=0.1), "a b S C T M"),
     ("checks.limit_state", _section("checks", limit_state="SLC"), "S C"),
     ("checks.confidence_factor", _section("checks", confidence_factor=1.2), "S C"),

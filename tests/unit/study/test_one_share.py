@@ -83,7 +83,9 @@ def test_four_tables_say_one_share_of_a_pinnacle_whose_stacks_fall(folder: Path,
         if stacks > members
     ]
     assert len(decided) >= 2, "else nothing is tested"
-    assert any(this_verdict.verdict is Verdict.UNCERTAIN for this_verdict in decided), "else no word is theirs"
+    assert any(this_verdict.verdict is Verdict.UNCERTAIN for this_verdict in decided), (
+        "else no word is theirs"
+    )
 
     # The expected falls of one structure under one record are its share.
     falls = read_table(ExpectedFallsRow, folder / "summary")
