@@ -58,7 +58,7 @@ class Asked:
         """Whether it lifts, and its mechanisms leave open what becomes of it."""
         return not self.facts.rests and word not in (Verdict.OVERTURNS, Verdict.CANNOT_OVERTURN)
 
-    def contacts(self) -> ContactShare:
-        """Return how many runs of contact dynamics fall."""
+    def contacts(self, structure: Structure | None = None) -> ContactShare:
+        """Return how many runs of contact dynamics fall, of another `structure` in its place where one is given."""
         runs = MOST_RUNS if self.settings.fidelity == "contact" else RUNS
-        return contact_share(self.structure, self.motions, self.settings, runs)
+        return contact_share(structure or self.structure, self.motions, self.settings, runs)

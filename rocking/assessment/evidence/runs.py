@@ -1,7 +1,7 @@
 """Evidence of contact dynamics: stones, stacks, and stones that nobody followed."""
 
-from rocking.assessment.contacts import ContactShare, contact_share
-from rocking.assessment.decide import UNANIMOUS, Limit, Verdict
+from rocking.assessment.contacts import ContactShare
+from rocking.assessment.decide import Limit, Verdict
 from rocking.assessment.evidence.asked import Asked
 from rocking.assessment.kinds import AssessmentKind
 from rocking.remarks import Remark
@@ -35,8 +35,8 @@ class StonesMissing:
 
 
 class Anchored:
-    """An anchor that slides out: no better than 64 stacks whose ties pull no more than their anchors give, unless
-    `fidelity: quick`.
+    """An anchor that slides out: no better than 24 stacks whose ties pull no more than their anchors give; with
+    `fidelity: contact` 64, and with `quick` none.
     """
 
     def due(self, word: Verdict, asked: Asked) -> bool:
@@ -45,7 +45,7 @@ class Anchored:
 
     def look(self, asked: Asked) -> ContactShare | None:
         plane = asked.structure.held_all_along
-        share = contact_share(plane, asked.motions, asked.settings, UNANIMOUS)
+        share = asked.contacts(plane)
         # Of how it falls between its ties a plane stack that stands says nothing, and lifts no other limit.
         lifts_others = plane is not asked.structure and len(asked.limits) > 1 and not share.falls
         return None if lifts_others else share
