@@ -301,7 +301,7 @@ def shaken(wall, peak, period, fidelity="standard"):
 
 
 def test_what_stands_but_for_its_anchors_stands_where_no_stack_whose_ties_they_hold_falls():
-    """By 64 of them; by fewer it only probably stands, but for larger anchors and below the load at which they slide."""
+    """By 64 of them; by fewer it only probably stands, but for larger anchors and below the sliding load."""
     for peak in (0.4, 0.55):  # at the first nothing lifts by its mechanisms
         doubted = shaken(ALL_ALONG, peak, 0.25, "quick")
         assert doubted.verdict is rocking.Verdict.PROBABLY_STANDS
