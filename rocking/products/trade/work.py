@@ -63,7 +63,6 @@ class Trade(Work):
             lambda: Sample.named(names[record] for record in motions_of),
             study.structures,
             settings=study.settings,
-            tell=job.show_line,
             within=net,
         )
         write_tables({TradeRow: rows[TradeRow]}, folder, "rocking-trade", "trade.json")
