@@ -31,7 +31,7 @@ from rocking.structures.arch_mechanism import (
 from rocking.structures.arch_ring import EXTRADOS, INTRADOS, PATTERN, Bars, Fill, Piers, Ring
 from rocking.structures.crackable import Crackable, unplaced
 from rocking.structures.drawing import Path, plane, span, swept
-from rocking.structures.fields import OptionalUnitWeight, Value, count, length, restitution_value
+from rocking.structures.fields import OptionalUnitWeight, Value, count, length, restitution_value, stated
 from rocking.structures.linkage import PRESSED, STILL, Restitution, momentum_balance
 from rocking.structures.stones import Stones, chain, counted_voussoirs
 from rocking.structures.structure import Candidate
@@ -50,41 +50,10 @@ _STANDS_ON_FRICTION = 0.5
 runs on joints of 0.5; on 0.4 there fell 6 of 63."""
 
 
+@stated
 @dataclass(frozen=True, repr=False)
 class Arch(Crackable):
     """A circular arch of radial joints, its bars exact annular sectors; φ is the rotation of the bar AB.
-
-    Parameters
-    ----------
-    radius : float
-        Radius r of the centreline, m.
-    thickness : float
-        Radial thickness t, m.
-    embrace_angle : float
-        Embrace angle β, rad.
-    voussoirs : int or None, optional
-        Number of equal voussoirs, with hinges at their joints only; None: a hinge may open anywhere.
-    restitution : float, str or None, optional
-        η in [0, 1], 0.9 by default as in the paper, or "unsafe momentum": the mirrored mechanism's balance.
-        That balance assumes an impulse line inside the ring, which it leaves in every practical case; a
-        StructureWarning says so, and "momentum" alone is refused.
-    fill_depth : float or None, optional
-        Depth above the crown of level fill that lies on the extrados and moves with the arch, m; None:
-        without fill.
-    fill_density_ratio : float, default 0.8
-        Density of the fill over that of the masonry.
-    restitution_range : float or None, optional
-        η is known to plus or minus this much; None: as the settings of the ensemble say.
-    compressive_strength : float or None, optional
-        Compressive strength of the masonry, Pa, at which the edges of joints crush, so that hinges move in;
-        None: they do not crush. Needs `unit_weight`.
-    crack : {'known'} or None, optional
-        "known" where a survey or a joint says that it is cracked at the place above, which then decides;
-        None: it may crack there or elsewhere, and each place counts.
-    hinge_angles : tuple of float or None, optional
-        Angles of the hinges A, B, C and D from the left springing, rad; None: where statics puts them.
-    unit_weight : float or None, optional
-        Weight of the masonry per volume, N/m³.
 
     Raises
     ------
@@ -132,8 +101,13 @@ class Arch(Crackable):
         ),
     ] = 0.8
     # No key of a list, as the angles that would say where are none.
-    crack: Literal["known"] | None = field(default=None, kw_only=True)
-    hinge_angles: tuple[float, ...] | None = field(default=None, kw_only=True)
+    crack: Annotated[Literal["known"] | None, "known where a survey found the hinge_angles"] = field(
+        default=None, kw_only=True
+    )
+    hinge_angles: Annotated[
+        tuple[float, ...] | None,
+        "Angles of the hinges A, B, C and D from the left springing, rad; left out: where statics puts them",
+    ] = field(default=None, kw_only=True)
     unit_weight: OptionalUnitWeight = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
@@ -422,48 +396,13 @@ class Arch(Crackable):
         return self.radius * plane(inner + from_inner / (from_inner + from_outer) * (outer - inner))
 
 
+@stated
 @dataclass(frozen=True, repr=False)
 class ArchOnPiers(Arch):
     """A circular arch on equal rectangular piers, flush with its intrados at the springings.
 
     A pier that cracks obliquely or comes apart in leaves is weaker than this monolithic one; the wedge
     between its level head and an inclined springing is left out.
-
-    Parameters
-    ----------
-    radius : float
-        Radius r of the centreline, m.
-    thickness : float
-        Radial thickness t, m.
-    embrace_angle : float
-        Embrace angle β, rad.
-    voussoirs : int or None, optional
-        Number of equal voussoirs, with hinges at their joints only; None: a hinge may open anywhere.
-    restitution : float, str or None, optional
-        η in [0, 1], 0.9 by default.
-    fill_depth : float or None, optional
-        Depth above the crown of level fill that lies on the extrados and moves with the arch, m; None:
-        without fill.
-    fill_density_ratio : float, default 0.8
-        Density of the fill over that of the masonry.
-    restitution_range : float or None, optional
-        η is known to plus or minus this much; None: as the settings of the ensemble say.
-    compressive_strength : float or None, optional
-        Compressive strength of the masonry, Pa, at which the edges of joints crush, so that hinges move in;
-        None: they do not crush. Needs `unit_weight`.
-    crack : {'known'} or None, optional
-        "known" where a survey or a joint says that it is cracked at the place above, which then decides;
-        None: it may crack there or elsewhere, and each place counts.
-    hinge_angles : tuple of float or None, optional
-        Angles of the hinges A, B, C and D from the left springing, rad; None: where statics puts them.
-    unit_weight : float or None, optional
-        Weight of the masonry per volume, N/m³.
-    pier_width : float
-        Width of a pier, m.
-    pier_height : float
-        Height of a pier from the ground to the springing, m.
-    pier_density_ratio : float, default 1.0
-        Density of the piers over that of the arch.
 
     Raises
     ------

@@ -288,8 +288,6 @@ _SECTION = {"circular": np.pi, "square": 4.0}
 """Area of a horizontal section over the square of its half width."""
 _SECTION_SPREAD = {"circular": 1 / 4, "square": 1 / 3}
 """Mean square of one horizontal coordinate over a section, in squares of its half width."""
-_SPREAD = {"circular": 3 / 20, "square": 1 / 5}
-"""Mean square of one horizontal coordinate over a solid cone or pyramid, in squares of its half width."""
 
 
 def _strip(plan: str, half_width: float, depth: float) -> np.ndarray:
@@ -370,33 +368,21 @@ class Spire(CrackedAtHeight):
         return 0.0 if self.crack_height is None else self.crack_height
 
     @property
-    def total_height(self) -> float:
-        """Height of the whole spire, m."""
-        return self.height
-
-    @property
     def half_width(self) -> float:
         """Half the width at the crack, m."""
         return self.width / 2 * (1 - self.crack_position / self.height)
 
     def _linkage(self, mirrored: bool) -> Turning:
-        """All above the crack, the outer solid less the similar inner one, until the flank lies on the ground."""
-        solid = self._solid(self.half_width)
-        if self.wall_thickness is not None:
-            solid -= self._solid(max(self.half_width - self.wall_thickness, 0.0))
-        mass, first, second, across = solid
-        centre = first / mass
+        """All above the crack, until the flank lies on the ground."""
+        above = self._course(self.crack_position, self.height)
         return Turning(
-            self.half_width - self._pressed_inset(mass) + 1j * self.crack_position,
-            Parts([1.0], [1j * (self.crack_position + centre)], [(second + across) / mass - centre**2]),
+            self.half_width - self._pressed_inset(above.mass) + 1j * self.crack_position,
+            Parts([1.0], [1j * above.centre[1]], [above.inertia / above.mass]),
             end_rotation=float(np.pi - np.arctan2(2 * self.height, self.width)),
         )
 
     def _pressed_inset(self, volume: float) -> float:
-        """How far the edge of the crack moves in, m: to the middle of the part of the section that is pressed.
-
-        volume: of all above, as `_solid` counts it: three times that over the area of the section by its width.
-        """
+        """How far the edge of the crack moves in below a `volume` [m³], m: to the middle of what is pressed."""
         if self.compressive_strength is None or self.unit_weight is None:
             return 0.0
         from scipy.optimize import brentq  # slow to import, and needed here only
@@ -404,7 +390,7 @@ class Spire(CrackedAtHeight):
         outer = self.half_width
         inner = max(outer - (outer if self.wall_thickness is None else self.wall_thickness), 0.0)
         area = _SECTION[self.plan]
-        pressed = self.unit_weight * area * volume / 3 / (PRESSED * self.compressive_strength)
+        pressed = self.unit_weight * volume / (PRESSED * self.compressive_strength)
         check_pressed(pressed=pressed, whole=area * (outer**2 - inner**2))
 
         def strip(depth: float) -> np.ndarray:
@@ -417,12 +403,6 @@ class Spire(CrackedAtHeight):
         depth = brentq(lambda depth: strip(depth)[0] - pressed, 0.0, 2 * outer, xtol=1e-15, rtol=1e-14)
         found = strip(depth)
         return float(found[1] / found[0])
-
-    def _solid(self, half_width: float) -> np.ndarray:
-        """Volume and integrals of z, z² and x² of a solid of that half width and this spire's slope, up to a factor."""
-        height = 2 * half_width / self.width * self.height
-        moments = np.array([1.0, height / 4, height**2 / 10, _SPREAD[self.plan] * half_width**2])
-        return half_width**2 * height * moments
 
     @property
     def _joints_do(self) -> dict[str, Any]:

@@ -5,7 +5,7 @@ Each is a height and the thickness over which it rocks; its breadth across shows
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal, Self, TypedDict, Unpack
+from typing import Any, Literal, Self
 
 import numpy as np
 
@@ -24,18 +24,6 @@ Sizes = Mapping[str, Any]
 _SIZES = ("height", "thickness", "breadth", "wall_thickness")
 
 
-class LeafOptions(TypedDict, total=False):
-    """The options of a free wall besides its sizes."""
-
-    restitution_range: float | None
-    compressive_strength: float | None
-    unit_weight: float | None
-    lean: float
-    leaves: tuple[float, ...]
-    bonders: float | tuple[float, ...] | None
-    thrown_back: float | None
-
-
 @dataclass(frozen=True, repr=False)
 class FreeWall(Block, Leaved):
     """A block whose leaves may part, which a file describes as one of the rows."""
@@ -51,7 +39,7 @@ class FreeWall(Block, Leaved):
         height: float,
         restitution: Restitution = None,
         one_sided: bool = False,
-        **options: Unpack[LeafOptions],
+        **options: Any,
     ) -> Self:
         """Return the wall of that thickness and height [m]; options as for a block and for leaves."""
         size = Block.of_size(breadth, height)

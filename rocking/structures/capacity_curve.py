@@ -17,10 +17,10 @@ from rocking.remarks import Remark
 from rocking.structures.capacity import StaticCapacity, StaticCurve
 from rocking.structures.description import Description
 from rocking.structures.drawing import rectangle
-from rocking.structures.fields import OneSided, RestitutionNumber, Value
+from rocking.structures.fields import OneSided, RestitutionNumber, Value, stated
 from rocking.structures.kinds import StructureKind
 from rocking.structures.linkage import Parts, Turning
-from rocking.structures.mechanism import Mechanism, Side
+from rocking.structures.mechanism import Side
 from rocking.structures.structure import Structure
 from rocking.tables.files import read_whole
 
@@ -44,6 +44,7 @@ MassRatio = Annotated[
 Weight = Annotated[float, Value("Weight of all that moves", 100.0, "kN", (0.1, 1e6), bounds={"gt": 0})]
 
 
+@stated
 @dataclass(frozen=True, repr=False)
 class CapacityCurve(Structure):
     """A structure of which another program gives the curve alone: it is followed from point to point along lines.
@@ -53,22 +54,6 @@ class CapacityCurve(Structure):
 
     Its rotation is d*/h with h = d*_u/α_0, at which the slender rigid body is drawn that has the same λ and
     the same displacement capacity d*_u. Beyond d*_u the curve goes on with the slope that it ends with.
-
-    Parameters
-    ----------
-    displacements : tuple of float
-        (k,) d* of the equivalent system of one degree of freedom, m, ascending from 0.
-    multipliers : tuple of float
-        (k,) α, the horizontal load over the weight that is just borne there, above 0 until the last one at
-        least, at which it is 0 or below.
-    weight : float
-        Weight of all that moves, N.
-    restitution : float
-        η in [0, 1].
-    one_sided : bool, default False
-        Whether it moves away from what it leans on only.
-    restitution_range : float or None, optional
-        η is known to plus or minus this much; None: as the settings of the ensemble say.
 
     Raises
     ------
@@ -237,8 +222,8 @@ class CapacityCurve(Structure):
         """h of the slender rigid body of the same λ and d*_u, m."""
         return self._reach / self.multipliers[0]
 
-    @cached_property
-    def _mechanism(self) -> Mechanism:
+    @property
+    def _sides(self) -> tuple[Side]:
         """In d* = h φ: I = h, G = α, B = 1."""
         height = self.height
         displacements, gravity = self._to_the_end
@@ -255,23 +240,18 @@ class CapacityCurve(Structure):
             return np.asarray(gravity[place] + slopes[place] * (rotation - points[place]))
 
         constant = partial(np.full_like, dtype=float)
-        built = Mechanism(
-            Side(
-                inertia=lambda rotation: constant(rotation, height),
-                inertia_slope=lambda rotation: constant(rotation, 0.0),
-                gravity=of_gravity,
-                gravity_slope=lambda rotation: slopes[segment(rotation)],
-                ground=lambda rotation: constant(rotation, 1.0),
-                critical_rotation=critical,
-                end_rotation=max(math.pi / 2, 2 * critical),
-                restitution=self.restitution,
-                kinks=tuple(points[1:-1].tolist()),
-            ),
-            one_sided=self.one_sided,
-            restitution_range=self.restitution_range,
+        side = Side(
+            inertia=lambda rotation: constant(rotation, height),
+            inertia_slope=lambda rotation: constant(rotation, 0.0),
+            gravity=of_gravity,
+            gravity_slope=lambda rotation: slopes[segment(rotation)],
+            ground=lambda rotation: constant(rotation, 1.0),
+            critical_rotation=critical,
+            end_rotation=max(math.pi / 2, 2 * critical),
+            restitution=self.restitution,
+            kinks=tuple(points[1:-1].tolist()),
         )
-        object.__setattr__(built, "structure", self)
-        return built
+        return (side,)
 
     def capacity_curve(self, side: int = 1, count: int = 41) -> StaticCurve:
         """Return the curve itself; `count` is what a structure with a geometry takes."""

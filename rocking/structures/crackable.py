@@ -5,7 +5,7 @@ import warnings
 from abc import abstractmethod
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
 
@@ -136,10 +136,11 @@ class CrackedAtHeight(Crackable):
     lowest_crack: ClassVar[float] = 0.0
     """Share of the height from which on it may open."""
 
-    @property
-    @abstractmethod
-    def total_height(self) -> float:
-        """Height of the structure, of which the shares are taken, m."""
+    if TYPE_CHECKING:
+
+        @property
+        def height(self) -> float:
+            """Height of the structure, of which the shares are taken, m."""
 
     @abstractmethod
     def _placed(self, height: float) -> dict[str, Any]:
@@ -159,7 +160,7 @@ class CrackedAtHeight(Crackable):
     def _places(self, count: int) -> list[float]:
         """The heights above the base [m] at which it may open, `count` over its height at least."""
         shares = np.linspace(self.lowest_crack, HIGHEST_SHARE, count)
-        return [float(height) for height in self.total_height * shares]
+        return [float(height) for height in self.height * shares]
 
     def _may_form(self, count: int) -> tuple[Candidate, ...]:
         """Each has its own momentum balance where no restitution is given.

@@ -256,11 +256,6 @@ class Facade(Tied):
             return self.crack_height
         return 0.0 if self.crack_storey is None else float(self.levels[self.crack_storey - 1])
 
-    @property
-    def total_height(self) -> float:
-        """The height of all storeys, m."""
-        return self.height
-
     @cached_property
     def levels(self) -> np.ndarray:
         """The foot of each storey and the top, (n + 1,) m above the ground."""

@@ -262,7 +262,8 @@ class Form:
         described = []
         for name, parameter in parameters.items():
             for value in getattr(hints.get(name), "__metadata__", ()):
-                described.append(field_of(name, hints[name].__origin__, value, parameter.default))
+                if isinstance(value, Value):
+                    described.append(field_of(name, hints[name].__origin__, value, parameter.default))
         return cls(kind.type_name, meaning, tuple(described), kind, make)
 
     @property
@@ -298,6 +299,9 @@ def stated(kind: type[Kind]) -> type[Kind]:
         default = parameter.default
         meaning = "Of what a structure makes of itself alone; no file gives it"
         for value in getattr(hints[name], "__metadata__", ()):
+            if isinstance(value, str):
+                meaning = value
+                continue
             unit = _IN_SI.get(value.unit, value.unit.removeprefix("k"))
             meaning = ", ".join(filter(None, (value.meaning, value.letter, unit)))
         known = "" if default is Parameter.empty else f", default {default!r}" if default else ", optional"

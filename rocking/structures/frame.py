@@ -10,7 +10,7 @@ from rocking.remarks import Remark
 from rocking.structures.block import Block
 from rocking.structures.crackable import Crushable
 from rocking.structures.drawing import Path, plane, rectangle, span
-from rocking.structures.fields import OptionalUnitWeight, Value, count, length, restitution_value
+from rocking.structures.fields import OptionalUnitWeight, Value, count, length, restitution_value, stated
 from rocking.structures.kinds import StructureKind
 from rocking.structures.linkage import (
     Contacts,
@@ -34,30 +34,12 @@ BeamMassRatio = Annotated[
 Balanced = Annotated[Restitution, restitution_value("momentum")]
 
 
+@stated
 @dataclass(frozen=True, repr=False)
 class Frame(Crushable):
     """`columns` equal free-standing columns capped by a freely supported rigid beam; all turn by the same φ.
 
     The rotation ends when the columns lie.
-
-    Parameters
-    ----------
-    column : Block
-        One column.
-    columns : int
-        Number of columns, 2 or more.
-    beam_mass_ratio : float
-        γ, the mass of the beam over that of all columns together.
-    restitution : float, str or None, optional
-        η in [0, 1], or "momentum" (the default), (1 − 1.5 sin²α + 3γ cos 2α)/(1 + 3γ), which needs columns so
-        slender that the balance is positive; the column's own restitution plays no part.
-    restitution_range : float or None, optional
-        η is known to plus or minus this much; None: as the settings of the ensemble say.
-    compressive_strength : float or None, optional
-        Compressive strength of the masonry, Pa, at which the edges of joints crush, so that hinges move in;
-        None: they do not crush. Needs `unit_weight`.
-    unit_weight : float or None, optional
-        Weight of the masonry per volume, N/m³.
 
     Raises
     ------
@@ -76,7 +58,7 @@ class Frame(Crushable):
         "of_columns": "Symmetric frame of equal columns under a rigid beam"
     }
 
-    column: Block
+    column: Annotated[Block, "One column; its own restitution plays no part"]
     columns: Columns
     beam_mass_ratio: BeamMassRatio
     restitution: Balanced = None

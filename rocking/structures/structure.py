@@ -510,15 +510,15 @@ class Structure(ABC):
     @cached_property
     def _mechanism(self) -> Mechanism:
         """I, J, G, B of the moving parts."""
-        positive = self.linkages[0].side(self._impact(mirrored=False))
-        negative = None
-        if len(self.linkages) > 1:
-            negative = self.linkages[-1].side(self._impact(mirrored=True))
-        built = Mechanism(
-            positive, negative, one_sided=self.one_sided, restitution_range=self.restitution_range
-        )
+        built = Mechanism(*self._sides, one_sided=self.one_sided, restitution_range=self.restitution_range)
         object.__setattr__(built, "structure", self)  # what it is built again from after pickling
         return built
+
+    @property
+    def _sides(self) -> tuple[Side, ...]:
+        """The side of rocking of each of its linkages."""
+        linkages = zip((False, True), self.linkages, strict=False)
+        return tuple(linkage.side(self._impact(mirrored)) for mirrored, linkage in linkages)
 
     @property
     def _given_restitution(self) -> Restitution:

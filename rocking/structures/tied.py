@@ -276,11 +276,6 @@ class Tied(CrackedAtHeight, Leaved):
         """Outwards and inwards, where ties, loads or what it leans on distinguish them."""
         return super().side_names if self.symmetric and not self.one_sided else ("outwards", "inwards")
 
-    @property
-    @abstractmethod
-    def height(self) -> float:
-        """The height of the wall, m."""
-
     def _moves(self, mirrored: bool) -> Opening:
         """How it opens to one side."""
         return self._way(mirrored) or replace(self._opens, outwards=not mirrored)
@@ -406,9 +401,9 @@ class Tied(CrackedAtHeight, Leaved):
     def _places(self, count: int) -> list[float]:
         """Joints over the height, and those at which something changes: feet of storeys, and what holds it."""
         stops = np.array(
-            [height for height in self.held_wall.stops if height >= self.lowest_crack * self.total_height]
+            [height for height in self.held_wall.stops if height >= self.lowest_crack * self.height]
         )
-        near = _SAME * self.total_height
+        near = _SAME * self.height
         within = [place for place in super()._places(count) if not (np.abs(stops - place) < near).any()]
         return [*within, *stops.tolist()]
 

@@ -6,7 +6,7 @@ x is measured from the middle of the wall, outwards (to the right) positive; the
 from collections import Counter
 from dataclasses import KW_ONLY, dataclass, field, replace
 from functools import cached_property
-from typing import Annotated, Any, ClassVar, Literal, Self, TypedDict, Unpack
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
 
@@ -70,37 +70,6 @@ Balanced = Annotated[Restitution, restitution_value("momentum")]
 
 KnownCrack = Literal["known"] | None
 """See `Crackable`."""
-
-
-class WallOptions(TypedDict, total=False):
-    """The options of a wall besides its sizes and weight; see `Wall`."""
-
-    top_load: float
-    eccentricity: float
-    top_slab: Literal["hinged", "flat"]
-    load_held: bool
-    restitution: Restitution
-    tie_heights: tuple[float, ...]
-    tie_stiffness: float
-    tie_pretension: float
-    tie_strength: float | None
-    tie_plastic_elongation: float
-    tie_spacing: float | None
-    unit_length: float | None
-    held_between: Literal["floor"] | None
-    rod_diameter: float | None
-    rod_length: float | None
-    rod_yield_stress: float | None
-    rod_modulus: float
-    rod_pretension: float
-    one_sided: bool
-    restitution_range: float | None
-    compressive_strength: float | None
-    top_friction: float | None
-    leaves: tuple[float, ...]
-    bonders: float | tuple[float, ...] | None
-    thrown_back: float | None
-    loaded_leaf: Literal["inner", "outer"] | None
 
 
 @stated
@@ -223,7 +192,7 @@ class Wall(Tied):
         *,
         unit_weight: float | None = None,
         crack: KnownCrack = None,
-        **options: Unpack[WallOptions],
+        **options: Any,
     ) -> Self:
         """Return the wall of that height and thickness [m], hinged where it is typed, or else where statics puts it."""
         lower, upper = cls._heights(height, hinge_height, crack)
@@ -239,7 +208,7 @@ class Wall(Tied):
         unit_weight: float | None = None,
         *,
         crack: KnownCrack = None,
-        **options: Unpack[WallOptions],
+        **options: Any,
     ) -> Self:
         """Return the wall of that total height whose hinge lies at `hinge_height` [m] above the base."""
         hinge = finite(StructureError, "hinge_height", hinge_height, "m")
@@ -261,11 +230,6 @@ class Wall(Tied):
     def crack_position(self) -> float:
         """Height of the hinge, m."""
         return self.lower_height
-
-    @property
-    def total_height(self) -> float:
-        """h₁ + h₂, m."""
-        return self.height
 
     def _wall_courses(self, courses: int | None, density: float) -> tuple[Course, ...]:
         """The wall itself. density: mass per m³."""
@@ -449,7 +413,7 @@ class LoadedWall(Wall):
         hinge_height: HingeHeight = None,
         *,
         crack: KnownCrack = None,
-        **options: Unpack[WallOptions],
+        **options: Any,
     ) -> Self:
         """Return the wall of that height, thickness [m] and weight [N/m³]; see `Wall.of_size`."""
         return super().of_size(
