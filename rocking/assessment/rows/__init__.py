@@ -4,6 +4,8 @@ Rows about a record and about a study are imported from here; those of a product
 """
 
 from rocking.assessment.rows.of_inputs import RECORD as RECORD
+from rocking.assessment.rows.of_inputs import STRUCTURE as STRUCTURE
+from rocking.assessment.rows.of_inputs import SUPPORT_PERIOD as SUPPORT_PERIOD
 from rocking.assessment.rows.of_inputs import CapacityRow as CapacityRow
 from rocking.assessment.rows.of_inputs import Identity as Identity
 from rocking.assessment.rows.of_inputs import Named as Named

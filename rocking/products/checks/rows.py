@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator
 
-from rocking.assessment.rows.of_inputs import STRUCTURE, SUPPORT_PERIOD
+from rocking.assessment.rows import STRUCTURE, SUPPORT_PERIOD
 from rocking.codes.check import DynamicCheck, Role, StructureCheck
 from rocking.earthquakes.sample import INTERVAL
 from rocking.tables import Row, column, row
