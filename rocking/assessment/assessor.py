@@ -14,7 +14,7 @@ from rocking.assessment.case import (
     RecordResult,
     SceneResult,
 )
-from rocking.assessment.cracks import cracked
+from rocking.assessment.cracks import cracked, slides_at
 from rocking.assessment.inputs import CaseInputs, Inputs, PairInputs, PulseInputs, ReserveInputs
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
 from rocking.assessment.motions import (
@@ -421,28 +421,28 @@ class Assessor:
     def _reserved(self, period_result: PeriodResult, shaking: _Shaking) -> PeriodResult:
         """The result with its reserve, where it has one. Raises RockingError where it cannot be found."""
         case = period_result.decisive
-        ensemble = self.settings.ensemble
-        if (
-            case is None
-            or case.ensembles is None
-            or self.settings.fidelity == "quick"
-            or not ensemble.reserve
-        ):
-            return period_result
-        # The factors of a mechanism would say nothing of what slides first, or falls in contact dynamics alone.
-        if not isnan(case.slides_at) or period_result.decision.by_stacks_alone:
+        sought = self.settings.fidelity != "quick" and self.settings.ensemble.reserve
+        if case is None or case.ensembles is None or not sought:
             return period_result
         structure = period_result.scene.structure
         description = case.ensembles.governing.description
+        crack = governing_crack(structure, description)
         loss = period_result.scene.terms.support_loss
-        if isinf(loss) and not governing_crack(structure, description).mechanism.can_overturn:
+        # Of what slides before it lifts nothing can be told at any factor.
+        slides = not isnan(slides_at(crack)) and not crack.bulges
+        if slides or (isinf(loss) and not crack.mechanism.can_overturn):
             return period_result
         of_pair = case is period_result.directions and shaking.pair is not None
         motion = shaking.pair if of_pair else by_name(shaking.components)[case.component].of_ground
         assert motion is not None
 
         inputs = ReserveInputs(
-            motion=motion, structure=structure, crack=description, settings=ensemble, support_loss=loss
+            motion=motion,
+            structure=structure,
+            crack=description,
+            settings=self.settings,
+            support_loss=loss,
+            contact=case.contact,
         )
         return period_result.with_reserve(self._remembered(Reserve, inputs, compute_reserve))
 

@@ -353,11 +353,10 @@ class PeriodResult:
     def reserve(self) -> Reserve | None:
         """The factors on the record at which 5, 50 and 95 % of the members overturn; None where it was not computed.
 
-        Nor is there one where only the stacks of contact dynamics fall. They do not contradict the share that overturns
-        under the record itself.
+        They do not contradict the share that overturns under the record itself.
         """
         case = self.decisive
-        if case is None or case.reserve is None or self.decision.by_stacks_alone:
+        if case is None or case.reserve is None:
             return None
         share = self.decision.share
         return case.reserve.held_to(self.ensemble.overturning_share if math.isnan(share) else share)
@@ -374,24 +373,17 @@ class PeriodResult:
 
     @property
     def reserve_doubts(self) -> tuple[Remark, ...]:
-        """The doubts for which the reserve may be too high: what may happen of which the mechanism knows nothing.
-
-        Unlike the verdict, which needs a doubt only where the mechanism stands, the reserve reaches from the first
-        uplift to the limit, so that a body of courses that tapers is always in doubt.
-        """
-        both = [*self.cases.values(), *([self.directions] if self.directions else [])]
-        doubts = [limit.doubt for case in both for limit in case.limits if limit.is_untold]
-        doubts += [
-            doubt
-            for doubt in self.decision.doubts
-            if doubt.kind in (AssessmentKind.MEMBERS_FAILED, AssessmentKind.COMPONENT_MISSING)
-        ]
-        if any(case.check.bounces for case in both):
-            doubts.append(Remark(AssessmentKind.CONTACTS_OPEN))
-        if self.scene.structure.joints.courses_taper:
-            doubts.append(Remark(AssessmentKind.COURSES_THROWN))
-        if self.scene.structure.joints.need_stones:
-            doubts.append(Remark(AssessmentKind.STONES_TELL))
+        """The doubts for which the reserve may be too high: what neither members nor contact dynamics could follow."""
+        failed = (AssessmentKind.MEMBERS_FAILED, AssessmentKind.COMPONENT_MISSING)
+        doubts = [doubt for doubt in self.decision.doubts if doubt.kind in failed]
+        body = self.scene.structure
+        if not stackable(body):
+            both = [*self.cases.values(), *([self.directions] if self.directions else [])]
+            doubts += [limit.doubt for case in both for limit in case.limits if limit.is_untold]
+            opens = any(case.check.bounces for case in both)
+            doubts += [Remark(AssessmentKind.CONTACTS_OPEN)] if opens else []
+            doubts += [Remark(AssessmentKind.COURSES_THROWN)] if body.joints.courses_taper else []
+            doubts += [Remark(AssessmentKind.STONES_TELL)] if body.joints.need_stones else []
         return tuple(sorted(set(doubts), key=lambda remark: remark.kind))
 
     @property

@@ -121,40 +121,45 @@ def contact_share(
     runs: int = RUNS,
     *,
     until_sure: bool = True,
+    share: float = math.nan,
 ) -> ContactShare:
     """Return how many stacks of the structure fall, of a wall whose leaves may part those of the part that falls most.
 
     Of a part that is one body its mechanism says more. until_sure: whether runs end once the rest cannot change the
-    word; the share of all is asked else.
+    word; the share of all is asked else. share: instead, once the rest cannot change whether so many fall.
     """
     parts = _parts(structure)
     laid = [part for part in parts if len(parts) == 1 or _courses_of(part) != 1]
     worst = ContactShare(reason="one rigid body moves as its mechanism does, whose members say more")
     for part in laid:
-        share = _share_of(part, motions, settings or AssessmentSettings(), runs, until_sure)
-        if not share.runs:
-            return share
-        if not worst.runs or share.falls * worst.runs > worst.falls * share.runs:
-            worst = share
+        own = _share_of(part, motions, settings or AssessmentSettings(), runs, until_sure, share)
+        if not own.runs:
+            return own
+        if not worst.runs or own.falls * worst.runs > worst.falls * own.runs:
+            worst = own
     return worst
 
 
 def _share_of(
-    structure: Laid, motions: GroundMotions, settings: AssessmentSettings, runs: int, until_sure: bool
+    structure: Laid,
+    motions: GroundMotions,
+    settings: AssessmentSettings,
+    runs: int,
+    until_sure: bool,
+    share: float,
 ) -> ContactShare:
     """Return how many stacks of one part fall, between AMPLITUDES and at STEPS.
 
     Every direction of a pair, of unlike sides every other one with both signs of the motion, is followed at as many
-    amplitudes, at which steps and stacks take turns: so that there are `runs` in all. until_sure no more are followed
-    once the rest cannot change the word. The bodies are those of the mechanism where
-    the crack is known and nothing holds it, else the courses that `Structure.stack` gives; a tapering member that does
-    not state its courses is followed with COURSES and MANY_COURSES in turn. An arch or a portal is followed as its
-    stones.
+    amplitudes, at which steps and stacks take turns: so that there are `runs` in all. The bodies are those of the
+    mechanism where the crack is known and nothing holds it, else the courses that `Structure.stack` gives; a tapering
+    member that does not state its courses is followed with COURSES and MANY_COURSES in turn. An arch or a portal is
+    followed as its stones.
     """
     both = signs(structure, settings)
     every = [motions.horizontal[direction] for direction in directions(motions)[:: len(both)]]
     ways = [(motion, sign) for motion in sorted(every, key=peak_velocity, reverse=True) for sign in both]
-    amplitudes = np.linspace(*AMPLITUDES, max(runs // len(ways), 1))[::-1]
+    amplitudes = np.linspace(*AMPLITUDES, max(math.ceil(runs / len(ways)), 2))[::-1]
     strongest_first = [
         (amplitude, motion, sign, turn + way)
         for turn, amplitude in enumerate(amplitudes.tolist())
@@ -162,8 +167,14 @@ def _share_of(
     ]
     # As many of them as are followed lie evenly among all: the share of the strongest alone would be too large.
     order = sorted(range(len(strongest_first)), key=lambda place: place * GOLDEN % 1.0)
-    cases = [strongest_first[place] for place in order]
+    cases = [strongest_first[place] for place in order[:runs]]
     falls = followed = 0
+
+    def said_of(count: int) -> object:
+        if not math.isnan(share):
+            return count >= share * len(cases)
+        return step_of(falls=count, members=len(cases), risk=settings.ensemble.risk)
+
     try:
         stacks = _laid(structure)
         if stacks[0].count == 1:
@@ -180,12 +191,7 @@ def _share_of(
         with closing(in_order(falls_in, cases)) as runs_in_order:
             for followed, it_falls in enumerate(runs_in_order, start=1):
                 falls += it_falls
-                left = len(cases) - followed
-                words = [
-                    step_of(falls=count, members=len(cases), risk=settings.ensemble.risk)
-                    for count in (falls, falls + left)
-                ]
-                if until_sure and words[0] is words[1]:
+                if until_sure and said_of(falls) == said_of(falls + len(cases) - followed):
                     break
     except RockingError as error:
         return ContactShare(reason=str(error))

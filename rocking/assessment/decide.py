@@ -347,9 +347,6 @@ class Decision:
         What may make it worse than said.
     would_settle : tuple of Remark, optional
         What would tell more.
-    by_stacks_alone : bool, default False
-        Whether contact dynamics says worse than its mechanisms, and no better than uncertain: how far their
-        members are from falling then says nothing of it.
     other_model : Remark or None, default None
         How many fall by the model that does not make the share: contact dynamics, or the mechanism.
 
@@ -366,7 +363,6 @@ class Decision:
     why: str
     doubts: tuple[Remark, ...] = ()
     would_settle: tuple[Remark, ...] = ()
-    by_stacks_alone: bool = False
     other_model: Remark | None = None
 
     @property
@@ -530,9 +526,6 @@ def decide(facts: Facts, limits: Iterable[Limit] = ()) -> Decision:
             not_followed = [str(limit.doubt) for limit in untold if limit is not _MISSING]
             why = "; ".join([*not_followed, *facts.failures, why])
             would_settle = _settling(facts, untold)
-    by_mechanisms = worse(alone.word, Verdict.PROBABLY_STANDS)
-    if facts.failures or facts.slides_throughout:
-        by_mechanisms = worse(by_mechanisms, Verdict.CANNOT_BE_TOLD)
     return Decision(
         word,
         math.nan if word is Verdict.CANNOT_BE_TOLD else share,
@@ -540,7 +533,6 @@ def decide(facts: Facts, limits: Iterable[Limit] = ()) -> Decision:
         why,
         _in_order(doubts),
         would_settle,
-        by_stacks_alone=facts.stacks is not None and word.badness > by_mechanisms.badness,
         other_model=alone.other_model,
     )
 

@@ -13,18 +13,25 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rocking.assessment.contacts import contact_share, signs, stackable
-from rocking.assessment.cracks import counting_cracks, sliding_first, weakest_not_followed
-from rocking.assessment.evidence.bodies import why_open
+from rocking.assessment.contacts import AMPLITUDES, ContactShare, contact_share, signs, stackable
+from rocking.assessment.cracks import counting_cracks
+from rocking.assessment.evidence import cannot_be_told
+from rocking.assessment.evidence.asked import Asked
 from rocking.assessment.evidence.walls import anchors_slide
 from rocking.assessment.motions import GroundMotions
+from rocking.assessment.reserve import SHARES, Reserve, reserve_of_members
 from rocking.assessment.settings import AssessmentSettings
+from rocking.errors import MotionError
 from rocking.records import Accelerogram
 from rocking.structures import Structure
-from rocking.structures.leaves import parts_of
+from rocking.structures.structure import Candidate
 
 DRAWS = 6
 """Runs of contact dynamics of one motion: of many records, whose spread is larger than that of draws."""
+RESERVE_DRAWS = 8
+"""Runs of contact dynamics of all motions of one record at one factor of a reserve, of which one is more than 5 %."""
+RESERVE_APART = 1.1
+"""Ratio of these factors, as near to each other as those of members scatter from sample to sample."""
 STONES_DRAWS = 3
 """Chains of stones of one motion and sign, whose runs cost a hundredfold."""
 APART = 1.06
@@ -64,47 +71,38 @@ def falls_along(
     where the decision would ask for it.
     """
     stones = _Stones(structure, record, settings) if contacts and structure.joints.as_stones else None
-    return [
-        None
-        if math.isnan(factor)
-        else _falls_at(structure, settings, record.scaled(factor), members, factor, stones, contacts)
-        for factor, members in zip(factors.tolist(), rotation_ratios, strict=True)
-    ]
+    motions = GroundMotions.of(record)
+    found: list[Falls | None] = []
+    for factor, members in zip(factors.tolist(), rotation_ratios, strict=True):
+        if math.isnan(factor):
+            found.append(None)
+            continue
+        asked = Asked.of_run(structure, motions.scaled(factor), settings, float(members.max()))
+        found.append(_falls_at(asked, members, factor, stones, contacts))
+    return found
 
 
 def _falls_at(
-    structure: Structure,
-    settings: AssessmentSettings,
-    scaled: Accelerogram,
-    rotation_ratios: np.ndarray,
-    factor: float,
-    stones: "_Stones | None",
-    contacts: bool,
+    asked: Asked, rotation_ratios: np.ndarray, factor: float, stones: "_Stones | None", contacts: bool
 ) -> Falls:
-    """What falls at one factor, at which the record is `scaled`. rotation_ratios: (m,) of the members."""
-    motions = GroundMotions.of(scaled)
+    """What falls at one factor, under whose motions it is asked. rotation_ratios: (m,) of the members."""
+    structure, motions, settings = asked.structure, asked.motions, asked.settings
     share = float(np.isinf(rotation_ratios).mean())
-    largest = float(rotation_ratios.max())
-    counting = counting_cracks(structure)
-    sliding = sliding_first(counting, motions)
+    rests = not rotation_ratios.max() > 0
     # Where nothing lifts it stands, unless it slides apart: rows 2 and 3 of the decision.
-    if all(crack in sliding for crack in counting) and (structure.joints.fall_by_sliding or largest > 0):
+    if asked.slides_throughout and not (rests and not structure.joints.fall_by_sliding):
         return Falls(0.0, 1.0, Model.NONE)
     told = Falls(share, share, Model.MECHANISM)
     if contacts and share < 1 and anchors_slide(structure, motions):
         plane = contact_share(structure.held_all_along, motions, settings, DRAWS, until_sure=False)
         if plane.runs and (more := max(share, plane.falls / plane.runs)):
             return Falls(more, more, Model.CONTACTS)
-    if share == 1 or not largest > 0:
+    if share == 1 or rests or not _asks_contacts(asked, share):
         return told
     of_contacts = math.nan
     if structure.joints.as_stones:
-        if not (structure.joints.need_stones or share > 0):
-            return told
         if stones is not None:
             of_contacts = stones.share_at(factor)
-    elif not _is_in_doubt(structure, motions, largest, settings):
-        return told
     elif contacts and stackable(structure):
         runs = contact_share(structure, motions, settings, DRAWS, until_sure=False)
         of_contacts = runs.falls / runs.runs if runs.runs else math.nan
@@ -112,6 +110,13 @@ def _falls_at(
         return Falls(share, 1.0, Model.NONE)
     worse = max(share, of_contacts)
     return Falls(worse, worse, Model.CONTACTS)
+
+
+def _asks_contacts(asked: Asked, share: float) -> bool:
+    """Whether the decision would ask stones or stacks of what lifts, of whose members a share falls."""
+    if asked.structure.joints.as_stones:
+        return asked.structure.joints.need_stones or share > 0
+    return cannot_be_told(asked)
 
 
 @dataclass(eq=False)
@@ -154,18 +159,52 @@ class _Stones:
         return np.array([bisect_left(range(RUNGS), share - 1e-9, key=shares) for share in every])
 
 
-def _is_in_doubt(
-    structure: Structure, motions: GroundMotions, largest: float, settings: AssessmentSettings
-) -> bool:
-    """Whether the decision would not leave what lifts to its members: evidence that only contact dynamics settles.
+def reserve(
+    structure: Structure,
+    crack: Candidate,
+    motions: GroundMotions,
+    settings: AssessmentSettings,
+    *,
+    support_loss: float = math.inf,
+    contact: ContactShare | None = None,
+) -> Reserve:
+    """Return the factors on the motions at which 5, 50 and 95 % fall: of the members with the crack that governs, or of
+    the runs of contact dynamics where the decision would ask for them and more of these fall.
 
-    A mechanism that cannot be followed, courses that may be thrown, contacts that open. largest: rotation ratio of all.
+    The larger share of both is reached at the lesser factor, so that contact dynamics is first asked at that of the
+    members, and most often no further. support_loss: horizontal displacement at which what bears on the structure
+    falls, m. contact: what contact dynamics found under the motions themselves; None where it was not asked. Raises
+    MotionError as `integrate` does, and where contact dynamics is asked and cannot follow it.
     """
-    reached = motions.excitation * (1 + settings.ensemble.amplitude_range)
-    for _, part in parts_of(structure):
-        unknown = weakest_not_followed(part)
-        if unknown is not None and reached > unknown.uplift_multiplier:
-            return True
-        if part.joints.courses_taper or why_open(part, motions, largest, settings) is not None:
-            return True
-    return False
+    falls_beyond = crack.structure.loses_seat_at(support_loss)
+    of_members = reserve_of_members(crack.mechanism, motions, settings.ensemble, falls_beyond=falls_beyond)
+    if not stackable(structure) or not motions.excitation > 0:
+        return of_members
+
+    def reaches(factor: float, share: float) -> bool:
+        asked = Asked.of_run(structure, motions.scaled(factor), settings, math.inf)
+        if not _asks_contacts(asked, 0.0):
+            return False
+        runs = contact_share(structure, asked.motions, settings, RESERVE_DRAWS, share=share)
+        if not runs.runs:
+            raise MotionError(runs.reason)
+        return runs.falls >= share * RESERVE_DRAWS
+
+    first = min(crack.uplift_multiplier for crack in counting_cracks(structure))
+    least = first / motions.excitation / AMPLITUDES[1]
+    of_record = contact.falls / contact.runs if contact and contact.runs else math.nan
+    factors = []
+    for share, factor in zip(SHARES, (of_members.low, of_members.median, of_members.high), strict=True):
+        last = of_members.limit if math.isnan(factor) else factor
+        if of_record >= share:
+            last = min(last, 1.0)
+        elif of_record < share:
+            least = max(least, 1.0)
+        rungs = math.ceil(math.log(last / least) / math.log(RESERVE_APART))
+        if rungs > 0 and reaches(last, share):
+            tried = [last * RESERVE_APART ** (rung - rungs) for rung in range(rungs)]
+            place = bisect_left(tried, True, key=lambda factor: reaches(factor, share))
+            factor = least = last * RESERVE_APART ** (place - rungs - 0.5)
+        factors.append(factor)
+    low, median, high = factors
+    return Reserve(low=low, median=median, high=high, limit=of_members.limit)

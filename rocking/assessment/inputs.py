@@ -8,8 +8,9 @@ import math
 from dataclasses import dataclass
 from functools import cached_property
 
+from rocking.assessment.contacts import ContactShare
 from rocking.assessment.motions import Motion, arrived
-from rocking.assessment.settings import AssessmentSettings, EnsembleSettings, PredictingPulse
+from rocking.assessment.settings import AssessmentSettings, PredictingPulse
 from rocking.hashes import sha256_of_content
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
@@ -86,11 +87,13 @@ class ReserveInputs(Inputs):
     """What the reserve of a structure is computed from.
 
     crack: description of the one that governs; "" where only one may form. support_loss: horizontal displacement at
-    which what bears on the structure falls, m; inf where nothing does.
+    which what bears on the structure falls, m; inf where nothing does. contact: what contact dynamics found under the
+    motion itself; None where it was not asked.
     """
 
     motion: Motion
     structure: Structure
     crack: str
-    settings: EnsembleSettings
+    settings: AssessmentSettings
     support_loss: float = math.inf
+    contact: ContactShare | None = None

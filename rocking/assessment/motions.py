@@ -119,6 +119,23 @@ class _OnSupport(Mapping[tuple[str, str], Accelerogram]):
 
 
 @dataclass(frozen=True, eq=False)
+class _Scaled(Mapping[tuple[str, str], Accelerogram]):
+    """Horizontal motions times a factor, each made when it is asked for."""
+
+    motions: Mapping[tuple[str, str], Accelerogram]
+    factor: float
+
+    def __getitem__(self, of: tuple[str, str]) -> Accelerogram:
+        return self.motions[of].scaled(self.factor)
+
+    def __iter__(self) -> Iterator[tuple[str, str]]:
+        return iter(self.motions)
+
+    def __len__(self) -> int:
+        return len(self.motions)
+
+
+@dataclass(frozen=True, eq=False)
 class GroundMotions:
     """The possible motions of the ground: at least one horizontal by direction and processing, and the vertical one.
 
@@ -183,9 +200,9 @@ class GroundMotions:
         return GroundMotions(_OnSupport(self.horizontal, support, sampling), vertical)
 
     def scaled(self, factor: float) -> "GroundMotions":
-        """Return the motions with the horizontal ones multiplied by `factor`."""
-        horizontal = {name: motion.scaled(factor) for name, motion in self.horizontal.items()}
-        return replace(self, horizontal=horizontal)
+        """Return the motions times a factor, the vertical one with the horizontal ones."""
+        vertical = None if self.vertical is None else self.vertical.scaled(factor)
+        return GroundMotions(_Scaled(self.horizontal, factor), vertical)
 
 
 @dataclass(frozen=True)

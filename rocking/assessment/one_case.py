@@ -19,8 +19,8 @@ from rocking.assessment.cracks import (
 )
 from rocking.assessment.evidence import gathered
 from rocking.assessment.evidence.asked import Asked
+from rocking.assessment.falls import reserve
 from rocking.assessment.inputs import CaseInputs, PairInputs, PulseInputs, ReserveInputs
-from rocking.assessment.ladder import reserve
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
 from rocking.assessment.motions import (
     AS_IT_IS,
@@ -321,9 +321,15 @@ def compute_reserve(inputs: ReserveInputs, clock: Clock) -> Reserve:
     """Return the reserve of the crack of a structure that governs. Raises RockingError where it cannot be followed."""
     crack = governing_crack(inputs.structure, inputs.crack)
     with clock.stage("reserve"):
-        motions = ground_motions(inputs.motion, inputs.settings.processing)
-        falls_beyond = crack.structure.loses_seat_at(inputs.support_loss)
-        return reserve(crack.mechanism, motions, inputs.settings, falls_beyond=falls_beyond)
+        motions = ground_motions(inputs.motion, inputs.settings.ensemble.processing)
+        return reserve(
+            inputs.structure,
+            crack,
+            motions,
+            inputs.settings,
+            support_loss=inputs.support_loss,
+            contact=inputs.contact,
+        )
 
 
 def governing_crack(structure: Structure, description: str) -> Candidate:

@@ -29,10 +29,10 @@ class Evidence(Protocol):
         """Return what was found; None where nothing speaks against the word."""
 
 
-EVIDENCE: tuple[Evidence, ...] = (
-    NotFollowed(),
-    Thrown(),
-    ContactsOpen(),
+UNTOLD: tuple[Evidence, ...] = (NotFollowed(), Thrown(), ContactsOpen())
+"""Those in which nothing can be told of what does not fall."""
+EVIDENCE = (
+    *UNTOLD,
     Held(),
     Stones(),
     StonesMissing(),
@@ -60,3 +60,8 @@ def gathered(asked: Asked) -> CaseResult:
         elif found is not None:
             asked.contact = found
     return replace(case, limits=tuple(asked.limits), contact=asked.contact)
+
+
+def cannot_be_told(asked: Asked) -> bool:
+    """Whether nothing can be told of what lifts and does not fall, until contact dynamics follows it."""
+    return any(evidence.look(asked) is not None for evidence in UNTOLD)

@@ -1,5 +1,6 @@
 """What is asked of a case: the inputs that every kind of evidence may look at, and what was found so far."""
 
+import math
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -7,9 +8,11 @@ from rocking.assessment.case import CaseResult
 from rocking.assessment.contacts import MOST_RUNS, RUNS, ContactShare, contact_share
 from rocking.assessment.cracks import counting_cracks, cracks, sliding_first
 from rocking.assessment.decide import Facts, Limit, Verdict
+from rocking.assessment.methods import Method
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
-from rocking.structures import Structure
+from rocking.motion.response import Response
+from rocking.structures import Outcome, Structure
 from rocking.structures.structure import Candidate
 
 
@@ -28,6 +31,16 @@ class Asked:
     facts: Facts = field(default_factory=Facts)
     limits: list[Limit] = field(default_factory=list)
     contact: ContactShare | None = None
+
+    @classmethod
+    def of_run(
+        cls, structure: Structure, motions: GroundMotions, settings: AssessmentSettings, rotation_ratio: float
+    ) -> "Asked":
+        """Return a case of which no more is known than how far it turns."""
+        outcome = Outcome.OVERTURNS if rotation_ratio == math.inf else Outcome.ROCKS
+        response = Response(rotation_ratio=rotation_ratio, outcome=outcome)
+        case = CaseResult(component="", responses={Method.MECHANISM_ON_RECORD: response})
+        return cls(case, structure, motions, settings)
 
     @cached_property
     def counting(self) -> tuple[Candidate, ...]:

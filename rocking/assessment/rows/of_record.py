@@ -409,7 +409,7 @@ class VerdictRow(DecidedRow[OfStructure]):
         lambda reserve: reserve.limit,
     )
     reserve_doubts: tuple[Kind, ...] = of_structure(
-        "Kinds of warning for which the reserve may be too high: it is that of the mechanism alone",
+        "Kinds of warning for which the reserve may be too high: contact dynamics cannot follow it",
         lambda of: (
             tuple(doubt.kind for doubt in of.period_result.reserve_doubts) if of.period_result.reserve else ()
         ),

@@ -8,8 +8,20 @@ import pytest
 
 import rocking
 from rocking.assessment.contacts import contact_share
-from rocking.assessment.falls import APART, DRAWS, STONES_DRAWS, Falls, Model, falls_along
+from rocking.assessment.cracks import counting_cracks
+from rocking.assessment.falls import (
+    APART,
+    DRAWS,
+    RESERVE_APART,
+    RESERVE_DRAWS,
+    STONES_DRAWS,
+    Falls,
+    Model,
+    falls_along,
+    reserve,
+)
 from rocking.assessment.motions import GroundMotions
+from rocking.assessment.reserve import reserve_of_members
 from rocking.assessment.settings import AssessmentSettings
 from rocking.fragility.hazard import Hazard
 from rocking.records import Accelerogram
@@ -149,3 +161,23 @@ def test_openquake_gets_the_safe_end_with_its_reason(slider_curve, tmp_path):
         slider_curve.upper.probability.tolist(), abs=1e-9
     )
     assert "upper ends, in which what cannot be told falls" in root.find(".//n:description", space).text
+
+
+def test_the_reserve_of_a_spire_is_where_its_stacks_fall():
+    """Followed one after the other at factors on the motion: first one of them falls, then half, then all."""
+    record = shaken(0.2)
+    motions = GroundMotions.of(record)
+    found = reserve(SPIRE, counting_cracks(SPIRE)[0], motions, SETTINGS)
+    assert math.isnan(reserve_of_members(SPIRE.mechanism(), motions).low), (
+        "its mechanism stands up to the limit"
+    )
+    assert found.low <= found.median <= found.high < found.limit
+    near = RESERVE_APART**0.5
+    for share, factor in ((0.05, found.low), (0.5, found.median), (0.95, found.high)):
+        falling = []
+        for side in (1 / near, near):
+            runs = contact_share(
+                SPIRE, motions.scaled(factor * side), SETTINGS, RESERVE_DRAWS, until_sure=False
+            )
+            falling.append(runs.falls / runs.runs >= share)
+        assert falling == [False, True]

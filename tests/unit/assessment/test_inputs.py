@@ -5,6 +5,7 @@ from dataclasses import field, fields, make_dataclass, replace
 import numpy as np
 import pytest
 
+from rocking.assessment.contacts import ContactShare
 from rocking.assessment.inputs import CaseInputs, Inputs, PairInputs, PulseInputs, ReserveInputs
 from rocking.assessment.motions import Motion
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings, PredictingPulse
@@ -37,12 +38,13 @@ OTHERS = {
         "measured": False,
     },
     PairInputs(pair=PAIR, processing=True): {"pair": MOTION, "processing": False},
-    ReserveInputs(motion=MOTION, structure=BLOCK, crack="", settings=EnsembleSettings()): {
+    ReserveInputs(motion=MOTION, structure=BLOCK, crack="", settings=AssessmentSettings()): {
         "motion": PAIR,
         "structure": Block(2.0, 0.21),
         "crack": "hinge at 1 m",
-        "settings": EnsembleSettings(reserve=2.0),
+        "settings": AssessmentSettings(ensemble=EnsembleSettings(reserve=2.0)),
         "support_loss": 0.1,
+        "contact": ContactShare(falls=0, runs=24),
     },
 }
 

@@ -10,9 +10,8 @@ import rocking
 from rocking.assessment.assessor import Assessor
 from rocking.assessment.case import PeriodResult
 from rocking.assessment.ensemble import CAUSES, lattice
-from rocking.assessment.ladder import Stage, _Ladder, reserve
 from rocking.assessment.motions import GroundMotions
-from rocking.assessment.reserve import Reserve
+from rocking.assessment.reserve import Reserve, Stage, _worth_following, reserve_of_members
 from rocking.assessment.scene import Scene
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.store import RecordStore
@@ -86,7 +85,7 @@ def test_it_is_what_a_scan_of_every_member_at_every_level_gives(name):
     shifts = np.random.default_rng(1).random((8, len(CAUSES)))
     record = RECORDS[name]()
     motions = GroundMotions.of(record)
-    samples = [reserve(BLOCK.mechanism(), motions, settings, shift=shift) for shift in shifts]
+    samples = [reserve_of_members(BLOCK.mechanism(), motions, settings, shift=shift) for shift in shifts]
     mean = np.exp(np.mean(np.log([(sample.low, sample.median, sample.high) for sample in samples]), axis=0))
     ratios = mean / np.array(_scanned(BLOCK, record, settings))
     assert np.abs(np.log(ratios)) == pytest.approx(0.0, abs=np.log(1.1))
@@ -103,14 +102,14 @@ def test_where_one_amplitude_divides_falls_from_the_rest_it_is_that_of_the_unifo
     limit_amplitude = factors[falls.argmax()]
     for spread in (0.1, 0.3):
         settings = EnsembleSettings(amplitude_range=spread, restitution_range=0.0, reserve=6.0)
-        own = reserve(BLOCK.mechanism(), GroundMotions.of(record), settings)
+        own = reserve_of_members(BLOCK.mechanism(), GroundMotions.of(record), settings)
         expected = [limit_amplitude / (1 + spread * (1 - 2 * share)) for share in (0.05, 0.5, 0.95)]
         assert [own.low, own.median, own.high] == pytest.approx(expected, rel=0.01)
 
 
 def test_a_stronger_record_has_as_much_less():
     once, twice = (
-        reserve(
+        reserve_of_members(
             BLOCK.mechanism(), GroundMotions.of(_record(value)), EnsembleSettings(reserve=10.0 * 3 / value)
         )
         for value in (3.0, 6.0)
@@ -121,7 +120,7 @@ def test_a_stronger_record_has_as_much_less():
 
 def test_at_the_reserve_so_many_members_of_the_ensemble_overturn():
     record = _record(3.0, 2)
-    found = reserve(BLOCK.mechanism(), GroundMotions.of(record), EnsembleSettings(reserve=20.0))
+    found = reserve_of_members(BLOCK.mechanism(), GroundMotions.of(record), EnsembleSettings(reserve=20.0))
     low = rocking.assess(record.scaled(0.8 * found.low), BLOCK).overturning_share
     median = rocking.assess(record.scaled(found.median), BLOCK).overturning_share
     high = rocking.assess(record.scaled(1.3 * found.high), BLOCK).overturning_share
@@ -130,10 +129,10 @@ def test_at_the_reserve_so_many_members_of_the_ensemble_overturn():
 
 def test_up_to_the_limit_and_no_farther():
     motions = GroundMotions.of(_record(0.5))
-    found = reserve(BLOCK.mechanism(), motions, EnsembleSettings(reserve=1.0))
+    found = reserve_of_members(BLOCK.mechanism(), motions, EnsembleSettings(reserve=1.0))
     assert math.isnan(found.low) and math.isnan(found.median) and found.limit == 1.0
     assert str(found) == "fewer than 5 % of members fall up to 1 × this record"
-    farther = reserve(BLOCK.mechanism(), motions, EnsembleSettings(reserve=30.0))
+    farther = reserve_of_members(BLOCK.mechanism(), motions, EnsembleSettings(reserve=30.0))
     assert 1.0 < farther.low < farther.median <= 30.0
     assert str(Reserve(low=0.8, median=math.nan, high=math.nan, limit=3.0)).endswith(
         "fewer than half up to 3 × this record"
@@ -142,7 +141,7 @@ def test_up_to_the_limit_and_no_farther():
 
 def test_still_ground_has_none():
     still = Accelerogram(np.zeros(500), STEP)
-    assert math.isnan(reserve(BLOCK.mechanism(), GroundMotions.of(still)).low)
+    assert math.isnan(reserve_of_members(BLOCK.mechanism(), GroundMotions.of(still)).low)
 
 
 def test_a_setting_turns_it_off_and_a_result_has_it():
@@ -195,26 +194,24 @@ def test_what_falls_as_soon_as_it_lifts_has_the_factors_at_which_it_lifts():
     lifts = np.tan(BLOCK.slenderness) * 9.80665
     for spread in (0.05, 0.2):
         settings = EnsembleSettings(amplitude_range=spread, reserve=6.0)
-        own = reserve(BLOCK.mechanism(), GroundMotions.of(record), settings)
+        own = reserve_of_members(BLOCK.mechanism(), GroundMotions.of(record), settings)
         expected = [lifts / (1 + spread * (1 - 2 * share)) for share in (0.05, 0.5, 0.95)]
         assert [own.low, own.median, own.high] == pytest.approx(expected, rel=2e-3)
 
 
 def test_rungs_are_followed_about_what_falls_below_the_median_or_stands_above_it():
     """Of a ladder on which all fall from a factor of 2 on, but one rung far below it falls and one far above stands."""
-    settings = EnsembleSettings(amplitude_range=0.05, reserve=6.0)
-    motions = GroundMotions.of(_record(3.0))
-    ladder = _Ladder(BLOCK.mechanism(), motions, settings, 0.5, np.zeros(len(CAUSES)))
-    falls = (ladder.amplitudes >= 2.0).astype(float)
-    below, above = (int(np.searchsorted(ladder.amplitudes, factor)) for factor in (1.2, 3.5))
+    logs = np.log(0.5) + np.arange(2500) / 1024
+    falls = (logs >= np.log(2.0)).astype(float)
+    below, above = (int(np.searchsorted(logs, np.log(factor))) for factor in (1.2, 3.5))
     falls[below] = 1.0
     falls[above] = 0.0
     followed = np.zeros(falls.size, dtype=bool)
     followed[::16] = followed[[below, above]] = True
-    ladder.falls = np.where(followed, falls, np.nan)
     around = 0.1
-    wanted = ladder.worth_following(Stage(1, 0.0, around, shares=()))
-    distance = np.abs(ladder.logs[:, None] - ladder.logs[[below, above]]).min(axis=1)
+    found = np.where(followed, falls, np.nan)
+    wanted = _worth_following(Stage(1, 0.0, around, shares=()), logs, found, [1.9, 2.0, 2.1], 0.05)
+    distance = np.abs(logs[:, None] - logs[[below, above]]).min(axis=1)
     assert wanted.tolist() == (distance < around).tolist()
 
 

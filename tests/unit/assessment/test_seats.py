@@ -9,8 +9,8 @@ import pytest
 from rocking import Accelerogram, Block, Facade, Verdict
 from rocking.assessment.assessor import Assessor
 from rocking.assessment.kinds import AssessmentKind
-from rocking.assessment.ladder import reserve
 from rocking.assessment.motions import GroundMotions
+from rocking.assessment.reserve import reserve_of_members
 from rocking.assessment.scene import CheckTerms, Scene
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 
@@ -59,8 +59,8 @@ def test_the_reserve_counts_what_loses_its_bearing():
     settings = EnsembleSettings(members=16, reserve=8.0)
     loss = FRONT.moved_from_bearings(0.1 * FRONT.mechanism().positive.critical_rotation)
     overturns, loses = (
-        reserve(FRONT.mechanism(), motions, settings, falls_beyond=FRONT.loses_seat_at(seat))
+        reserve_of_members(FRONT.mechanism(), motions, settings, falls_beyond=FRONT.loses_seat_at(seat))
         for seat in (math.inf, loss)
     )
     assert loses.median < 0.97 * overturns.median and loses.low <= overturns.low
-    assert reserve(FRONT.mechanism(), motions, settings) == overturns
+    assert reserve_of_members(FRONT.mechanism(), motions, settings) == overturns

@@ -11,7 +11,6 @@ from rocking.assessment.decide import ORDER, Limit
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.methods import Acts, Agreement
 from rocking.assessment.rows import rows_of_record, structure_rows
-from rocking.assessment.scene import Scene
 from rocking.quantities import counted
 from rocking.remarks import Remark
 from rocking.reports import printing
@@ -360,19 +359,6 @@ def test_a_reserve_that_may_be_too_high_is_grey(example):
     doubtful = replace(example, result=result, tables=rows_of_record(result, "cd" * 32, "CC0-1.0"))
     data = doubtful.page()
     assert [row.name for row in data.page_one.rows if row.alone] == [name]
-
-
-def test_the_reserve_of_a_spire_is_always_told_as_the_mechanisms(example):
-    """Its courses may be thrown at every factor, also where it falls as a mechanism and its verdict needs no doubt."""
-    name = next(
-        one_station.structure for one_station in example.result.worst_first if one_station.reserve is not None
-    )
-    station = example.result.scenes[name].worst
-    assert station.reserve_in_words == str(station.reserve)
-    spire = Spire(width=3.0, height=15.0, wall_thickness=0.25, crack_height=5.0)
-    words = replace(station, scene=Scene(name, spire)).reserve_in_words
-    assert words.startswith(str(station.reserve))
-    assert words.endswith(f"too high where {Remark(AssessmentKind.COURSES_THROWN)}")
 
 
 @pytest.mark.usefixtures("undrawn")
