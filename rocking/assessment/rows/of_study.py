@@ -294,7 +294,9 @@ def interval_of_mean(falls: np.ndarray, structures: int, sample: Sample) -> tupl
     least = 1 / (128 * structures)
     shaking = spread.of(ndtri(np.clip(parts, least, 1 - least)))
     middles = (np.arange(100) + 0.5) / 100
-    deviations = shaking.deviation * np.sqrt((n - 1) / chdtri(n - 1, middles))
+    # Where one earthquake has nearly all stations, the least quantiles are 0 to double precision.
+    quantiles = np.maximum(chdtri(n - 1, middles), np.finfo(float).tiny)
+    deviations = shaking.deviation * np.sqrt((n - 1) / quantiles)
     means = shaking.mean + ndtri(middles)[:, None] * deviations / math.sqrt(n)
     of_law = np.quantile(ndtr(means / np.sqrt(1 + deviations**2)), [TAIL, 1 - TAIL])
 

@@ -169,3 +169,11 @@ def test_stations_of_one_earthquake_say_no_more_than_their_mean() -> None:
 def test_the_worst_verdict_comes_first() -> None:
     stations = [station(case("EW", 0.1, "arch", falls=0)), station(case("EW", math.inf, "pier", falls=64))]
     assert [row.structure for row in worst_period_each(verdicts(stations, "a"))] == ["pier", "arch"]
+
+
+def test_one_earthquake_with_nearly_all_stations_says_nothing_of_others():
+    stations = tuple(f"station {place}" for place in range(402))
+    sample = Sample(stations, ("one",) * 400 + ("two", "three"))
+    with np.errstate(all="raise"):
+        low, high = interval_of_mean(np.array([5.0] * 400 + [6.0, 7.0]), 12, sample)
+    assert (low, high) == (pytest.approx(0.0, abs=1e-9), pytest.approx(12.0))
