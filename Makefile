@@ -5,9 +5,11 @@ VENV ?= .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 TOOLS := $(VENV)/.tools
-# Bytecode apart, by all cores and without the packages' own tests: pip writes all of it, one file after another.
+# Without bytecode: Python writes that of the third of all modules that are imported.
 PIP := $(BIN)/python -m pip install --quiet --no-compile
-BYTECODE := $(BIN)/python -m compileall -qq -j 0 -x '/tests?/' $(VENV)/lib || true
+
+# What tests docs/research is collected by check-research alone.
+TESTS := $(BIN)/python -m pytest -n logical --dist loadfile --ignore tests/research
 
 COMPILE := uv pip compile --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header
 EXECUTOR := snakemake-executor-plugin-slurm
@@ -18,7 +20,7 @@ ENGINE := openquake-engine==3.26.2
 # Tests start many processes, and each would compile the whole package again to bytecode.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: all run setup slurm openquake test test-runs test-both test-all bench trace check near check-research schema pages figures measured paper documentation wheel release lock clean
+.PHONY: all run setup slurm openquake test test-runs test-both test-all bench trace check near check-research schema pages figures measured paper documentation wheel versions dist release lock clean
 
 all: run
 
@@ -31,13 +33,11 @@ $(STAMP): requirements.lock pyproject.toml
 	$(PYTHON) -m venv $(VENV)
 	$(PIP) --require-hashes -r requirements.lock
 	$(PIP) --no-deps --no-build-isolation -e .
-	$(BYTECODE)
 	touch $(STAMP)
 
 # What tests, checks and the documentation need besides.
 $(TOOLS): $(STAMP) development.lock
 	$(PIP) --require-hashes -r development.lock
-	$(BYTECODE)
 	touch $(TOOLS)
 
 # Apart from the rest: snakemake imports every executor it finds at each start, and this one costs it a third of a second.
@@ -53,20 +53,19 @@ $(OPENQUAKE)/.installed: tests/workflow/openquake.lock
 	touch $(OPENQUAKE)/.installed
 
 test: $(TOOLS)
-	$(BIN)/python -m pytest -n logical --dist loadfile
+	$(TESTS)
 
 # Snakemake, commands, browsers and other processes, and what takes more than a second.
 test-runs: $(TOOLS)
-	$(BIN)/python -m pytest -n logical --dist loadfile -m "process and not slow"
+	$(TESTS) -m "process and not slow"
 
 # Both at once, those files first that take long, so that no core waits for the last of them.
 test-both: $(TOOLS)
-	$(BIN)/python -m pytest -n logical --dist loadfile --no-loadscope-reorder -m "not slow"
+	$(TESTS) --no-loadscope-reorder -m "not slow"
 
 # The slow ones too: research, every page, ten thousand damaged files, and twenty runs that are killed and go on.
 test-all: check-research openquake
-	ROCKING_KILLS=20 $(BIN)/python -m pytest -n logical --dist loadfile -m "" --hypothesis-profile thorough \
-	  --ignore tests/research
+	ROCKING_KILLS=20 $(TESTS) -m "" --hypothesis-profile thorough
 
 bench: $(TOOLS)
 	for script in tests/benchmarks/bench_*.py; do $(BIN)/python $$script || exit 1; done
@@ -118,9 +117,18 @@ paper: setup
 documentation: $(TOOLS)
 	$(BIN)/snakemake --workflow-profile workflow/profiles/default documentation
 
-# The wheel and the source archive in dist/, and a study that the wheel runs where nothing else of the project is.
-wheel: setup
+# The wheel and the source archive.
+dist: setup
+	rm -rf dist
+	$(BIN)/python -m hatchling build -d dist
+
+# A study that the wheel runs where nothing else of the project is.
+wheel: dist
 	.ci/wheel $(VENV)
+
+# The wheel under the newest Pythons.
+versions: dist
+	.ci/versions
 
 # The same of a version that stands in pyproject.toml and, with its date, in the changelog.
 release: $(TOOLS)

@@ -27,7 +27,7 @@ def fetch() -> None:
     with contextlib.suppress(OSError), _kept() as kept:  # a home may lack or be closed
         if len(_compiled(kept)) > len(_compiled(PACKAGE)):
             _remove(PACKAGE)
-            _copy(kept, PACKAGE)
+            copy(kept, PACKAGE)
     if not _compiled(PACKAGE):
         from rocking.assessment.compilation import compile_all  # which loads every kernel
 
@@ -39,7 +39,7 @@ def keep() -> None:
     with contextlib.suppress(OSError), _kept() as kept:
         if len(_compiled(PACKAGE)) > len(_compiled(kept)):
             _remove(kept)
-            _copy(PACKAGE, kept)
+            copy(PACKAGE, kept)
 
 
 @contextlib.contextmanager
@@ -77,8 +77,9 @@ def _remove(folder: Path) -> None:
         path.unlink()
 
 
-def _copy(source: Path, target: Path) -> None:
+def copy(source: Path, target: Path) -> None:
+    """Copy what was compiled of the same kernels."""
     for path in _compiled(source):
-        copy = target / path.relative_to(source)
-        copy.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(path, copy)
+        to = Path(target, path.relative_to(source))
+        to.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(path, to)

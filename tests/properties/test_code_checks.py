@@ -51,7 +51,11 @@ SUPPORTS = st.one_of(
         st.floats(0.3, 1.6),
     ),
 )
-UNCHECKED = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
+UNCHECKED = settings(
+    max_examples=settings.default.max_examples // 3,
+    deadline=None,
+    suppress_health_check=[HealthCheck.too_slow],
+)
 
 
 @UNCHECKED

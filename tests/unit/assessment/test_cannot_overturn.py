@@ -129,6 +129,7 @@ def test_its_row_has_no_block():
     assert row.uplift_multiplier == pytest.approx(HELD.mechanism().uplift_multiplier)
 
 
+@pytest.mark.slow
 def test_a_structure_without_a_block_has_a_row_beside_the_others():
     """A wall ten times as broad as high has no block exact at rest; its row leaves that out, and names the others."""
     flat, block = structure_rows(

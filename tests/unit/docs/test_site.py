@@ -218,6 +218,7 @@ def test_the_site_leaves_nothing_of_the_code_out(site):
     assert {f"{getattr(rocking, name).__module__}.{name}" for name in rocking.__all__} <= described
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "kind", "form"), list(forms()))
 def test_a_drawing_shows_the_letter_of_every_size(name, kind, form):
     """Every length and angle that the form requires; those of several floors are numbered."""

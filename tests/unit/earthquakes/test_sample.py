@@ -173,10 +173,10 @@ def test_the_mean_of_means_scatters_as_by_hand():
 
 @pytest.mark.parametrize("earthquakes", [4, pytest.param(8, marks=pytest.mark.slow)])
 def test_the_interval_of_a_median_holds_it_with_few_earthquakes_of_several_stations(earthquakes):
-    """Half of the variance is between earthquakes. Asked: 85 % of 150; by stations as if independent far fewer hold."""
+    """Half of the variance is between earthquakes. Asked: 85 % of 60; by stations as if independent far fewer hold."""
     rng = np.random.default_rng(3)
-    held = np.zeros((150, 2))
-    for trial in range(150):
+    held = np.zeros((60, 2))
+    for trial in range(60):
         between = rng.standard_normal((earthquakes, 1))
         logs = 0.4 * (between + rng.standard_normal((earthquakes, 5))).ravel() / 2**0.5
         for column, alone in enumerate((False, True)):

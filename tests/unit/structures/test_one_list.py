@@ -74,7 +74,7 @@ def test_above_a_tie_inside_a_storey_the_wall_falls_from_the_tie_on():
 
 
 @pytest.mark.parametrize("one_storey", [True, False])
-@pytest.mark.parametrize("fronts", [15, pytest.param(50, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("fronts", [6, pytest.param(50, marks=pytest.mark.slow)])
 def test_one_list_with_a_tie_below_the_top(one_storey, fronts):
     """Drawn fronts with a tie .25 to 1.6 m below their top; joints of the courses lie a twentieth of a span apart."""
     draw = np.random.default_rng(62 + one_storey)
@@ -106,7 +106,7 @@ def test_one_list_with_a_tie_below_the_top(one_storey, fronts):
     assert "above the tie" in governed
 
 
-@pytest.mark.parametrize("walls", [10, pytest.param(100, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("walls", [4, pytest.param(100, marks=pytest.mark.slow)])
 def test_one_list_of_walls_between_supports_whose_load_bears_off_the_middle(walls):
     """Drawn walls between supports, whose hinge may lie between the last two joints at which it is sought."""
     draw = np.random.default_rng(63)
