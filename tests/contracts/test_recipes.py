@@ -86,7 +86,7 @@ def test_a_recipe_changes_lines_that_stand_there(tmp_path, name):
             change(copy, body.rstrip("\n"))
 
 
-@pytest.mark.process
+@pytest.mark.slow
 @pytest.mark.parametrize("name", RECIPES)
 def test_a_recipe_can_be_followed_to_the_letter(tree, name):
     steps = blocks(RECIPES[name])

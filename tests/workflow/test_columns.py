@@ -4,6 +4,8 @@ import csv
 from dataclasses import replace
 from pathlib import Path
 
+import pytest
+
 from rocking.assessment.scene import load_scenes, on_the_ground
 from rocking.assessment.settings import EnsembleSettings
 from rocking.catalogue.catalogue import CatalogueRecord
@@ -37,6 +39,7 @@ def _write_tables(records: list[CatalogueRecord], study: Study, results: Path) -
     write_summary(outcomes_in(results, records), described, results / "summary", False)
 
 
+@pytest.mark.slow
 def test_every_column_is_filled_somewhere(tmp_path: Path) -> None:
     """By a raw record with all its channels, one of two components, a pulse that nothing survives, and no record."""
     (tmp_path / "structures.yaml").write_text(STRUCTURES, encoding="utf-8")

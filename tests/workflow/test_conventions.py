@@ -110,6 +110,7 @@ def test_inputs_are_left_alone(begun, tmp_path) -> None:
     assert len(provenance["records"]["good_1"]) == 64
 
 
+@pytest.mark.slow
 def test_outputs_dated_ahead_of_the_clock_stop_nothing(done, tmp_path) -> None:
     study = done.copy_to(tmp_path / "study")
     ahead = time.time() + 1e6
@@ -121,6 +122,7 @@ def test_outputs_dated_ahead_of_the_clock_stop_nothing(done, tmp_path) -> None:
     assert study.planned() == []
 
 
+@pytest.mark.slow
 def test_a_link_to_itself_among_the_results_stops_nothing(done, tmp_path) -> None:
     study = done.copy_to(tmp_path / "study")
     (study.results / "summary" / "verdicts.csv").unlink()
@@ -144,6 +146,7 @@ def test_a_file_system_without_locks_is_a_warning(done, tmp_path) -> None:
     assert "not locked, No locks available" in ended.stdout
 
 
+@pytest.mark.slow
 def test_a_module_of_another_snakefile_gives_the_same_status_and_files(begun, done, tmp_path) -> None:
     study = begun.copy_to(tmp_path / "study")
     (study.folder / "Snakefile").unlink()
@@ -159,6 +162,7 @@ def test_a_module_of_another_snakefile_gives_the_same_status_and_files(begun, do
     assert study.rows_of("good_1") == done.rows_of("good_1")
 
 
+@pytest.mark.slow
 def test_an_archive_unpacks_to_a_study_that_runs(begun, done, tmp_path) -> None:
     snakemake(begun, "--archive", str(tmp_path / "study.tar.gz"))
     with tarfile.open(tmp_path / "study.tar.gz") as archive:
@@ -168,6 +172,7 @@ def test_an_archive_unpacks_to_a_study_that_runs(begun, done, tmp_path) -> None:
     assert study.tables() == done.tables()
 
 
+@pytest.mark.slow
 def test_every_generated_unit_test_parses(done, tmp_path) -> None:
     study = done.copy_to(tmp_path / "study")
     command = [sys.executable, "-m", "snakemake", "--generate-unit-tests", "tests"]  # where it was imported
@@ -185,6 +190,7 @@ def test_the_rules_are_free_of_lint() -> None:
     assert not ended.returncode and "Lints for" not in ended.stdout + ended.stderr, ended.stderr
 
 
+@pytest.mark.slow
 def test_the_catalogue_of_workflows_finds_the_main_file_and_how_it_is_used() -> None:
     assert (ROOT / "workflow" / "Snakefile").is_file()
     usage = yaml.safe_load((ROOT / ".snakemake-workflow-catalog.yml").read_text())["usage"]

@@ -70,6 +70,7 @@ def run(folder: Path, *command: str) -> str:
     return done.stdout
 
 
+@pytest.mark.slow
 def test_without_codes_and_fragility_a_record_is_assessed_and_a_study_runs(without) -> None:
     where = run(
         without, "-c", "import rocking, pathlib; print(pathlib.Path(rocking.__file__).parent)"

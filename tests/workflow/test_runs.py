@@ -112,6 +112,7 @@ def test_a_record_that_changed_and_one_more_compute_their_own_jobs_only(finished
     assert study.planned() == [], "the second run has nothing to do, in ten years as now"
 
 
+@pytest.mark.slow
 def test_a_dry_run_changes_nothing(finished, tmp_path) -> None:
     study = finished.copy_to(tmp_path / "study")
 

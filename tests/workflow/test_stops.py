@@ -71,7 +71,7 @@ ON_DEMAND = pytest.mark.slow
     ("number", "everybody"),
     [
         pytest.param(signal.SIGINT, True, id="Ctrl-C"),
-        pytest.param(signal.SIGTERM, False, id="request"),
+        pytest.param(signal.SIGTERM, False, id="request", marks=ON_DEMAND),
     ],
 )
 def test_a_request_to_stop_leaves_nothing_half_written_and_the_same_command_goes_on(
@@ -148,6 +148,7 @@ def _set_mode(folder: Path, mode: int) -> None:
 AWAY = "records/catalogue.csv (missing locally"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "harm", "mend", "words"),
     [
@@ -164,7 +165,6 @@ AWAY = "records/catalogue.csv (missing locally"
             lambda at: _set_mode(at, 0o755),
             "Permission denied",
             id="results read-only",
-            marks=pytest.mark.slow,
         ),
     ],
 )

@@ -10,6 +10,7 @@ from tests.benchmarks.trace_record import ROOT, traced
 pytestmark = pytest.mark.process
 
 
+@pytest.mark.slow
 def test_the_job_enters_every_file_on_the_way_of_a_record(tmp_path: Path) -> None:
     contributing = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
     way = contributing.partition("the path of a record from its file to page one")[2].partition("\n* ")[0]
