@@ -15,7 +15,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 
-from rocking.errors import DoesNotStandError, SizeError, StructureError, StructureWarning
+from rocking.errors import DoesNotStandError, StructureError, StructureWarning
 from rocking.remarks import Phrase
 from rocking.structures.arch_mechanism import (
     FourBar,
@@ -119,12 +119,8 @@ class Arch(Crackable):
                 restitution="momentum",
             )
         super().__post_init__()
-        if self.thickness >= 2 * self.radius:
-            raise SizeError.of(
-                "thickness",
-                repr(self.thickness),
-                f" m, but must be less than twice the radius of {self.radius!r} m.",
-            )
+        said = f" m, but must be less than twice the radius of {self.radius!r} m."
+        self._demand(self.thickness < 2 * self.radius, "thickness", said)
         if self.crack_is_known and self.hinge_angles is None:
             raise unplaced("hinge_angles")
         self.onset  # noqa: B018  an arch that cannot stand or rock is refused at birth
@@ -452,12 +448,8 @@ class ArchOnPiers(Arch):
     def _static_onset(self) -> Onset:
         """λ of the mechanism that governs and its hinges (angles from the left springing; a foot is beyond it)."""
         least = self.thickness * float(np.sin(self.embrace_angle / 2))
-        if self.pier_width < least:
-            raise SizeError.of(
-                "pier_width",
-                repr(self.pier_width),
-                f" m, but must be at least {least:.6g} m to carry the springing.",
-            )
+        said = f" m, but must be at least {least:.6g} m to carry the springing."
+        self._demand(self.pier_width >= least, "pier_width", said)
         return super()._static_onset()
 
     def _refusal(self, reason: type[StructureError]) -> str:

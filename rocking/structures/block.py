@@ -6,7 +6,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 
-from rocking.errors import SizeError, StructureError
+from rocking.errors import StructureError
 from rocking.structures.crackable import CrackedAtHeight, Crushable, unplaced
 from rocking.structures.drawing import Path, rectangle, span, swept
 from rocking.structures.fields import (
@@ -214,18 +214,14 @@ class RigidBody(Crushable):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.height is not None and self.height <= self.centre_height:
-            raise SizeError.of(
-                "height",
-                repr(self.height),
-                f" m, but must be above the centre of mass, at {self.centre_height!r} m.",
-            )
-        if self.compressive_strength is not None and self.section is None:
-            raise StructureError(
-                "section is missing, but must be given with a compressive_strength, for what presses on the edge "
-                "follows from it; give the volume per metre of that edge, m².",
-                section=None,
-            )
+        said = f" m, but must be above the centre of mass, at {self.centre_height!r} m."
+        self._demand(self.height is None or self.height > self.centre_height, "height", said)
+        self._demand(
+            self.compressive_strength is None or self.section is not None,
+            "section",
+            ", but must be given with a compressive_strength, for what presses on the edge follows from it; give the "
+            "volume per metre of that edge, m².",
+        )
         self._stand_crushed()
 
     @property
@@ -345,21 +341,14 @@ class Spire(CrackedAtHeight):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.wall_thickness is not None and self.wall_thickness >= self.width / 2:
-            raise SizeError.of(
-                "wall_thickness",
-                repr(self.wall_thickness),
-                f" m, but must be less than half the width, "
-                f"{self.width / 2!r} m; leave it out for a solid spire.",
-            )
+        said = (
+            f" m, but must be less than half the width, {self.width / 2!r} m; leave it out for a solid spire."
+        )
+        self._demand((self.wall_thickness or 0.0) < self.width / 2, "wall_thickness", said)
         if self.crack_is_known and self.crack_height is None:
             raise unplaced("crack_height")
-        if self.crack_position >= self.height:
-            raise SizeError.of(
-                "crack_height",
-                repr(self.crack_height),
-                f" m, but must lie on the spire, from 0 to below its height of {self.height!r} m.",
-            )
+        said = f" m, but must lie on the spire, from 0 to below its height of {self.height!r} m."
+        self._demand(self.crack_position < self.height, "crack_height", said)
         self._stand_crushed()
 
     @property

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
 
-from rocking.errors import DoesNotStandError, SizeError, StructureError, StructureWarning
+from rocking.errors import DoesNotStandError, StructureError, StructureWarning
 from rocking.remarks import Phrase, Remark
 from rocking.structures.fields import CompressiveStrength, Value
 from rocking.structures.kinds import StructureKind
@@ -33,10 +33,10 @@ class Crushable(Structure):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.compressive_strength is not None and getattr(self, "unit_weight", None) is None:
-            raise SizeError.of(
+        if self.compressive_strength is not None:
+            self._demand(
+                getattr(self, "unit_weight", None) is not None,
                 "unit_weight",
-                "missing",
                 ", but must be given with a compressive_strength, for what presses on the joints follows from it; give "
                 "both, or none.",
             )

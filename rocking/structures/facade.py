@@ -12,13 +12,13 @@ from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 
-from rocking.errors import SizeError, StructureError
+from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, counted, whole
 from rocking.remarks import Remark
 from rocking.structures.crackable import unplaced
 from rocking.structures.drawing import Path, span
 from rocking.structures.fields import Lean, Value, restitution_value, stated
-from rocking.structures.held_wall import HeldWall, Hold, Load, Opening, Storey
+from rocking.structures.held_wall import Hold, Load, Opening, Storey
 from rocking.structures.kinds import StructureKind
 from rocking.structures.leaves import Leaf
 from rocking.structures.linkage import Restitution, inset
@@ -28,16 +28,13 @@ from rocking.structures.stack import (
     Held,
     PointMass,
     Stack,
-    Stop,
     counted_courses,
     course_at,
-    courses_between,
     joined,
-    joints_between,
     loaded,
     slab,
 )
-from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight, check_eccentricity, check_inside
+from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight
 
 _MOST_STOREYS = 50
 _SIZES = {"ge": 1e-4, "le": 1000}
@@ -132,7 +129,6 @@ class Facade(Tied):
     def __post_init__(self) -> None:
         super().__post_init__()
         self._check_storeys()
-        self._check_behind()
         self._check_ties()
         if self.opening is not None:
             return
@@ -159,7 +155,7 @@ class Facade(Tied):
                     **{name: values},
                 )
         bearing = [t for load, t in zip(loads, thicknesses, strict=False) if load]
-        check_eccentricity(value=self.eccentricity, thickness=min(bearing or thicknesses))
+        self._check_eccentricity(self.eccentricity, min(bearing or thicknesses))
         if self.crack_storey is not None:
             object.__setattr__(
                 self, "crack_storey", whole("crack_storey", self.crack_storey, 1, len(heights))
@@ -167,7 +163,7 @@ class Facade(Tied):
         if self.crack_is_known and self.crack_storey is None and self.crack_height is None:
             raise unplaced("crack_storey or crack_height")
         if self.thrust_height is not None:
-            check_inside("thrust_height", self.thrust_height, self.height)
+            self._check_inside("thrust_height", self.thrust_height)
         # A crack_storey of 1 with a crack_height was once the default, and still occurs in files.
         if self.crack_height is not None and self.crack_storey not in (None, 1):
             raise StructureError(
@@ -175,37 +171,22 @@ class Facade(Tied):
                 "meant; give one of them.",
                 crack_height=self.crack_height,
             )
-        if self.crack_height is not None and not self.crack_height < self.height:
-            raise SizeError.of(
-                "crack_height",
-                repr(self.crack_height),
-                f" m, but must lie on the façade, from 0 to below its height of {self.height:.6g} m.",
-            )
-
-    def _check_behind(self) -> None:
-        """Refuse what stands behind without the restitution of an impact on it."""
-        if self.behind in ("floors", "cross_walls") and not isinstance(self.restitution, float):
-            raise SizeError.of(
-                "restitution",
-                "missing" if self.restitution is None else repr(self.restitution),
-                f", but must be a number between 0 and 1 for a façade with {self.behind.replace('_', ' ')} behind, "
-                "which take part in the impact; give it.",
-            )
+        said = f" m, but must lie on the façade, from 0 to below its height of {self.height:.6g} m."
+        self._demand((self.crack_height or 0.0) < self.height, "crack_height", said)
+        behind = self.behind if self.behind != "nothing" else None
+        self._demand(
+            behind is None or isinstance(self.restitution, float),
+            "restitution",
+            f", but must be a number between 0 and 1 for a façade with {str(behind).replace('_', ' ')} behind, which "
+            "take part in the impact; give it.",
+        )
 
     @cached_property
     def one_sided(self) -> bool:
         """Whether it moves outwards only as it opens here, as something behind stops it."""
         if self.behind in (None, "nothing"):
             return False
-        return self.held_wall.other_way(self.opening or Opening(foot=self.crack_position)) is None
-
-    @property
-    def _sections(self) -> tuple[tuple[float, float, float, float], ...]:
-        levels = pairwise(self.levels.tolist())
-        return tuple(
-            (low, high, -thickness, 0.0)
-            for (low, high), thickness in zip(levels, self.thicknesses, strict=True)
-        )
+        return self.held_wall.other_way(self._opens) is None
 
     @property
     def _leans(self) -> bool:
@@ -273,53 +254,51 @@ class Facade(Tied):
             return None
         return Remark(StructureKind.FLOORS_BEHIND)
 
-    @cached_property
-    def held_wall(self) -> HeldWall:
-        levels = self.levels.tolist()
-        storeys = [
-            Storey(low, high, -thickness, 0.0, self.unit_weight * thickness, narrows=1.0 - self.narrows)
-            for (low, high), thickness in zip(pairwise(levels), self.thicknesses, strict=True)
-        ]
+    @property
+    def _storeys(self) -> tuple[Storey, ...]:
+        narrows = 1.0 - self.narrows
+        return tuple(
+            Storey(low, high, -thickness, 0.0, self.unit_weight * thickness, narrows)
+            for (low, high), thickness in zip(pairwise(self.levels.tolist()), self.thicknesses, strict=True)
+        )
+
+    @property
+    def _loads(self) -> tuple[Load, ...]:
         loads = []
-        last = len(levels) - 2
+        last = len(self.storey_heights) - 1
+        rides = not self.loads_held
+        levels = self.levels.tolist()
         for storey, load in enumerate(self.floor_loads):
             middle = -self.thicknesses[storey] / 2
-            rides = not self.loads_held
             if storey == last and self.top_slab == "flat":
-                loads.append(
-                    Load(middle, levels[storey + 1], load, rides, self._slab_edge(storey, load), rides)
-                )
+                edge = self._slab_edge(storey, load)
+                loads.append(Load(middle, levels[storey + 1], load, rides, edge, rides))
             elif load:
                 loads.append(Load(middle - self.eccentricity, levels[storey + 1], load, rides, moves=rides))
-        bears = self.floor_loads if any(self.floor_loads) else [1.0] * len(storeys)
+        return tuple(loads)
+
+    @property
+    def _holds(self) -> list[Hold]:
+        levels = self.levels.tolist()
+        bears = self.floor_loads if any(self.floor_loads) else [1.0] * len(self.storey_heights)
         floors = [level for level, load in zip(levels[1:], bears, strict=True) if load]
         if self.behind != "floors":
             floors = []
         holds = [
-            Hold(height, "tie", ties * self._yield_force, np.inf if height in floors else 0.0)
+            Hold(height, "tie", ties * self._tie.yield_force, np.inf if height in floors else 0.0)
             for height, ties in Counter(self._tie_levels).items()
         ]
-        holds += [Hold(level, "floor", 0.0, np.inf) for level in floors if level not in self._tie_levels]
-        holds = self._with_bonders(holds)
-        thrust_height = self.height if self.thrust_height is None else self.thrust_height
-        return HeldWall(
-            tuple(storeys),
-            tuple(loads),
-            tuple(sorted(holds)),
-            ((thrust_height, self.thrust),) if self.thrust else (),
-            backed=self._leans,
-            strength=self.compressive_strength,
-            lean=self._aside,
-            ties=self._tie_levels,
-            ties_apart=self.ties_apart,
-            gripped=self.anchor_height,
-            gripped_share=self._gripped_share,
-            joints=self.joints,
-        )
+        return holds + [
+            Hold(level, "floor", 0.0, np.inf) for level in floors if level not in self._tie_levels
+        ]
+
+    @property
+    def _thrusts(self) -> tuple[tuple[float, float], ...]:
+        height = self.height if self.thrust_height is None else self.thrust_height
+        return ((height, self.thrust),) if self.thrust else ()
 
     @property
     def _aside(self) -> float:
-        """How far it stands out of plumb outwards, per height."""
         return float(np.tan(self.lean))
 
     def _slab_edge(self, storey: int, load: float) -> float:
@@ -374,22 +353,10 @@ class Facade(Tied):
                 held.append(Held(place, point, force=(0.0, -load)))
             else:
                 body[place] = loaded(body[place], [PointMass(point, load / GRAVITY)])
-        if self.thrust:
-            height = self.height if self.thrust_height is None else self.thrust_height
+        for height, thrust in self._thrusts:
             if height > foot:
-                held.append(Held(course_at(body, height), self._outer(height), force=(self.thrust, 0.0)))
-        for height in self._tie_levels:
-            if height > foot:
-                held.append(Held(course_at(body, height), self._outer(height), tie=self._anchored(height)))
-        held += self._behind(body)
-        for hold in self.held_wall.holds:
-            if hold.inwards and hold.height > foot and hold.kind != "bonder":
-                place = course_at(body, hold.height)
-                storey_mass = sum(course.mass for course in body) / len(self.storey_heights)
-                restitution = self.mechanism().positive.restitution
-                stop = Stop.of_mass(body[place].mass, restitution, thrown=max(storey_mass, body[place].mass))
-                held.append(Held(place, (body[place].top[0], hold.height), stop=stop))
-        held += self._bonded(body, 0.0, -self.thicknesses[0])
+                held.append(Held(course_at(body, height), self._outer(height), force=(thrust, 0.0)))
+        held += self._held_in(body)
         return Stack((*body, *slabs), tuple(held))
 
     def _flat_slab(self, thickness: float, load: float) -> Course:
@@ -402,25 +369,6 @@ class Facade(Tied):
             )
         aside = self._aside * self.height
         return slab(aside - thickness, aside, self.height, load, upright=True)
-
-    def _outer(self, height: float) -> tuple[float, float]:
-        """The point of the outer face at a height [m]."""
-        return self._aside * height, height
-
-    def _storey_courses(self, courses: int, foot: float = 0.0) -> tuple[Course, ...]:
-        """The courses above `foot` [m], each storey in as many as its share of the height asks, or one more."""
-        made: list[Course] = []
-        for (low, high), thickness in zip(pairwise(self.levels), self.thicknesses, strict=True):
-            if high <= foot:
-                continue
-            stops = [hold.height for hold in self.held_wall.holds if max(low, foot) < hold.height < high]
-            number_of_part = courses * (high - max(low, foot)) / self.height
-            levels = joints_between([max(low, foot), *stops, high], number_of_part)
-            faces = [(self._aside * level - thickness, self._aside * level) for level in levels]
-            gable = Storey(0.0, self.height, -thickness, 0.0, 1.0, narrows=1.0 - self.narrows)
-            breadths = [gable.cut(*ends).total / (ends[1] - ends[0]) for ends in pairwise(levels)]
-            made += courses_between(levels, faces, self.unit_weight / GRAVITY, breadths)
-        return tuple(made)
 
     def _placed(self, height: float) -> dict[str, Any]:
         foot = np.flatnonzero(self.levels[:-1] == height)

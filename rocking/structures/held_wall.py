@@ -17,9 +17,8 @@ import numpy as np
 
 from rocking.remarks import Phrase
 from rocking.structures.drawing import rectangle
-from rocking.structures.joints import USUAL, Joints
+from rocking.structures.joints import Joints
 from rocking.structures.linkage import (
-    GRIPPED,
     HIGHEST_SHARE,
     STILL,
     Contacts,
@@ -351,29 +350,39 @@ class Hold(NamedTuple):
         return self.outwards > 0 and self.inwards > 0
 
 
+class TieRow(NamedTuple):
+    """Equal ties at `heights` [m], and how their anchors hold the wall along its length.
+
+    apart: whether they are so far apart along the wall that it may fall between them. gripped: height of the masonry
+    that each anchor grips, m. gripped_share: of the length of the wall that all anchors of a row grip.
+    """
+
+    tie: Tie
+    heights: tuple[float, ...]
+    apart: bool
+    gripped: float
+    gripped_share: float
+
+
 @dataclass(frozen=True, eq=False)
 class HeldWall:
     """Masonry, what bears and pushes on it, and what holds it.
 
     storeys: from the ground up. thrusts: height [m] and force outwards [N/m]. backed: cross walls stand behind it, so
     that nothing moves inwards. strength: f_c at which the edges of joints crush, Pa; or None. lean: how far it stands
-    out of plumb outwards, per height, whereas x is given in plumb. ties: the height of each, m. ties_apart: whether its
-    ties stand so far apart along the wall that it may fall between them. gripped: height of the masonry that each
-    anchor grips, m. gripped_share: of the length of the wall that all anchors of a row grip.
+    out of plumb outwards, per height, whereas x is given in plumb.
     """
 
     storeys: tuple[Storey, ...]
     loads: tuple[Load, ...]
     holds: tuple[Hold, ...]
-    thrusts: tuple[tuple[float, float], ...] = ()
-    backed: bool = False
-    strength: float | None = None
-    lean: float = 0.0
-    ties: tuple[float, ...] = ()
-    ties_apart: bool = False
-    gripped: float = GRIPPED
-    gripped_share: float = 1.0
-    joints: Joints = USUAL
+    thrusts: tuple[tuple[float, float], ...]
+    _: KW_ONLY
+    row: TieRow
+    backed: bool
+    strength: float | None
+    lean: float
+    joints: Joints
 
     @property
     def height(self) -> float:
@@ -410,21 +419,25 @@ class HeldWall:
         That of what lies above it, with the floor that bears there, and of the masonry that it grips.
         """
         floor = sum(load.weight for load in self.loads if load.z == height and not load.slab)
-        storey = next(storey for storey in self.storeys if storey.low < height <= storey.high)
-        pressing = self.pressing(height) + floor + self.gripped * storey.weight
-        return self.joints.friction * self.gripped_share * pressing
+        pressing = self.pressing(height) + floor + self.row.gripped * self._storey_at(height).weight
+        return self.joints.friction * self.row.gripped_share * pressing
 
-    def anchored(self, tie: Tie, height: float) -> Tie:
-        """Return a tie at `height` [m] that pulls with no more than the wall around its anchor gives.
+    def _storey_at(self, height: float) -> Storey:
+        """The storey on which something acts at `height` [m]; at a joint the one below."""
+        return next(storey for storey in self.storeys if storey.low < height <= storey.high)
+
+    def anchored(self, height: float) -> Tie:
+        """Return its tie at `height` [m], pulling with no more than the wall around its anchor gives.
 
         What it grips then slides out with it, by SLIDES of the thickness until it lets go.
         """
+        tie = self.row.tie
         grip = self.grip(height)
         if not tie.stiffness:
             return replace(tie, pretension=min(tie.pretension, grip))
         if tie.strength <= grip:
             return tie
-        storey = next(storey for storey in self.storeys if storey.low < height <= storey.high)
+        storey = self._storey_at(height)
         return replace(
             tie,
             pretension=min(tie.pretension, grip),
@@ -446,7 +459,7 @@ class HeldWall:
             return math.inf
         drawn = [
             multiplier
-            for opening, multiplier in replace(self, holds=held, ties_apart=False).family()
+            for opening, multiplier in replace(self, holds=held, row=self.row._replace(apart=False)).family()
             if any(
                 hold.kind == "tie" and _moved(opening.kinks, hold.height) > _SAME * self.height
                 for hold in held
@@ -516,7 +529,7 @@ class HeldWall:
         holds = [hold for hold in self.holds if hold.kind != "tie"]
         # What a top holds inwards is what ties do not give.
         left = [hold._replace(outwards=hold.inwards) if hold.kind == "top" else hold for hold in holds]
-        return replace(self, holds=tuple(left), ties_apart=False)
+        return replace(self, holds=tuple(left), row=self.row._replace(apart=False))
 
     def _strips(self, opening: Opening) -> list[tuple[float, float]]:
         """The upright strips of a triangle between two ties: the height at which each one turns, m, and its share.
@@ -569,7 +582,7 @@ class HeldWall:
                 stands_above = hold is not None and hold < self.height * (1 - _SAME)
                 for upright in (False, True) if stands_above else (False,):
                     yield from self._ways(Opening(foot=foot, hinge=hinge, hold=hold, upright=upright))
-        if self.ties_apart:
+        if self.row.apart:
             yield from self._openings_between_ties(joints, feet)
 
     def _openings_between_ties(self, joints: Sequence[float], feet: Sequence[float]) -> Iterator[Opening]:
@@ -799,10 +812,10 @@ class HeldWall:
         stands = x + self.lean * z
         return complex(stands if outwards else -stands, z)
 
-    def hung(self, way: Opening, cut: Opening, tie: Tie) -> list[Hung]:
+    def hung(self, way: Opening, cut: Opening) -> list[Hung]:
         """Return what hangs on the pieces of `cut` as they move in `way`, seen from the side to which that falls.
 
-        tie: each of its ties; inwards it goes slack, and a hold does not move.
+        Inwards a tie goes slack, and a hold does not move.
         """
         outwards = 1.0 if way.outwards else -1.0
         slip = self.slip(way)
@@ -831,12 +844,11 @@ class HeldWall:
             )
             start = outwards * self._face(self.height, True).real + 1j * self.height
             hung.append(Hung("friction", start, self.part_at(cut, self.height), tie=slides))
-        for height in self.ties:
-            storey = next(storey for storey in self.storeys if storey.low < height <= storey.high)
+        for height in self.row.heights:
             stays = way.between or height == way.hold
             stays |= way.upright and way.hold is not None and height > way.hold
-            pulls = tie if way.outwards and not stays else None
-            start = self._seen(storey.right, height, way.outwards)
+            pulls = self.row.tie if way.outwards and not stays else None
+            start = self._seen(self._storey_at(height).right, height, way.outwards)
             hung.append(Hung("tie", start, self.part_at(cut, height), tie=pulls))
         return hung
 
@@ -920,7 +932,7 @@ class HeldWall:
         """The point at which the wall is held at `height` [m] on its outer or its inner face, or by what lies on it."""
         if any(hold.height == height and hold.kind == "top" for hold in self.holds):
             return self._edge(height, 1.0 if outwards else -1.0)
-        storey = next(storey for storey in self.storeys if storey.low < height <= storey.high)
+        storey = self._storey_at(height)
         return self._seen(storey.right if outwards else storey.left, height)
 
 

@@ -8,7 +8,7 @@ from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 
-from rocking.errors import DoesNotStandError, SizeError, StructureWarning
+from rocking.errors import DoesNotStandError, StructureWarning
 from rocking.remarks import Remark
 from rocking.structures.drawing import Mark, Path, plane, rectangle, span
 from rocking.structures.fields import Value, length
@@ -108,28 +108,21 @@ class Leaved(Structure):
         """Refuse leaves that are no part of the wall, and what is said of none."""
         if not self.leaves:
             for name in ("bonders", "thrown_back"):
-                if getattr(self, name) is not None:
-                    said = ", but says what holds the leaves of a wall; give the thickness of each, leaves_m."
-                    raise SizeError.of(name, repr(getattr(self, name)), said)
+                said = ", but says what holds the leaves of a wall; give the thickness of each, leaves_m."
+                self._demand(getattr(self, name) is None, name, said)
             return
-        shown = repr(list(self.leaves))
-        if len(self.leaves) not in LEAVES:
-            said = " m, but must be two or three thicknesses, from outside in; leave it out for one leaf."
-            raise SizeError.of("leaves", shown, said)
+        leaves = list(self.leaves)
+        said = " m, but must be two or three thicknesses, from outside in; leave it out for one leaf."
+        self._demand(len(leaves) in LEAVES, "leaves", said, leaves)
         thinnest = min(outer - inner for _, _, inner, outer in self._sections)
-        if sum(self.leaves) > thinnest * (1 + _SAME):
-            said = f" m, but must add up to no more than the thickness of the wall, {thinnest:.6g} m."
-            raise SizeError.of("leaves", shown, said)
+        said = f" m, but must add up to no more than the thickness of the wall, {thinnest:.6g} m."
+        self._demand(sum(leaves) <= thinnest * (1 + _SAME), "leaves", said, leaves)
         top = self._leaf_top
-        if isinstance(self.bonders, float) and self.bonders >= top:
-            said = (
-                f" m, but must be a spacing below the height of the wall, {top:.6g} m, or a list of heights."
-            )
-            raise SizeError.of("bonders", repr(self.bonders), said)
+        said = f" m, but must be a spacing below the height of the wall, {top:.6g} m, or a list of heights."
+        self._demand(not isinstance(self.bonders, float) or self.bonders < top, "bonders", said)
+        said = f" m, but must lie on the wall, above 0 and up to {top:.6g} m."
         for height in self.bonder_heights:
-            if not 0 < height <= top * (1 + _SAME):
-                said = f" m, but must lie on the wall, above 0 and up to {top:.6g} m."
-                raise SizeError.of("bonders", repr(height), said)
+            self._demand(0 < height <= top * (1 + _SAME), "bonders", said, height)
         _ = self.leaves_alone  # one that is pushed over at rest is refused at birth
 
     @cached_property

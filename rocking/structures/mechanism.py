@@ -57,6 +57,11 @@ class Tie:
     plastic_elongation: float = 0.0
 
     @property
+    def yield_force(self) -> float:
+        """The force with which limit analysis lets it pull; inf of one that never yields."""
+        return self.strength if self.stiffness else self.pretension
+
+    @property
     def yield_stretch(self) -> float:
         """u at which it reaches its strength, m."""
         if np.isinf(self.strength):

@@ -101,13 +101,20 @@ class Structure(ABC):
             if value is not key.default:
                 object.__setattr__(self, key.name, key.in_si(value))
         # As it is typed: whether a façade is, follows from its geometry, which is checked later.
-        if vars(self).get("one_sided") and not isinstance(self._given_restitution, float):
-            raise SizeError.of(
+        if vars(self).get("one_sided"):
+            self._demand(
+                isinstance(self._given_restitution, float),
                 "restitution",
-                "missing" if self._given_restitution is None else repr(self._given_restitution),
                 ", but a one-sided body needs its own number between 0 and 1, as what it leans on takes part in the "
                 "impact; give it.",
             )
+
+    def _demand(self, is_so: object, name: str, said: str, value: object = None) -> None:
+        """Refuse its field of that name, or one `value` of it, unless something is so; said: from the unit on."""
+        wrong = getattr(self, name) if value is None else value
+        if not is_so:
+            shown = "missing" if wrong is None else "empty" if wrong == () else repr(wrong)
+            raise SizeError.of(name, shown, said)
 
     def __repr__(self) -> str:
         """The description, and the first remark on unusual values."""
@@ -338,11 +345,9 @@ class Structure(ABC):
         Where ties yield or break on the way there is a point more, and just beyond it another.
         Raises StructureError for a side to which it does not rock, or fewer than two points.
         """
-        if side not in (1, -1) or (side == -1 and self.mechanism().one_sided) or count < 2:
+        if count < 2:
             raise StructureError(
-                f"side is {side!r} and count {count!r}, but side must be 1, or -1 where the structure rocks to both "
-                "sides, and count 2 or more.",
-                side=(side, count),
+                f"count is {count!r}, but must be 2 points or more; correct it.", count=count
             )
         return self.static_capacity(side).curve(count)
 

@@ -4,26 +4,26 @@ import math
 import warnings
 from abc import abstractmethod
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
+from itertools import pairwise
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rocking.errors import DoesNotStandError, SizeError, StructureError, StructureWarning
+from rocking.errors import DoesNotStandError, StructureError, StructureWarning
 from rocking.quantities import GRAVITY
 from rocking.remarks import Phrase, Remark
 from rocking.structures.crackable import CrackedAtHeight
 from rocking.structures.drawing import Bay, Mark, plane, rectangle
 from rocking.structures.fields import Value
-from rocking.structures.held_wall import LEAST_STIFFNESS, Chain, HeldWall, Hold, Opening
+from rocking.structures.held_wall import LEAST_STIFFNESS, Chain, HeldWall, Hold, Load, Opening, Storey, TieRow
 from rocking.structures.kinds import StructureKind
 from rocking.structures.leaves import Leaf, Leaved
 from rocking.structures.linkage import (
     GRIPPED,
     STILL,
-    Hung,
     Linkage,
     MotionState,
     Reaction,
@@ -31,7 +31,7 @@ from rocking.structures.linkage import (
     UnknownContacts,
 )
 from rocking.structures.mechanism import Tie
-from rocking.structures.stack import Course, Held, Stop, course_at
+from rocking.structures.stack import Course, Held, Stop, course_at, courses_between, joints_between
 from rocking.structures.structure import Candidate, Structure, every
 
 UnitWeight = Annotated[float, Value("Weight of the masonry", 20.0, "kN/m³", (8, 30), bounds={"ge": 1e-6})]
@@ -62,46 +62,6 @@ _ASIDE = 0.5
 """Distance of the front of a bay from the section, in heights of the wall: what stands between is the dimensions."""
 _BESIDE_A_BAY = 0.08
 """What is drawn of the bays beside it, in spacings."""
-_RODS_SPREAD: dict[str, Any] = {
-    "rod_diameter": None,
-    "rod_length": None,
-    "rod_yield_stress": None,
-    "rod_pretension": 0.0,
-}
-"""The fields of rods that are spread over the metre already."""
-_NO_TIES: dict[str, Any] = {
-    "tie_heights": (),
-    "tie_stiffness": 0.0,
-    "tie_pretension": 0.0,
-    "tie_strength": None,
-    "tie_plastic_elongation": 0.0,
-    "tie_spacing": None,
-    "unit_length": None,
-    "held_between": None,
-    "anchor_height": GRIPPED,
-    "anchor_width": None,
-    **_RODS_SPREAD,
-}
-"""The fields of a wall without ties."""
-
-
-def check_eccentricity(*, value: float, thickness: float) -> None:
-    """Refuse a bearing beyond the edge of a wall of that thickness [m]."""
-    if abs(value) > thickness / 2:
-        raise SizeError.of(
-            "eccentricity",
-            repr(value),
-            f" m, but must lie within half the thickness, {thickness / 2!r} m, for the load "
-            "to bear on the wall.",
-        )
-
-
-def check_inside(field: str, value: float, height: float) -> None:
-    """Refuse a height above the ground [m] that is not on a wall of that `height`."""
-    if not 0 < value <= height:
-        raise SizeError.of(
-            field, repr(value), f" m, but must lie on the wall, above 0 and up to {height:.6g} m."
-        )
 
 
 @dataclass(frozen=True, repr=False)
@@ -255,9 +215,8 @@ class Tied(CrackedAtHeight, Leaved):
         if not any((*rods.values(), self.rod_yield_stress, self.rod_pretension)):
             return
         for name, value in (rods | {"tie_spacing": self.tie_spacing}).items():
-            if value is None:
-                said = ", but a rod needs rod_diameter, rod_length and the tie_spacing; give it."
-                raise SizeError.of(name, "missing", said)
+            said = ", but a rod needs rod_diameter, rod_length and the tie_spacing; give it."
+            self._demand(value is not None, name, said)
         assert self.rod_diameter and self.rod_length and self.tie_spacing
         area = math.pi * self.rod_diameter**2 / 4
         per_metre: dict[str, float | None] = {
@@ -267,8 +226,8 @@ class Tied(CrackedAtHeight, Leaved):
         }
         for name, value in per_metre.items():
             given = getattr(self, name)
-            if given and (value is None or not math.isclose(given, value, rel_tol=1e-9)):
-                raise SizeError.of(name, repr(given), ", but follows from the rods; leave it out.")
+            follows = value is not None and math.isclose(given or 0.0, value, rel_tol=1e-9)
+            self._demand(not given or follows, name, ", but follows from the rods; leave it out.")
             object.__setattr__(self, name, value)
 
     @property
@@ -277,15 +236,15 @@ class Tied(CrackedAtHeight, Leaved):
         return super().side_names if self.symmetric and not self.one_sided else ("outwards", "inwards")
 
     def _moves(self, mirrored: bool) -> Opening:
-        """How it opens to one side."""
-        return self._way(mirrored) or replace(self._opens, outwards=not mirrored)
-
-    def _hung(self, mirrored: bool) -> list[Hung]:
-        """The loads and ties, as seen from one side."""
-        return self.held_wall.hung(self._moves(mirrored), self._opens, self._tie)
+        """How it opens to one side; what is described as it is described."""
+        if self.opening is not None and self.opening.outwards != mirrored:
+            return self.opening
+        other = self.opening and self.held_wall.other_way(self.opening)
+        return other or replace(self._opens, outwards=not mirrored)
 
     def _linkage(self, mirrored: bool) -> Linkage:
-        return self.held_wall.linkage(self._moves(mirrored), self._opens, self._hung(mirrored))
+        way = self._moves(mirrored)
+        return self.held_wall.linkage(way, self._opens, self.held_wall.hung(way, self._opens))
 
     def _parts(self) -> list[tuple[int, np.ndarray]]:
         return self.held_wall.outlines(self._opens)
@@ -313,10 +272,6 @@ class Tied(CrackedAtHeight, Leaved):
             return self
         return replace(self, held_between="floor", anchor_width=self.anchor_width or self.unit_length)
 
-    def _anchored(self, height: float) -> Tie:
-        """The tie at a height [m] as contact dynamics takes it, which pulls no more than its anchor gives."""
-        return self.held_wall.anchored(self._tie, height)
-
     def _check_plane(self) -> None:
         """Refuse a stack, which is plane, of a wall that may fall between its ties."""
         if self.ties_apart:
@@ -343,10 +298,49 @@ class Tied(CrackedAtHeight, Leaved):
             assumed.append(Remark.of(StructureKind.RODS_SPREAD, "", **rods))
         return (*super().assumptions, *assumed)
 
-    @property
-    @abstractmethod
+    @cached_property
     def held_wall(self) -> HeldWall:
         """The wall as limit analysis sees it: its masonry, what bears on it and what holds it."""
+        return HeldWall(
+            self._storeys,
+            self._loads,
+            tuple(sorted(self._with_bonders(self._holds))),
+            self._thrusts,
+            row=TieRow(self._tie, self._tie_levels, self.ties_apart, self.anchor_height, self._gripped_share),
+            backed=self._leans,
+            strength=self.compressive_strength,
+            lean=self._aside,
+            joints=self.joints,
+        )
+
+    @property
+    @abstractmethod
+    def _storeys(self) -> tuple[Storey, ...]:
+        """Its masonry from the ground up."""
+
+    @property
+    @abstractmethod
+    def _loads(self) -> tuple[Load, ...]:
+        """What bears on it."""
+
+    @property
+    @abstractmethod
+    def _holds(self) -> list[Hold]:
+        """What holds it besides bonders."""
+
+    @property
+    def _thrusts(self) -> tuple[tuple[float, float], ...]:
+        """The height [m] and the force outwards [N/m] of what pushes it."""
+        return ()
+
+    @property
+    def _aside(self) -> float:
+        """How far it stands out of plumb outwards, per height."""
+        return 0.0
+
+    @property
+    def _sections(self) -> tuple[tuple[float, float, float, float], ...]:
+        return tuple((storey.low, storey.high, storey.left, storey.right) for storey in self._storeys)
 
     @abstractmethod
     def opened(self, opening: Opening) -> Self:
@@ -378,15 +372,15 @@ class Tied(CrackedAtHeight, Leaved):
             return ()
         own = self._described_opening
         span = (own.foot, own.hold) if own else None
-        bulges = []
-        for candidate in self._family:
-            opening = candidate.structure.opening if isinstance(candidate.structure, Tied) else None
+
+        def bulges(candidate: Candidate) -> bool:
+            opening = candidate.opening
             if opening is None:
-                continue
-            bulges_elsewhere = opening.hinge is not None and (opening.foot, opening.hold) != span
-            if bulges_elsewhere or opening.between or self.held_wall.slip(opening):
-                bulges.append(candidate)
-        return tuple(bulges)
+                return False
+            elsewhere = opening.hinge is not None and (opening.foot, opening.hold) != span
+            return elsewhere or opening.between or candidate.slips
+
+        return tuple(filter(bulges, self._family))
 
     @property
     def is_held(self) -> bool:
@@ -621,18 +615,6 @@ class Tied(CrackedAtHeight, Leaved):
         """How it opens as it is described, where that is a bulge; None: as one body."""
         return None
 
-    def _way(self, mirrored: bool) -> Opening | None:
-        """The way it opens to one side; None: about the crack as it is described."""
-        if self.opening is None or self.opening.outwards != mirrored:
-            return self.opening
-        return self.held_wall.other_way(self.opening)
-
-    @cached_property
-    def _yield_force(self) -> float:
-        """The force of each tie as it yields, N per metre; inf of one that never does."""
-        strength = np.inf if self.tie_strength is None else self.tie_strength
-        return strength if self.tie_stiffness else self.tie_pretension
-
     def tie_events(self, rotation: float) -> str:
         tie = self._tie
         events = []
@@ -656,12 +638,14 @@ class Tied(CrackedAtHeight, Leaved):
         mirrored = rotation < 0
         size = 0.15 * self.height
         marks = []
-        apart = (self._way(mirrored) or self._opens).between
+        way = self._moves(mirrored)
         anchorage = float(np.vstack(self.outline())[:, 0].min()) - 2 * size
-        for hung in self._hung(mirrored):
+        for hung in self.held_wall.hung(way, self._opens):
             if hung.kind == "friction":
                 continue
-            stays = hung.part == STILL or (apart and hung.kind == "tie")  # the ties stand next to the section
+            stays = hung.part == STILL or (
+                way.between and hung.kind == "tie"
+            )  # the ties stand next to the section
             shift = 0j if stays else linkage.carried(hung.part, hung.start, motion).moved
             head = plane(np.asarray(hung.start + shift), mirrored)
             tail = {"load": [0.0, size], "thrust": [-size, 0.0], "tie": [anchorage - head[0], 0.0]}[hung.kind]
@@ -687,27 +671,16 @@ class Tied(CrackedAtHeight, Leaved):
         ends = left + _BESIDE_A_BAY * self.tie_spacing + np.array([0.0, self.tie_spacing])
         right = float(ends[1]) + _BESIDE_A_BAY * self.tie_spacing
         top = self.height
-        openings = [self.opening]
-        if self.opening is None:
-            own = [candidate.structure for candidate in self.mechanisms() if not candidate.part]
-            openings = [wall.opening for wall in own if isinstance(wall, Tied)]
+        own = [candidate.opening for candidate in self.mechanisms() if not candidate.part]
+        openings = own if self.opening is None else [self.opening]
         falls = []
         for opening in openings:
             if opening is None or not opening.between:
                 continue
             # Not a triangle: all of the bay above its foot, as if no tie held it.
             hold = opening.hold if opening.is_triangle and opening.hold is not None else opening.foot
-            falls.append(
-                np.array(
-                    [
-                        [float(ends.mean()), opening.foot],
-                        [ends[1], hold],
-                        [ends[1], top],
-                        [ends[0], top],
-                        [ends[0], hold],
-                    ]
-                )
-            )
+            heights = [opening.foot, hold, top, top, hold]
+            falls.append(np.stack([[ends.mean(), ends[1], ends[1], ends[0], ends[0]], heights], axis=1))
         if not falls:
             return None
         ties = np.array([[end, height] for end in ends for height in self.tie_heights])
@@ -736,14 +709,59 @@ class Tied(CrackedAtHeight, Leaved):
         ]
         return [*others, *(Hold(height, "bonder", math.inf, math.inf) for height in self.held_at)]
 
-    def _bonded(self, courses: Sequence[Course], outer: float, inner: float) -> list[Held]:
-        """What bonders do to a leaf in courses, with faces at these x [m]: a stop inwards, a tie as stiff outwards."""
-        held = []
+    def _storey_courses(
+        self, number: int, foot: float = 0.0, cuts: Sequence[float] = ()
+    ) -> tuple[Course, ...]:
+        """Its courses above `foot` [m], each storey in as many as its share of the height asks, or one more.
+
+        They end where something holds it, and at `cuts` [m].
+        """
+        made: list[Course] = []
+        weight = getattr(self, "unit_weight", None)
+        density = 1.0 if weight is None else weight / GRAVITY
+        held = [hold.height for hold in self.held_wall.holds]
+        for storey in self._storeys:
+            low = max(storey.low, foot)
+            if storey.high <= low:
+                continue
+            stops = [height for height in (*held, *cuts) if low < height < storey.high]
+            share = (storey.high - low) / self.height
+            levels = joints_between([low, *stops, storey.high], number * share)
+            sides = (storey.left, storey.right)
+            faces = [(sides[0] + self._aside * level, sides[1] + self._aside * level) for level in levels]
+            one = storey._replace(weight=1.0)
+            breadths = [one.cut(*ends).total / (ends[1] - ends[0]) for ends in pairwise(levels)]
+            made += courses_between(levels, faces, density, breadths)
+        return tuple(made)
+
+    def _outer(self, height: float) -> tuple[float, float]:
+        """The point of the outer face at a height [m]."""
+        return self._storeys[-1].right + self._aside * height, height
+
+    def _held_in(self, courses: Sequence[Course]) -> list[Held]:
+        """What holds its courses: ties, what they lean on, floors behind them, and bonders."""
+        restitution = self.mechanism().positive.restitution
+        foot = courses[0].base
+        held = [
+            Held(course_at(courses, height), self._outer(height), tie=self.held_wall.anchored(height))
+            for height in self._tie_levels
+            if height > foot
+        ]
+        held += self._behind(courses)
+        storey = sum(course.mass for course in courses) / len(self._storeys)
+        for hold in self.held_wall.holds:
+            place = course_at(courses, hold.height)
+            mass = courses[place].mass
+            if hold.kind in ("tie", "floor") and hold.inwards and hold.height > foot:
+                stop = Stop.of_mass(mass, restitution, thrown=max(storey, mass))
+                held.append(Held(place, (courses[place].top[0], hold.height), stop=stop))
         for height in self.held_at:
+            # A bonder is a stop inwards and a tie as stiff outwards.
             place = course_at(courses, height)
-            stop = Stop.of_mass(courses[place].mass, self.mechanism().positive.restitution)
-            tie = Tie(stiffness=stop.stiffness, pretension=0.0, strength=np.inf, plastic_elongation=0.0)
-            held += [Held(place, (outer, height), tie=tie), Held(place, (inner, height), stop=stop)]
+            stop = Stop.of_mass(courses[place].mass, restitution)
+            tie = Tie(stiffness=stop.stiffness)
+            held.append(Held(place, (self._storeys[0].right, height), tie=tie))
+            held.append(Held(place, (self._storeys[0].left, height), stop=stop))
         return held
 
     def _bears(self, leaf: Leaf) -> bool:
@@ -789,58 +807,60 @@ class Tied(CrackedAtHeight, Leaved):
             plastic_elongation=self.tie_plastic_elongation,
         )
 
+    def _check_eccentricity(self, value: float, thickness: float) -> None:
+        """Refuse a bearing beyond the edge of a wall of that thickness [m]."""
+        said = f" m, but must lie within half the thickness, {thickness / 2!r} m, for the load to bear on the wall."
+        self._demand(abs(value) <= thickness / 2, "eccentricity", said)
+
+    def _check_inside(self, name: str, value: float) -> None:
+        """Refuse a height above the ground [m] that is not on the wall."""
+        said = f" m, but must lie on the wall, above 0 and up to {self.height:.6g} m."
+        self._demand(0 < value <= self.height, name, said, value)
+
     def _check_ties(self) -> None:
         """Refuse ties that do not hang together."""
+        demand = self._demand
         stiffness = self.tie_stiffness
         pretension = self.tie_pretension
         strength = self.tie_strength
         for height in self.tie_heights:
-            check_inside("tie_heights", height, self.height)
+            self._check_inside("tie_heights", height)
         if self.tie_heights:
-            check_inside("anchor_height", self.anchor_height, self.height)
-        if 0 < stiffness < LEAST_STIFFNESS:
-            said = f", but must be 0 or at least {LEAST_STIFFNESS!r} N/m², below which a tie holds nothing."
-            raise SizeError.of("tie_stiffness", repr(stiffness), said)
-        if strength is not None and strength < pretension:
-            raise SizeError.of(
-                "tie_strength",
-                repr(strength),
-                ", but must be at least the pretension of the tie (tie_pretension).",
-            )
-        if strength is not None and not stiffness:
-            raise SizeError.of(
-                "tie_stiffness", "0", ", but must be greater than 0 for a tie with a tie_strength; give it."
-            )
-        if strength is None and self.tie_plastic_elongation:
-            raise SizeError.of(
-                "tie_plastic_elongation",
-                repr(self.tie_plastic_elongation),
-                " m, but needs a tie_strength at which the tie yields; give it.",
-            )
+            self._check_inside("anchor_height", self.anchor_height)
+        said = f", but must be 0 or at least {LEAST_STIFFNESS!r} N/m², below which a tie holds nothing."
+        demand(not 0 < stiffness < LEAST_STIFFNESS, "tie_stiffness", said)
+        said = ", but must be at least the pretension of the tie (tie_pretension)."
+        demand(strength is None or strength >= pretension, "tie_strength", said)
+        said = ", but must be greater than 0 for a tie with a tie_strength; give it."
+        demand(strength is None or stiffness, "tie_stiffness", said, 0)
+        said = " m, but needs a tie_strength at which the tie yields; give it."
+        demand(strength is not None or not self.tie_plastic_elongation, "tie_plastic_elongation", said)
         for name in ("tie_spacing", "unit_length", "held_between"):
-            if getattr(self, name) is not None and not self.tie_heights:
-                said = f", but {name} says how ties hold the wall along its length, and tie_heights is empty; give it."
-                raise SizeError.of(name, repr(getattr(self, name)), said)
-        if self.tie_spacing is not None and self.unit_length is None and self.held_between is None:
-            said = ", but a tie_spacing needs the length of the units of the masonry, or held_between: floor; give it."
-            raise SizeError.of("unit_length", "missing", said)
+            said = f", but {name} says how ties hold the wall along its length, and tie_heights is empty; give it."
+            demand(getattr(self, name) is None or self.tie_heights, name, said)
+        said = ", but a tie_spacing needs the length of the units of the masonry, or held_between: floor; give it."
+        demand(self.tie_spacing is None or self.unit_length or self.held_between, "unit_length", said)
         for name in ("unit_length", "anchor_width"):
-            if getattr(self, name) is not None and self.tie_spacing is None:
-                said = f", but {name} needs the distance between the ties of a row; give it."
-                raise SizeError.of("tie_spacing", "missing", said)
-        if self.loaded_leaf is not None and not self.leaves:
-            said = ", but says which of its leaves bears its loads; give the thickness of each, leaves_m."
-            raise SizeError.of("loaded_leaf", repr(self.loaded_leaf), said)
-        if (stiffness or pretension) and not self.tie_heights:
-            raise SizeError.of("tie_heights", "empty", ", but must say where the ties are; give it.")
-        if self.tie_heights and not (stiffness or pretension):
-            raise SizeError.of(
-                "tie_stiffness", "0", ", but must be greater than 0 for ties to hold; give it."
-            )
-        if pretension > 0 and not self.one_sided:
-            raise SizeError.of(
-                "tie_pretension",
-                repr(pretension),
-                ", but must be 0 unless the wall cannot move inwards (one_sided, or behind: cross_walls of a façade): "
-                "moving inwards, a tightened tie goes slack.",
-            )
+            said = f", but {name} needs the distance between the ties of a row; give it."
+            demand(getattr(self, name) is None or self.tie_spacing, "tie_spacing", said)
+        said = ", but says which of its leaves bears its loads; give the thickness of each, leaves_m."
+        demand(self.loaded_leaf is None or self.leaves, "loaded_leaf", said)
+        said = ", but must say where the ties are; give it."
+        demand(self.tie_heights or not (stiffness or pretension), "tie_heights", said)
+        said = ", but must be greater than 0 for ties to hold; give it."
+        demand(stiffness or pretension or not self.tie_heights, "tie_stiffness", said, 0)
+        said = (
+            ", but must be 0 unless the wall cannot move inwards (one_sided, or behind: cross_walls of a façade): "
+            "moving inwards, a tightened tie goes slack."
+        )
+        demand(not pretension or self.one_sided, "tie_pretension", said)
+
+
+_RODS_SPREAD: dict[str, Any] = {key.name: key.default for key in fields(Tied) if key.name.startswith("rod_")}
+"""The fields of rods that are spread over the metre already."""
+_NO_TIES: dict[str, Any] = _RODS_SPREAD | {
+    key.name: key.default
+    for key in fields(Tied)
+    if key.name.startswith(("tie_", "anchor_")) or key.name in ("unit_length", "held_between")
+}
+"""The fields of a wall without ties."""

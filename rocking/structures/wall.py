@@ -5,13 +5,12 @@ x is measured from the middle of the wall, outwards (to the right) positive; the
 
 from collections import Counter
 from dataclasses import KW_ONLY, dataclass, field, replace
-from functools import cached_property
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
 
 from rocking.errors import SizeError, StructureError
-from rocking.quantities import GRAVITY, finite
+from rocking.quantities import finite
 from rocking.structures.crackable import unplaced
 from rocking.structures.drawing import Mark, Path, span
 from rocking.structures.fields import (
@@ -23,7 +22,7 @@ from rocking.structures.fields import (
     restitution_value,
     stated,
 )
-from rocking.structures.held_wall import HeldWall, Hold, Load, Opening, Storey
+from rocking.structures.held_wall import Hold, Load, Opening, Storey
 from rocking.structures.leaves import Leaf
 from rocking.structures.linkage import (
     HIGHEST_SHARE,
@@ -32,13 +31,9 @@ from rocking.structures.linkage import (
 )
 from rocking.structures.stack import (
     ROUGH,
-    Course,
     Held,
     Stack,
     counted_courses,
-    course_at,
-    courses_between,
-    joints_between,
     slab,
 )
 from rocking.structures.tied import (
@@ -46,7 +41,6 @@ from rocking.structures.tied import (
     Tied,
     TopSlab,
     UnitWeight,
-    check_eccentricity,
 )
 
 _BEARING = 0.02
@@ -131,10 +125,9 @@ class Wall(Tied):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.unit_weight is None and (self.top_load or self.tie_heights):
-            said = ", but must be given for a wall that bears or holds something, whose forces follow from it; give it."
-            raise SizeError.of("unit_weight", "missing", said)
-        check_eccentricity(value=self.eccentricity, thickness=self.thickness)
+        said = ", but must be given for a wall that bears or holds something, whose forces follow from it; give it."
+        self._demand(self.unit_weight or not (self.top_load or self.tie_heights), "unit_weight", said)
+        self._check_eccentricity(self.eccentricity, self.thickness)
         self._check_ties()
         if self.opening is None:
             if self.top_load or self.tie_heights or self.compressive_strength is not None:
@@ -231,16 +224,6 @@ class Wall(Tied):
         """Height of the hinge, m."""
         return self.lower_height
 
-    def _wall_courses(self, courses: int | None, density: float) -> tuple[Course, ...]:
-        """The wall itself. density: mass per m³."""
-        if courses is None and self.crack_is_known and not self._holds_within:
-            levels = [0.0, self.lower_height, self.height]
-        else:
-            levels = joints_between([0.0, *self._holds_within, self.height], counted_courses(courses))
-        number = len(levels) - 1
-        faces = [(-self.thickness / 2, self.thickness / 2)] * (number + 1)
-        return courses_between(levels, faces, density, [1.0] * number)
-
     def _placed(self, height: float) -> dict[str, Any]:
         return {"lower_height": height, "upper_height": self.height - height}
 
@@ -273,49 +256,32 @@ class Wall(Tied):
         }
 
     @property
-    def _sections(self) -> tuple[tuple[float, float, float, float], ...]:
-        return ((0.0, self.height, -self.thickness / 2, self.thickness / 2),)
-
-    @property
-    def _holds_within(self) -> tuple[float, ...]:
-        return tuple(
-            sorted({height for height in (*self._tie_levels, *self.held_at) if height < self.height})
-        )
-
-    @property
     def symmetric(self) -> bool:
         """Whether no tie and no bearing off the middle distinguishes the sides."""
         bears_off_the_middle = self.top_load and self.top_slab == "hinged" and self.eccentricity != 0
         return not self.tie_heights and not bears_off_the_middle
 
-    @cached_property
-    def held_wall(self) -> HeldWall:
-        half = self.thickness / 2
-        top = self.height
-        ties = Counter(height for height in self._tie_levels if height < top)
-        holds = [
-            Hold(height, "tie", number * self._yield_force, 0.0) for height, number in sorted(ties.items())
-        ]
+    @property
+    def _storeys(self) -> tuple[Storey]:
+        return (Storey(0.0, self.height, -self.thickness / 2, self.thickness / 2, self._weight),)
+
+    @property
+    def _loads(self) -> tuple[Load, ...]:
+        is_flat = self.top_slab == "flat"
+        across = 0.0 if is_flat else -self.eccentricity
+        edge = self._slab_edge * is_flat
+        load = Load(across, self.height, self.top_load, rides=False, slab=edge, moves=not self.load_held)
+        return (load,) if self.top_load else ()
+
+    @property
+    def _holds(self) -> list[Hold]:
+        pull = self._tie.yield_force
+        ties = Counter(self._tie_levels)
         # A tie at the top holds what friction does not; a top without a load is held by what the type says.
+        at_top = sum([pull] * ties.pop(self.height, 0))
         friction = self._friction if self.slips else np.inf
-        at_top = sum(self._yield_force for height in self._tie_levels if height == top)
-        slab = self.top_slab == "flat"
-        across = 0.0 if slab else -self.eccentricity
-        load = Load(
-            across, top, self.top_load, rides=False, slab=self._slab_edge * slab, moves=not self.load_held
-        )
-        return HeldWall(
-            (Storey(0.0, top, -half, half, self._weight),),
-            (load,) if self.top_load else (),
-            tuple(sorted(self._with_bonders([*holds, Hold(top, "top", friction + at_top, friction)]))),
-            backed=self.one_sided,
-            strength=self.compressive_strength,
-            ties=self._tie_levels,
-            ties_apart=self.ties_apart,
-            gripped=self.anchor_height,
-            gripped_share=self._gripped_share,
-            joints=self.joints,
-        )
+        holds = [Hold(height, "tie", number * pull, 0.0) for height, number in sorted(ties.items())]
+        return [*holds, Hold(self.height, "top", friction + at_top, friction)]
 
     @property
     def slips(self) -> bool:
@@ -354,14 +320,14 @@ class Wall(Tied):
     def stack(self, courses: int | None = None) -> Stack:
         """Return its two blocks where the hinge is known and no tie holds it, else courses; below what loads it."""
         self._check_plane()
-        wall = self._wall_courses(courses, 1.0 if self.unit_weight is None else self.unit_weight / GRAVITY)
+        holds_within = [hold for hold in self.held_wall.holds if hold.kind != "top"]
+        if courses is None and self.crack_is_known and not holds_within:
+            wall = self._storey_courses(1, cuts=[self.lower_height])
+        else:
+            wall = self._storey_courses(counted_courses(courses))
         half = self.thickness / 2
         top = (-self.eccentricity, self.height)
-        held = tuple(
-            Held(course_at(wall, height), (half, height), tie=self._anchored(height))
-            for height in self._tie_levels
-        )
-        held += (*self._bonded(wall, half, -half), *self._behind(wall))
+        held = tuple(self._held_in(wall))
         if not self.top_load:
             return Stack(wall, held, top_held_at=(0.0, self.height))
         if self.load_held and self.top_slab == "flat":
