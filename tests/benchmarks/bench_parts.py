@@ -62,7 +62,6 @@ def parts(folder: Path) -> dict[str, object]:
             SyntheticRecord(
                 name="bench",
                 seed=1,
-                pulse_amplitude=4.0,
                 pulse_period=1.0,
                 pulse_start=8.0,
                 noise_peak=2.0,

@@ -38,14 +38,7 @@ ROOT = Path(__file__).parents[2]
 def _strong(number: int) -> bytes:
     """A record of a station of its own, whose pulse lifts and overturns."""
     made = SyntheticRecord(
-        name=f"made_{number}",
-        seed=number,
-        pulse_amplitude=2 + 0.3 * number,
-        pulse_period=0.5 + 0.15 * number,
-        pulse_start=1.0,
-        noise_peak=1.0,
-        duration=6.0,
-        time_step=0.01,
+        name=f"made_{number}", seed=number, pulse_amplitude=2 + 0.3 * number, pulse_period=0.5 + 0.15 * number
     )
     return at2_text(made).encode()
 

@@ -54,16 +54,7 @@ class SmallStudy:
 
     def add_synthetic(self, identifier: str, seed: int) -> None:
         """Add a short synthetic record."""
-        recipe = SyntheticRecord(
-            name=f"made_{seed}",
-            seed=seed,
-            pulse_amplitude=4.0,
-            pulse_period=0.5 + 0.1 * seed,
-            pulse_start=1.0,
-            noise_peak=1.0,
-            duration=6.0,
-            time_step=0.01,
-        )
+        recipe = SyntheticRecord(name=f"made_{seed}", seed=seed, pulse_period=0.5 + 0.1 * seed)
         self.add(identifier, at2_text(recipe).encode())
 
     def rows(self) -> list[dict[str, str]]:

@@ -34,14 +34,7 @@ JOBS = {
 def _waves(seed: int) -> bytes:
     return at2_text(
         SyntheticRecord(
-            name="made",
-            seed=seed,
-            pulse_amplitude=1.0,
-            pulse_period=0.3,
-            pulse_start=1.0,
-            noise_peak=0.5,
-            duration=2.0,
-            time_step=0.01,
+            name="made", seed=seed, pulse_amplitude=1.0, pulse_period=0.3, noise_peak=0.5, duration=2.0
         )
     ).encode()
 

@@ -37,16 +37,7 @@ def without(tmp_path) -> Path:
         (tmp_path / name).symlink_to(TREE / name)
     study = tmp_path / "study"
     (study / "records").mkdir(parents=True)
-    strong = SyntheticRecord(
-        name="one",
-        seed=7,
-        pulse_amplitude=4.0,
-        pulse_period=1.0,
-        pulse_start=1.0,
-        noise_peak=1.0,
-        duration=6.0,
-        time_step=0.01,
-    )
+    strong = SyntheticRecord(name="one", seed=7, pulse_period=1.0)
     (study / "records" / "one.AT2").write_text(at2_text(strong))
     (study / "structures.yaml").write_text(
         "- {name: wall, type: wall, height_m: 3.2, thickness_m: 0.25}\n"

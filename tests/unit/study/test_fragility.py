@@ -47,16 +47,7 @@ def _study(**fragility: object) -> Study:
 def _records(folder: Path, count: int) -> list[CatalogueRecord]:
     records = []
     for seed in range(count):
-        recipe = SyntheticRecord(
-            name=f"made{seed}",
-            seed=seed,
-            pulse_amplitude=4.0,
-            pulse_period=0.4 + 0.2 * seed,
-            pulse_start=1.0,
-            noise_peak=1.0,
-            duration=6.0,
-            time_step=0.01,
-        )
+        recipe = SyntheticRecord(name=f"made{seed}", seed=seed, pulse_period=0.4 + 0.2 * seed)
         (folder / f"made{seed}.AT2").write_text(at2_text(recipe))
         cells = {"unit": "g", "event": "made", "station": str(seed), "folder": folder}
         records.append(CatalogueRecord(f"made{seed}", f"made{seed}.AT2", **cells))

@@ -45,18 +45,7 @@ from tests.unit.assessment.made_rows import Impossible, filled
 from tests.unit.study.made_jobs import keep_nothing, made_job, outcomes_in, worked
 
 ROOT = Path(__file__).parents[3]
-CONTENT = at2_text(
-    SyntheticRecord(
-        name="made",
-        seed=1,
-        pulse_amplitude=4.0,
-        pulse_period=0.6,
-        pulse_start=1.0,
-        noise_peak=1.0,
-        duration=6.0,
-        time_step=0.01,
-    )
-).encode()
+CONTENT = at2_text(SyntheticRecord(name="made", seed=1)).encode()
 
 
 def _study(**structures: object) -> Study:

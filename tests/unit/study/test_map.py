@@ -41,16 +41,7 @@ def made(tmp_path_factory) -> tuple[Path, Rows, list[str]]:
     folder = tmp_path_factory.mktemp("map")
     records = []
     for seed, (name, place) in enumerate(PLACES.items()):
-        recipe = SyntheticRecord(
-            name=name,
-            seed=seed,
-            pulse_amplitude=4.0 / (1 + seed),
-            pulse_period=0.8,
-            pulse_start=1.0,
-            noise_peak=1.0,
-            duration=6.0,
-            time_step=0.01,
-        )
+        recipe = SyntheticRecord(name=name, seed=seed, pulse_amplitude=4.0 / (1 + seed), pulse_period=0.8)
         (folder / f"{name}.AT2").write_text(at2_text(recipe))
         cells = {"unit": "g", "event": "L'Aquila", "station": name, "folder": folder}
         records.append(CatalogueRecord(name, f"{name}.AT2", **cells, **place))

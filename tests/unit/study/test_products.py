@@ -81,20 +81,7 @@ def assessed(tmp_path_factory: pytest.TempPathFactory) -> tuple[list[CatalogueRe
     records = []
     for seed in range(2):
         name = f"made{seed}"
-        (folder / f"{name}.AT2").write_text(
-            at2_text(
-                SyntheticRecord(
-                    name=name,
-                    seed=seed,
-                    pulse_amplitude=4.0,
-                    pulse_period=0.6,
-                    pulse_start=1.0,
-                    noise_peak=1.0,
-                    duration=6.0,
-                    time_step=0.01,
-                )
-            )
-        )
+        (folder / f"{name}.AT2").write_text(at2_text(SyntheticRecord(name=name, seed=seed)))
         cells = {"unit": "g", "event": name, "station": name, "folder": folder}
         records.append(CatalogueRecord(name, f"{name}.AT2", **cells))
     settings = Settings(
