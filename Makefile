@@ -107,7 +107,7 @@ pages: $(TOOLS)
 figures: $(TOOLS)
 	$(BIN)/python -m docs.site.pages --figures
 
-# The measured figures whose code has changed since in meaning.
+# The measured figures whose code has changed since.
 measured: $(TOOLS)
 	$(BIN)/python -m docs.site.measured
 

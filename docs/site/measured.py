@@ -3,14 +3,13 @@ since.
 
 `docs/measured/figures.csv` holds a row for each. A page prints one by `<!-- measured: NAME -->`, and by
 `<!-- measured by: NAME -->` what made it and how old it is, at a table or a sentence that gives it. Run as a script
-it lists the figures whose code has changed since in meaning, or whose list of records. Their code is what their files
+it lists the figures whose code has changed since, or whose list of records. Their code is what their files
 import, and what that imports. `--first-screen` fails where one that a reader meets first is older, `--renew` writes
 the commit of figures that were just measured again, `--read` that at which somebody has read that what changed since
 changes no figure, and `--keep` keeps the scores of a target, which pages print cell by cell (`kept`).
 """
 
 import argparse
-import ast
 import csv
 import re
 import subprocess
@@ -65,10 +64,10 @@ class Figure:
 
     @property
     def is_older(self) -> bool:
-        """Whether the code that it measures has changed since in meaning, or its list of records."""
+        """Whether the code that it measures has changed since, or its list of records."""
         if self.records_sha256 and self.records_sha256 not in map(records_sha256, LISTS):
             return True
-        return any(has_changed(self.read or self.commit, path) for path in code_of(self.files))
+        return bool(code_of(self.files) & _differing(self.read or self.commit))
 
     @property
     def words(self) -> str:
@@ -142,18 +141,6 @@ def code_of(files: str) -> frozenset[Path]:
 
 
 @cache
-def has_changed(commit: str, path: Path) -> bool:
-    """Whether a file means something else than at a commit, or was not there; docstrings, comments, layout, types and
-    what an error says mean nothing, names do. A file that is not Python counts as it is."""
-    if path not in _differing(commit):
-        return False
-    shown = _git("show", f"{commit}:{path.relative_to(ROOT)}")
-    if shown is None or path.suffix != ".py":
-        return True
-    return meaning(shown) != meaning(path.read_text(encoding="utf-8"))
-
-
-@cache
 def _differing(commit: str) -> frozenset[Path]:
     """The files that differ from a commit. Raises ConfigurationError for one that the repository does not hold."""
     names = _git("diff", "--name-only", "--no-renames", commit, "--", ".")
@@ -166,37 +153,6 @@ def _git(*arguments: str) -> str | None:
     """What git says; None where it fails."""
     done = subprocess.run(("git", *arguments), cwd=ROOT, capture_output=True, text=True, check=False)
     return None if done.returncode else done.stdout
-
-
-def meaning(source: str) -> str:
-    """Return the statements of a Python source without what changes none of its results."""
-    return ast.dump(_Plain().visit(ast.parse(source)))
-
-
-class _Plain(ast.NodeTransformer):
-    """Takes docstrings and types away, and what an error says: where it is raised no figure comes of it."""
-
-    def visit(self, node: ast.AST) -> ast.AST:
-        self.generic_visit(node)
-        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
-            node.body = [statement for statement in node.body if not _says_nothing(statement)] or [ast.Pass()]
-        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
-            node.returns = None
-        if isinstance(node, ast.Raise):
-            node.exc = node.cause = None
-        if isinstance(node, ast.arg):
-            node.annotation = None
-        if isinstance(node, ast.AnnAssign) and node.value is not None:
-            return ast.Assign(targets=[node.target], value=node.value)
-        if isinstance(node, ast.AnnAssign):  # a field of a class, whose order counts
-            node.annotation = ast.Constant(None)
-        return node
-
-
-def _says_nothing(statement: ast.stmt) -> bool:
-    """Whether it is a text by itself, as a docstring is."""
-    is_text = isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
-    return is_text and isinstance(statement.value.value, str)  # type: ignore[attr-defined]
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
