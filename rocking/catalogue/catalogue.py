@@ -11,7 +11,7 @@ from rocking.catalogue.place import Coordinates, place_of
 from rocking.described import described, described_values, number_hint
 from rocking.earthquakes.sample import MADE
 from rocking.errors import CatalogueError, RockingError
-from rocking.quantities import acceleration_factor, is_number, shown
+from rocking.quantities import acceleration_factor, is_number, listed, shown
 from rocking.records.formats.format import plain
 from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
@@ -33,6 +33,8 @@ _HASH = re.compile(r"[0-9a-f]{64}")
 _COMMIT = re.compile(r"[0-9a-f]{40}")
 _REPOSITORY = re.compile(r"(?!\.+/)[\w.-]+/(?!\.+$)[\w.-]+", re.ASCII)
 _PROSE = ("event", "station", "licence", "note")
+NAMED = 3
+"""Names that are given of those that share a sentence."""
 _MOST_NAMED = 40
 """Defects of a catalogue that are named; the others are counted."""
 
@@ -256,7 +258,7 @@ def load_catalogue(path: str | Path) -> tuple[CatalogueRecord, ...]:
             records.append(record_of_row(row, path.parent))
         except RockingError as error:
             lines_of.setdefault(str(error), []).append(f"line {line} ({row.get('id') or 'no id'})")
-    defects = [f"{few(places)}: {defect}" for defect, places in lines_of.items()]
+    defects = [f"{listed(places, NAMED)}: {defect}" for defect, places in lines_of.items()]
     counts = Counter(row["id"].strip().lower() for _, row in rows if row["id"].strip())
     twice = [(name, n) for name, n in counts.items() if n > 1]
     defects += [f"id {shown(name)} stands {n} times (upper and lower case count as one)" for name, n in twice]
@@ -268,16 +270,6 @@ def load_catalogue(path: str | Path) -> tuple[CatalogueRecord, ...]:
             f"{path.name} has {number}: " + " | ".join([*defects[:_MOST_NAMED], *more]), catalogue=defects
         )
     return tuple(records)
-
-
-def few(names: Sequence[str]) -> str:
-    """Return the first names of many, and how many more there are."""
-    more = len(names) - _NAMED
-    return ", ".join(names) if more <= 1 else f"{', '.join(names[:_NAMED])} and {more} more"
-
-
-_NAMED = 3
-"""Names that are given of those that share a sentence."""
 
 
 def read_rows(path: Path) -> list[tuple[int, dict[str, str]]]:

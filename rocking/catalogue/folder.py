@@ -10,13 +10,13 @@ from itertools import chain, count, islice
 from pathlib import Path
 from typing import Any
 
-from rocking.catalogue.catalogue import is_safe_id, read_rows
+from rocking.catalogue.catalogue import NAMED, is_safe_id, read_rows
 from rocking.catalogue.grouping import named_channel, rsn_of, stations, without_direction
 from rocking.catalogue.joining import SQUARE
 from rocking.catalogue.listing import CELLS, ListedChannel, ListedFile, doubts_of, listed_file, trials
 from rocking.catalogue.readings import Readings
 from rocking.errors import CatalogueError, RecordError
-from rocking.quantities import acceleration_factor, is_number
+from rocking.quantities import acceleration_factor, is_number, listed
 from rocking.records.archive import is_archive, members
 from rocking.records.claims import without_ending
 from rocking.records.direction import angle_between, names_no_direction, pair_doubt
@@ -49,17 +49,6 @@ class FolderCatalogue:
     new: list[Row]
     remarks: tuple[Remark, ...] = ()
     layouts: str | None = None
-
-
-def list_folder(
-    folder: str | Path, *, unit: str | None = None, time_step: float | None = None
-) -> tuple[list[ListedFile], list[Row]]:
-    """Return every file under `folder` as it can be read, in the order of names, and the rows of a catalogue for them.
-
-    unit and time_step [s] are used only where a file does not declare them. Raises RecordError when there is no folder.
-    """
-    catalogue = catalogue_of_folder(folder, declared={"unit": unit, "time_step": time_step})
-    return catalogue.files, catalogue.new
 
 
 NOTHING_DECLARED: Mapping[str, str | float | None] = {"unit": None, "time_step": None}
@@ -341,10 +330,8 @@ def unlisted(catalogue: Path) -> tuple[Remark, ...]:
         records = [path for path in records if not _was_refused(path, folder, readings)]
     if not records:
         return ()
-    if len(records) == 1:
-        name = records[0].relative_to(folder).as_posix()
-        return (Remark.of(RecordKind.FILE_UNLISTED, printable(name), folder=str(folder)),)
-    return (Remark.of(RecordKind.FILES_UNLISTED, files=len(records), folder=str(folder)),)
+    names = listed([printable(path.relative_to(folder).as_posix()) for path in records], NAMED)
+    return (Remark.of(RecordKind.FILES_UNLISTED, files=names, folder=str(folder)),)
 
 
 def _was_refused(path: Path, folder: Path, readings: Readings) -> bool:

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
-from rocking.catalogue.catalogue import few, stays_inside
+from rocking.catalogue.catalogue import NAMED, stays_inside
 from rocking.errors import RecordError, UndeclaredError
-from rocking.quantities import GRAVITY, counted
+from rocking.quantities import GRAVITY, counted, listed
 from rocking.records.doors import through
 from rocking.records.formats import Options
 from rocking.records.formats.layouts import NAME, AskedError, Layouts, Question, Signature, Trial, families
@@ -318,15 +318,15 @@ def _shortened(text: str, size: int) -> str:
     return f"{text[: size - end - 1]}…{text[-end:]}"
 
 
-def _sentences(listed: Sequence[ListedFile]) -> Iterator[str]:
+def _sentences(files: Sequence[ListedFile]) -> Iterator[str]:
     """Yield what there is to say of the files below the table, by kind."""
     joined: dict[str, list[str]] = {}
-    for file in listed:
+    for file in files:
         if file.companions:
             joined.setdefault(file.record, []).append(file.file)
-    read = [file for file in listed if not file.refusal]
-    asked = families((file.file, file.question) for file in listed if file.question)
-    first = {_family(file): file.refusal for file in reversed(listed) if file.refusal}
+    read = [file for file in files if not file.refusal]
+    asked = families((file.file, file.question) for file in files if file.question)
+    first = {_family(file): file.refusal for file in reversed(files) if file.refusal}
     sections = {
         f"Answer once, in {NAME}:": [
             (file, family.question.holds) for family in asked for file in family.files
@@ -334,14 +334,14 @@ def _sentences(listed: Sequence[ListedFile]) -> Iterator[str]:
         "Fill in, in the catalogue:": [
             (file.file, " and ".join(file.blanks)) for file in read if file.blanks and not file.question
         ],
-        "Joined:": [(record, ", ".join(files)) for record, files in joined.items()],
+        "Joined:": [(record, ", ".join(of_record)) for record, of_record in joined.items()],
         "To know:": [
             (file.file, text)
             for file in read
             if (text := " ".join(filter(None, (*map(str, doubts_of(file)), file.separated))))
         ],
         "Not read:": [
-            (file.file, first[_family(file)]) for file in listed if file.refusal and not file.question
+            (file.file, first[_family(file)]) for file in files if file.refusal and not file.question
         ],
     }
     for heading, lines in sections.items():
@@ -349,7 +349,7 @@ def _sentences(listed: Sequence[ListedFile]) -> Iterator[str]:
             alike: dict[str, list[str]] = {}
             for name, text in lines:
                 alike.setdefault(text, []).append(name)
-            yield from ("", heading, *(f"  {few(names)}: {text}" for text, names in alike.items()))
+            yield from ("", heading, *(f"  {listed(names, NAMED)}: {text}" for text, names in alike.items()))
 
 
 def _family(file: ListedFile) -> str:

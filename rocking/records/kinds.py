@@ -84,7 +84,6 @@ class RecordKind(Kind):
     LINE_ENDS_DOUBLED = auto(), """The line ends are doubled (CR CR LF) by a faulty conversion; the numbers
         are unharmed."""
     FILES_NOT_READ = auto(), "Of the archive these files were not read: {names}."
-    MORE_FILES_NOT_READ = auto(), "Of the archive these files were not read: {names} and {more} more."
     BLOCKS_OVERLAP = auto(), """Blocks of {about} overlap by {overlap_s:g} s at {time}: repeated or
         overwritten."""
     BLOCKS_LEAP = auto(), """Block number {after} follows number {before}: blocks are missing, repeated or
@@ -167,7 +166,5 @@ class RecordKind(Kind):
         are given."""
     PLACE_UNLIKE_FILE = auto(), """The catalogue places the station at {catalogue}, the file at {file},
         {distance_km:.3g} km apart: the catalogue's place is used; correct it if it errs."""
-    FILE_UNLISTED = auto(), "{about} is not in the catalogue; rocking catalogue {folder} adds what is new."
-    FILES_UNLISTED = auto(), """{files} files are not in the catalogue; rocking catalogue {folder} adds what
-        is new."""
+    FILES_UNLISTED = auto(), "Not in the catalogue: {files}; rocking catalogue {folder} adds what is new."
     # fmt: on

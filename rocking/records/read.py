@@ -17,7 +17,7 @@ import numpy as np
 
 from rocking.errors import RecordError, UndeclaredError, UnknownFormatError, about
 from rocking.hashes import sha256_of_bytes
-from rocking.quantities import shown
+from rocking.quantities import listed, shown
 from rocking.records.archive import archive_of, is_archive, member_bytes, members
 from rocking.records.claims import refuse_spectrum, vertical_in_name, without_end
 from rocking.records.direction import (
@@ -130,16 +130,9 @@ def _read_archive(path: Path, options: Options) -> list[Accelerogram]:
             ]
             raise next((error for error in reasons if isinstance(error, UndeclaredError)), reasons[0])
     if refused:
-        names = ", ".join(printable(name) for name, _ in refused[:_LISTED])
-        unread = Remark.of(RecordKind.FILES_NOT_READ, names=names)
-        if len(refused) > _LISTED:
-            unread = Remark.of(RecordKind.MORE_FILES_NOT_READ, names=names, more=len(refused) - _LISTED)
-        records[0] = records[0].warned(unread)
+        names = listed([printable(name) for name, _ in refused])
+        records[0] = records[0].warned(Remark.of(RecordKind.FILES_NOT_READ, names=names))
     return records
-
-
-_LISTED = 5
-"""Files that a sentence names."""
 
 
 def read_raw(raw: bytes, path: Path, options: Options) -> list[Accelerogram]:

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from rocking.errors import RecordError
-from rocking.records.formats.labels import ColumnLabel
+from rocking.records.formats.labels import ColumnLabel, with_units
 from rocking.tables.sheets import csv_text, sheets
 
 _HEADS = 30
@@ -33,43 +33,25 @@ def table_of_workbook(raw: bytes) -> bytes:
 
 def _table(rows: Iterator[Sequence[Any]]) -> bytes:
     """Return the text of a sheet from the names of its columns on, empty where they name no times or no unit."""
-    over: Sequence[Any] = ()
-    above: Sequence[Any] = ()
+    over: list[str] = []
+    above: list[str] = []
     text: list[str] = []
     for _, row in zip(range(_HEADS), rows, strict=False):
         if above and any(isinstance(cell, int | float) and not isinstance(cell, bool) for cell in row):
-            names = _with_units(over, above)
+            names = list(with_units(over, above) if over else ()) or above
             labels = [ColumnLabel(name) for name in names if name]
             if any(label.is_time for label in labels) and any(label.unit for label in labels):
                 first = next(place for place, name in enumerate(names) if name)
                 beside = next((place for place in range(first, len(names)) if not names[place]), len(names))
                 places = list(range(first, beside))  # what stands behind an empty column is another table
                 numbers = _written(names, places, [row, *rows])
-                if names == _with_units((), above):
-                    text.append(_words(over))
+                if names is above:
+                    text.append(" ".join(filter(None, over)))
                 return "".join(f"# {line}\n" for line in text if line).encode() + numbers if numbers else b""
             return b""
-        text.append(_words(over))
-        over, above = above, row
+        text.append(" ".join(filter(None, over)))
+        over, above = above, ["" if cell is None else str(cell).strip() for cell in row]
     return b""
-
-
-def _words(row: Sequence[Any]) -> str:
-    return " ".join(str(cell) for cell in row if cell is not None)
-
-
-def _with_units(over: Sequence[Any], above: Sequence[Any]) -> list[str]:
-    """Return the names of columns in the row `above` the numbers, or in the one `over` it where that holds units."""
-    names = [str(cell or "").strip() for cell in above]
-    units = [ColumnLabel(f"({name.strip('()[]')})") if name else None for name in names]
-    are_units = all(unit is None or unit.unit or unit.is_time or unit.other for unit in units)
-    if not (over and are_units and any(unit and unit.unit for unit in units)):
-        return names
-    heads = [str(cell or "").strip() for cell in over]
-    return [
-        f"{head} ({name.strip('()[]')})" if head and name else head
-        for head, name in zip(heads, names, strict=False)
-    ]
 
 
 def _written(names: list[str], places: list[int], rows: list[Sequence[Any]]) -> bytes:

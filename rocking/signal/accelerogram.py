@@ -1,7 +1,7 @@
 """Accelerogram: what every reader returns. An acceleration history and where it came from, nothing else."""
 
 from contextlib import nullcontext
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -36,30 +36,6 @@ SAME_STEP = 1e-6
 
 Calibration = Literal["apply", "done"]
 """Whether the samples of a trace are still to be multiplied by its calibration, or are: obspy never resets it."""
-
-OBSPY_EXTRAS = (
-    "component",
-    "event",
-    "azimuth",
-    "vertical",
-    "borehole",
-    "processed",
-    "processing",
-    "warnings",
-    "magnitude",
-    "magnitude_type",
-    "event_time",
-    "latitude",
-    "longitude",
-    "elevation",
-    "epicentral_distance",
-    "high_pass_frequency",
-    "scale_factor",
-    "initial_velocity",
-    "initial_displacement",
-    "smooth_steps",
-)
-"""The facts for which a trace of obspy has no place."""
 
 
 @dataclass(frozen=True)
@@ -276,15 +252,7 @@ class Accelerogram(Drawn):
         response: str = "sensitivity",
         calibration: Calibration | None = None,
     ) -> "list[Accelerogram]":
-        """Return an accelerogram for each channel of an obspy Trace or Stream, in the order of its channels.
-
-        inventory: obspy's, by whose response counts become acceleration; it may be attached to the trace instead. unit:
-        of samples that are acceleration already ("m/s2", "cm/s2", "g", ...), which wins over a response. response: as
-        read() takes it. calibration: "apply" where the samples are still to be multiplied by the `calib` of their
-        trace, "done" where obspy.read(apply_calib=True) has done so; asked for where the numbers do not say it. What
-        obspy has noted of the processing is read: samples whose response was removed to acceleration are in m/s².
-        Every check of `read` is made, and the record is the one that `read` gives of the same file. Raises RecordError
-        for a gap, for velocity and displacement, and where nothing says what the samples are.
+        """Return an accelerogram for each channel of an obspy Trace or Stream, as `rocking.from_obspy` does.
 
         >>> from obspy import Trace
         >>> rocking.Accelerogram.from_obspy(Trace(np.sin(np.arange(9.0)), {"channel": "HNE"}), unit="m/s2")[0].azimuth
@@ -313,6 +281,15 @@ class Accelerogram(Drawn):
         from pandas import DataFrame  # which takes half a second to import
 
         return DataFrame({"time_s": self.times, "acceleration_m_s2": self.acceleration})
+
+
+OBSPY_EXTRAS = tuple(
+    fact.name
+    for fact in fields(Accelerogram)
+    if fact.name
+    not in ("acceleration", "time_step", "station", "network", "location", "start_time", "source")
+)
+"""The facts for which a trace of obspy has no place."""
 
 
 def _samples(values: np.ndarray) -> np.ndarray:

@@ -1,6 +1,7 @@
 """The label of a column in a table: what it says of its numbers, by closed lists; what these do not hold is asked."""
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -142,6 +143,19 @@ class ColumnLabel:
             )
         is_named = any(not _NO_DIRECTION.fullmatch(word) for word in _PARTS.split(before) if word)
         return not is_named and Direction.of(brackets[1]).is_known
+
+
+def with_units(names: Sequence[str], units: Sequence[str]) -> tuple[str, ...]:
+    """Return names of columns with the units in brackets that stand in the row below them.
+
+    () where that row holds anything else than units, or none of acceleration.
+    """
+    bare = [unit.strip("()[] ") for unit in units]
+    given = [ColumnLabel(f"({unit})") for unit in bare if unit]
+    are_units = all(label.unit or label.is_time or label.other for label in given)
+    if not (are_units and any(label.unit for label in given)):
+        return ()
+    return tuple(f"{name} ({unit})" if unit else name for name, unit in zip(names, bare, strict=False))
 
 
 def _only_direction(name: str) -> str:

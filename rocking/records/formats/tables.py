@@ -36,7 +36,7 @@ from rocking.records.claims import (
 from rocking.records.direction import Direction, directed, names_acceleration
 from rocking.records.formats import dialect, text
 from rocking.records.formats.format import Format, Options, plain
-from rocking.records.formats.labels import ColumnLabel
+from rocking.records.formats.labels import ColumnLabel, with_units
 from rocking.records.formats.layouts import (
     Above,
     AskedError,
@@ -194,16 +194,10 @@ def _named(above: Sequence[str], width: int) -> tuple[tuple[ColumnLabel, ...], S
         names = tuple(line.split())
     if len(names) != width:
         return (), above
-    if _are_units(names):
-        over = _labels(above[-2]) if len(above) > 1 else ()
-        if len(over) == width or width > 1:
-            pairs = zip(
-                over if len(over) == width else [""] * width,
-                (name.strip("()[] ") for name in names),
-                strict=True,
-            )
-            names = tuple(f"{name} ({unit})" if unit else name for name, unit in pairs)
-            return tuple(map(ColumnLabel, names)), above[: -2 if len(over) == width else -1]
+    over = _labels(above[-2]) if len(above) > 1 else ()
+    has_names = len(over) == width
+    if (has_names or width > 1) and (whole := with_units(over if has_names else [""] * width, names)):
+        return tuple(map(ColumnLabel, whole)), above[: -2 if has_names else -1]
     if width > 1 and all(name.isdigit() and len(name) == 1 for name in names[1:]):
         names = (names[0], *[""] * (width - 1))  # numbers of columns, and no azimuths
     labels = tuple(map(ColumnLabel, _without_suffixes(names)))
@@ -244,17 +238,6 @@ def _labels(line: str) -> tuple[str, ...]:
     return tuple(part.strip().strip("\"'") for part in parts)
 
 
-def _are_units(units: tuple[str, ...]) -> bool:
-    """Whether a row of words holds units, of which one at least is of acceleration."""
-    bare = [unit.strip("()[] ") for unit in units]
-    given = [ColumnLabel(f"({unit})") for unit in bare]
-    are_all = all(
-        label.unit or label.is_time or label.other or not unit
-        for label, unit in zip(given, bare, strict=True)
-    )
-    return are_all and any(label.unit for label in given)
-
-
 def _refuse_others(table: NumberTable, file: str) -> None:
     """Refuse a table whose names, text or file name say that it holds no acceleration."""
     above = "\n".join((*table.comments, *table.words))
@@ -265,75 +248,45 @@ def _refuse_others(table: NumberTable, file: str) -> None:
         refuse_by_name(file)
 
 
-@lru_cache(maxsize=2)
-def _table_of(content: bytes) -> tuple[NumberTable | None, bytes | None]:
-    """Return the table that a content is and its plain numbers, which reading asks for at each question anew.
-
-    None for another content, and for numbers in which a comma may be either of two things.
-    """
-    if _OTHER_FORMAT.match(content) or b"\0" in content[:4096]:
-        return None, None
-    pointed = dialect.plain(content)
-    return NumberTable.of(pointed or content), pointed
-
-
 def is_table(content: bytes) -> bool:
     """Whether a content is a table, by its first lines."""
-    return _table_of(content)[0] is not None
+    return _seen_of(content) is not None
 
 
 def signature_of(content: bytes, file: str, folder: str) -> Signature | None:
     """Return the signature of the table `content` of a `file` called so in a `folder`, None of another content."""
     seen = _seen_of(content)
-    return seen.signature(file, folder) if seen else None
+    return seen.signature(file, folder) if seen and seen.content else None
 
 
 @dataclass(frozen=True)
 class _Seen:
     """A table as it looks before anybody answers: its rows as bytes, and what its numbers are as far as they say it.
 
-    notes: on how the rows end. values: (n,), and drawn: their layout, None where the numbers cannot be separated, as
-    `fault` says.
+    content: with plain numbers, empty where a comma may be either of two things. notes: on how the rows end. values:
+    (n,), and drawn: their layout, None where the numbers cannot be separated, as `fault` says.
     """
 
     table: NumberTable
-    body: bytes
-    notes: tuple[Remark, ...]
-    values: np.ndarray | None
-    drawn: TableLayout | None
+    content: bytes = b""
+    body: bytes = b""
+    notes: tuple[Remark, ...] = ()
+    values: np.ndarray | None = None
+    drawn: TableLayout | None = None
     fault: RecordError | None = None
 
-    @classmethod
-    def of(cls, table: NumberTable, content: bytes) -> "_Seen":
-        """Return a table as it looks where nothing is declared."""
-        try:
-            _, start = _above(table, None, content)
-        except RecordError as error:
-            return cls(table, b"", (), None, None, error)
-        return cls.below(table, content, None, start, None)
-
-    @classmethod
-    def below(
-        cls,
-        table: NumberTable,
-        content: bytes,
-        layout: TableLayout | None,
-        start: int,
-        declared: float | None,
-    ) -> "_Seen":
-        """Return a table as it looks from the line `start` on.
+    def below(self, start: int, layout: TableLayout | None = None, declared: float | None = None) -> "_Seen":
+        """Return it as it looks from the line `start` on.
 
         layout: of its answer, by which its numbers part. declared: the time step that the caller declares, s.
         """
-        notes: tuple[Remark, ...] = ()
-        body = b""
         try:
-            table, body, notes = _plain_rows(table, text.after_lines(content, start))
+            table, body, notes = _plain_rows(self.table, text.after_lines(self.content, start))
             values = _values(body, table, layout)
             drawn = _drawn(table, values, b"," in body or b";" in body, declared)
         except RecordError as error:
-            return cls(table, body, notes, None, None, error)
-        return cls(table, body, notes, values, drawn)
+            return replace(self, values=None, drawn=None, fault=error)
+        return replace(self, table=table, body=body, notes=notes, values=values, drawn=drawn)
 
     def signature(self, file: str, folder: str) -> Signature:
         """Return what it has in common with tables for which the same answer holds; folder: in which `file` lies."""
@@ -364,28 +317,41 @@ def _steps_of_name(file: str) -> list[float]:
 
 @lru_cache(maxsize=2)
 def _seen_of(content: bytes) -> _Seen | None:
-    """Return the table that a content is as it looks before anybody answers, None of another content."""
-    table, pointed = _table_of(content)
-    return _Seen.of(table, pointed) if table and pointed is not None else None
+    """Return the table that a content is as it looks before anybody answers, None of another content.
+
+    Reading asks for it at each question anew.
+    """
+    if _OTHER_FORMAT.match(content) or b"\0" in content[:4096]:
+        return None
+    pointed = dialect.plain(content)
+    table = NumberTable.of(pointed or content)
+    if table is None:
+        return None
+    if pointed is None:
+        decimals = "the commas are decimal signs or part columns; write points, or semicolons."
+        return _Seen(table, fault=RecordError(decimals, decimals=","))
+    seen = _Seen(table, pointed)
+    try:
+        return seen.below(_above(table, None, pointed)[1])
+    except RecordError as error:
+        return replace(seen, fault=error)
 
 
 def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
-    table, pointed = _table_of(content)
     seen = _seen_of(content)
-    if pointed is None or table is None or seen is None:
-        raise RecordError(
-            "the commas are decimal signs or part columns; write points, or semicolons.", decimals=","
-        )
+    if seen is None or not seen.content:
+        raise (seen and seen.fault) or RecordError("this is no table of numbers.", rows=0)
+    table = seen.table
     _refuse_others(table, options.file)
 
     layouts = options.layouts or Layouts(options.folder)
     signature = seen.signature(options.file, layouts.place)
     answer = layouts.answer(signature)
     layout = answer.layout if answer else None
-    above, start = _above(table, layout, pointed)
+    above, start = _above(table, layout, seen.content)
     begins_by_step = options.time_step and seen.drawn and seen.drawn.is_series and not above
     if begins_by_step or (layout and (layout.skip or layout.above or layout.width)):
-        seen = _Seen.below(table, pointed, layout, start, options.time_step)
+        seen = seen.below(start, layout, options.time_step)
     if seen.values is None or seen.drawn is None:
         raise seen.fault or RecordError("its numbers cannot be told apart.")
     table, body, values, drawn = seen.table, seen.body, seen.values, seen.drawn
@@ -413,8 +379,7 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
         layout = drawn
 
     try:
-        records = _series(values, table, layout, above, options) if layout.is_series else []
-        records = records or _channels(values, table, layout, above, options)
+        records = _channels(values, table, layout, above, options)
     except UndeclaredError as error:
         raise AskedError(error.args[0], error.field, question) from None
     except AnswerContradictedError as error:
@@ -688,43 +653,6 @@ def _fitted(answer: LayoutAnswer, layout: TableLayout, table: NumberTable, drawn
     return layout
 
 
-def _series(
-    values: np.ndarray, table: NumberTable, layout: TableLayout, above: dict[Above, float], options: Options
-) -> list[Accelerogram]:
-    """Return the accelerogram of a table that is one series, `above` the numbers that stand there of it."""
-    label = table.labels[0] if table.labels else ColumnLabel("")
-    if label.other:
-        _refuse_all(table.labels)
-    said = table.said
-    (column,) = layout.columns
-    notes: tuple[Remark, ...] = ()
-    if not above:
-        roles = layout.above or _first_numbers(values, options.time_step)
-        above = dict(zip(roles, values.tolist(), strict=False))
-        notes = (
-            (Remark.of(RecordKind.FIRST_NUMBERS, what=", ".join(_MEANT[role] for role in roles)),)
-            if roles
-            else ()
-        )
-        values = values[len(roles) :]
-    declared = f"{above['n']:g}" if "n" in above and not notes else said.count(values.size)
-    for samples in filter(None, [declared]):
-        values, more = text.whole(values, text.count("number of samples", samples), table.width)
-        notes += more
-    step = above.get("dt") or (1 / above["hz"] if above.get("hz") else None)
-    claims = _claims(table, label, column, layout, step, options)
-    component = column.name or ("" if label.unit else label.text)
-    facts: dict[str, Any] = {"component": component, "warnings": (*notes, *_repeats(values))}
-    if table.counts and len(table.words) == 1:
-        facts["event"] = table.words[0][:60]  # a title
-    held = replace(options, unit=None, time_step=None)
-    return [
-        held.accelerogram(
-            agreed("unit", claims), values, agreed("time_step", claims), processed=None, **facts
-        )
-    ]
-
-
 def _claims(
     table: NumberTable,
     label: ColumnLabel,
@@ -810,42 +738,48 @@ def _whole_numbers(body: bytes) -> str:
 def _channels(
     values: np.ndarray, table: NumberTable, layout: TableLayout, above: dict[Above, float], options: Options
 ) -> list[Accelerogram]:
-    """Return the channels of a table: each column of acceleration, with the times left of it, else the first ones."""
+    """Return the channels of a table: each column of acceleration, with the times left of it, else the first ones.
+
+    A series along the rows is one column. above: the numbers that stand there of it, where they are no rows.
+    """
     columns = layout.columns
+    notes: tuple[Remark, ...] = ()
+    if layout.is_series and not above and (roles := _first_numbers(values, options.time_step)):
+        above = dict(zip(roles, values.tolist(), strict=False))
+        notes = (Remark.of(RecordKind.FIRST_NUMBERS, what=", ".join(_MEANT[role] for role in roles)),)
+        values = values[len(roles) :]
     if values.size % len(columns):
         raise RecordError(
             f"the last row of the samples has {values.size % len(columns)} of {len(columns)} columns.",
             columns=values.size % len(columns),
         )
     rows = values.reshape(-1, len(columns))
-    said = table.said
-    labels = table.labels if len(table.labels) == len(columns) else (ColumnLabel(""),) * len(columns)
-    if "n" in above:
-        text.whole(rows[:, 0], text.count("number of samples", f"{above['n']:g}"), per_line=0)
+    labels = table.labels[:1] if layout.is_series else table.labels
+    if len(labels) != len(columns):
+        labels = (ColumnLabel(""),) * len(columns)
+    if declared := f"{above['n']:g}" if "n" in above and not notes else table.said.count(len(rows)):
+        surplus = table.width if layout.is_series else int("n" not in above)
+        notes += text.whole(rows[:, 0], text.count("number of samples", declared), surplus)[1]
     every = {at: rows[:, at] * column.seconds for at, column in enumerate(columns) if column.role == "time"}
-    repeats = () if every else _repeats(rows.ravel())
+    notes += () if every else _repeats(values)
+    stated = above.get("dt") or (1 / above["hz"] if above.get("hz") else None)
     held = replace(options, unit=None, time_step=None)
-    if "n" not in above and (declared := said.count(len(rows))):
-        repeats += text.whole(rows[:, 0], text.count("number of samples", declared), per_line=1)[1]
     records = []
     for place, (column, label) in enumerate(zip(columns, labels, strict=True)):
-        if column.role not in ("acceleration", "open"):
+        if column.role not in ("acceleration", "open") or (layout.is_series and label.other):
             continue
         left = max((at for at in every if at < place), default=min(every, default=-1))
-        step, numbers, notes = None, rows[:, place], repeats
-        processing: tuple[str, ...] = ()
-        if (times := every.get(left)) is not None:
-            step = text.even_step(times)
-        if times is not None and step is None:
+        step, numbers = stated, rows[:, place]
+        uneven: tuple[Remark, ...] = ()
+        if (times := every.get(left)) is not None and (step := text.even_step(times)) is None:
             step, even, remark = text.resampled(times)
             numbers = np.interp(even, times, numbers)
-            processing = (str(remark),)
-            notes = (remark,)
-        facts: dict[str, Any] = {
-            "component": column.name or label.component,
-            "processing": processing,
-            "warnings": notes,
-        }
+            uneven = (remark,)
+        name = label.component if not layout.is_series else "" if label.unit else label.text
+        facts: dict[str, Any] = {"component": column.name or name, "warnings": (*notes, *uneven)}
+        facts["processing"] = tuple(map(str, uneven))
+        if layout.is_series and table.counts and len(table.words) == 1:
+            facts["event"] = table.words[0][:60]  # a title
         claims = _claims(table, label, column, layout, step, options)
         unit, agreed_step = agreed("unit", claims), agreed("time_step", claims)
         records.append(held.accelerogram(unit, numbers, agreed_step, processed=None, **facts))

@@ -16,16 +16,20 @@ def from_obspy(
     response: str = "sensitivity",
     calibration: Calibration | None = None,
 ) -> list[Accelerogram]:
-    """Return an accelerogram for each channel of an obspy Trace or Stream, as `Accelerogram.from_obspy` does.
+    """Return an accelerogram for each channel of an obspy Trace or Stream, in the order of its channels.
+
+    Every check of `read` is made, and the record is the one that `read` gives of the same file. What obspy has noted of
+    the processing is read: samples whose response was removed to acceleration are in m/s².
 
     Parameters
     ----------
     trace_or_stream : object
         Obspy Trace or Stream.
     inventory : object, optional
-        StationXML, as obspy reads it; None: the samples are in `unit`.
+        StationXML, as obspy reads it; None: the response attached to the trace, or the samples are in `unit`.
     unit : str or None, optional
-        Unit of the samples, such as "m/s2"; None: as the inventory says.
+        Unit of samples that are acceleration already, such as "m/s2", which wins over a response; None: as the
+        inventory says.
     response : str, default 'sensitivity'
         "sensitivity" divides counts by the overall sensitivity; "full" removes the whole instrument response.
     calibration : {'apply', 'done'} or None, optional

@@ -18,7 +18,6 @@ from rocking import Arch, extract_pulses, integrate, predict_maximum
 from rocking.catalogue import CatalogueRecord, files, load_catalogue, open_record
 from rocking.catalogue.catalogue import catalogue_text, repeated
 from rocking.catalogue.files import download, path_of, with_hashes
-from rocking.catalogue.folder import list_folder
 from rocking.catalogue.listing import listing_text
 from rocking.described import described_values
 from rocking.earthquakes.sample import earthquakes_of, stations_of
@@ -27,6 +26,7 @@ from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
+from tests.folders import list_folder
 from tests.refusals import refused
 
 ROWS = (f"{i / 100},{i % 5},{i % 7},{i % 3}\n" for i in range(50))

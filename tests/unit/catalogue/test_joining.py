@@ -7,11 +7,12 @@ import pytest
 
 from rocking.catalogue import CatalogueRecord, load_catalogue, open_station
 from rocking.catalogue.catalogue import catalogue_text
-from rocking.catalogue.folder import catalogue_of_folder, list_folder
+from rocking.catalogue.folder import catalogue_of_folder
 from rocking.catalogue.listing import doubts_of
 from rocking.records.claims import direction_in_name
 from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
+from tests.folders import list_folder
 
 VALUES = 0.3 * np.sin(np.arange(4000) * 0.07) * np.hanning(4000)
 

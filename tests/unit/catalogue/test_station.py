@@ -8,13 +8,14 @@ import numpy as np
 import pytest
 
 from rocking.catalogue import CatalogueRecord, open_station
-from rocking.catalogue.folder import catalogue_of_folder, list_folder, unlisted
+from rocking.catalogue.folder import catalogue_of_folder, unlisted
 from rocking.catalogue.listing import doubts_of
 from rocking.errors import RecordError
 from rocking.records import Accelerogram
 from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
 from rocking.signal import aligned
+from tests.folders import list_folder
 from tests.refusals import refused
 
 VALUES = np.sin(np.arange(300) * 0.3)
@@ -119,10 +120,10 @@ def test_records_beside_the_catalogue_that_it_does_not_name_are_told(station):
     (station / "notes.txt").write_text("Dear Sir or Madam\n")
     (station / "catalogue.csv").write_text("id,file\na,e.asc;n.asc\n")
     (told,) = unlisted(station / "catalogue.csv")
-    assert told == Remark.of(RecordKind.FILE_UNLISTED, "z.asc", folder=str(station))
+    assert told == Remark.of(RecordKind.FILES_UNLISTED, files="z.asc", folder=str(station))
     _written(station, "more.asc", "HNE", VALUES)
     (told,) = unlisted(station / "catalogue.csv")
-    assert told == Remark.of(RecordKind.FILES_UNLISTED, files=2, folder=str(station))
+    assert told == Remark.of(RecordKind.FILES_UNLISTED, files="more.asc, z.asc", folder=str(station))
     (station / "other.csv").write_text("id,file\nb,z.asc\nc,more.asc\n")
     assert unlisted(station / "catalogue.csv") == ()
 
@@ -132,14 +133,16 @@ def test_a_file_that_a_catalogue_refused_is_not_said_to_be_new_until_it_is_anoth
     _written(station, "short.asc", "HNE", VALUES[:1])
     (station / "catalogue.csv").write_text("id,file\na,e.asc;n.asc\n")
     (told,) = unlisted(station / "catalogue.csv")
-    assert told == Remark.of(RecordKind.FILES_UNLISTED, files=2, folder=str(station)), "nobody has read them"
+    assert told == Remark.of(RecordKind.FILES_UNLISTED, files="short.asc, z.asc", folder=str(station)), (
+        "nobody has read them"
+    )
     existing = [{"id": "a", "file": "e.asc;n.asc"}]
     found = catalogue_of_folder(station, existing=existing, keeps_readings=True)
     assert not found.new and all(file.refusal for file in found.files if not file.record)
     assert unlisted(station / "catalogue.csv") == ()
     _written(station, "short.asc", "HNE", VALUES)
     (told,) = unlisted(station / "catalogue.csv")
-    assert told == Remark.of(RecordKind.FILE_UNLISTED, "short.asc", folder=str(station))
+    assert told == Remark.of(RecordKind.FILES_UNLISTED, files="short.asc", folder=str(station))
 
 
 JOINED = {

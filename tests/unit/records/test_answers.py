@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rocking.catalogue.folder import catalogue_of_folder, list_folder
+from rocking.catalogue.folder import catalogue_of_folder
 from rocking.errors import RecordError
 from rocking.records import read
 from rocking.records.formats.layouts import (
@@ -19,6 +19,7 @@ from rocking.records.formats.layouts import (
     families,
 )
 from rocking.records.kinds import RecordKind
+from tests.folders import list_folder
 from tests.refusals import refused
 from tests.unit.records.test_layouts import MOTION, OTHER, TIMES, UP, answer_all, answered, table, wrapped
 

@@ -12,7 +12,7 @@ import pytest
 from rocking.catalogue import load_catalogue
 from rocking.catalogue.catalogue import catalogue_text
 from rocking.catalogue.files import local_files, with_hashes
-from rocking.catalogue.folder import catalogue_of_folder, list_folder
+from rocking.catalogue.folder import catalogue_of_folder
 from rocking.catalogue.station import open_station
 from rocking.errors import RecordError
 from rocking.records import read
@@ -20,6 +20,7 @@ from rocking.records.archive import members
 from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
 from tests.contracts.made_files import TRUE, knet, peer
+from tests.folders import list_folder
 from tests.refusals import refused
 
 FILES = {"quake/RSN1_MADE_ST000.AT2": peer(), "quake/RSN1_MADE_ST090.AT2": peer(0.9).replace(", 45", ", 135")}

@@ -15,7 +15,6 @@ from obspy.core.util.base import get_example_file
 
 import rocking
 from rocking.catalogue import load_catalogue
-from rocking.catalogue.folder import list_folder
 from rocking.errors import RecordError, RockingError, UndeclaredError
 from rocking.records import Accelerogram, read
 from rocking.records.direction import Direction
@@ -23,6 +22,7 @@ from rocking.records.formats import FORMATS
 from rocking.records.kinds import RecordKind
 from rocking.records.obspy.plugin import PLUGINS
 from rocking.remarks import Remark
+from tests.folders import list_folder
 from tests.refusals import refused
 
 XML = """<?xml version="1.0" encoding="UTF-8"?>

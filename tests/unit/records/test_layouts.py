@@ -9,12 +9,12 @@ import pytest
 
 from rocking.catalogue import load_catalogue, open_record
 from rocking.catalogue.files import answers_of
-from rocking.catalogue.folder import list_folder
 from rocking.errors import CatalogueError, RecordError
 from rocking.records import read
 from rocking.records.formats.layouts import COLUMNS, NAME, AskedError, Layouts, Question, TableLayout
 from rocking.records.kinds import RecordKind
 from rocking.study.workspace import write_catalogue
+from tests.folders import list_folder
 from tests.refusals import refused
 
 TIMES = 0.01 * np.arange(600)

@@ -6,11 +6,11 @@ import made_files
 import numpy as np
 import pytest
 
-from rocking.catalogue.folder import list_folder
 from rocking.errors import RecordError
 from rocking.records import Accelerogram, read
 from rocking.records.formats.layouts import AskedError
 from rocking.records.kinds import RecordKind
+from tests.folders import list_folder
 from tests.refusals import refused
 from tests.unit.records.test_layouts import answered
 

@@ -9,15 +9,14 @@ import numpy as np
 import pytest
 from openpyxl import Workbook
 
-from rocking.catalogue import folder as folder_of_records
 from rocking.catalogue import listing, load_catalogue, open_record, readings
-from rocking.catalogue.folder import list_folder
 from rocking.catalogue.listing import listing_text
 from rocking.errors import CatalogueError, RecordError
 from rocking.records import read
 from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
 from rocking.study.workspace import write_catalogue
+from tests.folders import list_folder
 from tests.refusals import refused
 
 TIMES = 0.01 * np.arange(300)
@@ -53,7 +52,7 @@ def test_a_defect_of_a_whole_column_is_told_once(tmp_path: Path) -> None:
     path = european(tmp_path / "catalogue.csv", rows, "utf-8")
     with pytest.raises(CatalogueError) as caught:
         load_catalogue(path)
-    assert str(caught.value).count("furlong") == 1 and "and 128 more" in str(caught.value)
+    assert str(caught.value).count("furlong") == 1 and "and 128 others" in str(caught.value)
 
 
 def workbook(path: Path, rows: list[list[object]], *titles: str) -> Path:
@@ -117,7 +116,7 @@ def test_files_of_one_family_share_a_line(tmp_path: Path) -> None:
     text = listing_text(listed, width=100)
     assert (
         text.count("Dear colleague") == text.count("Dear colleague 0") == 1
-        and "note00.txt, note01.txt, note02.txt and 27 more: " in text
+        and "note00.txt, note01.txt, note02.txt and 27 others: " in text
     )
 
 
@@ -161,7 +160,7 @@ def test_nothing_is_decided_by_the_words_of_a_remark(tmp_path: Path, monkeypatch
         np.savetxt(tmp_path / name, np.column_stack([TIMES, MOTION if "N" in name else MOTION[::-1]]))
 
     def found() -> tuple[list[object], list[object]]:
-        listed, rows = folder_of_records.list_folder(tmp_path, unit="m/s2", time_step=0.01)
+        listed, rows = list_folder(tmp_path, unit="m/s2", time_step=0.01)
         files = [(file.file, file.record, file.companions, file.direction, [doubt.kind for doubt in file.doubts],
                   file.separation and file.separation.kind, bool(file.refusal)) for file in listed]  # fmt: skip
         return files, [{key: cell for key, cell in row.items() if key != "note"} for row in rows]

@@ -9,10 +9,10 @@ import obspy
 import pytest
 from made_files import TRUE, by_obspy, peer, smc
 
-from rocking.catalogue.folder import list_folder
 from rocking.errors import RecordError, UnknownFormatError
 from rocking.records import read
 from rocking.records.doors import Door, advice, through
+from tests.folders import list_folder
 from tests.refusals import refused
 
 OBSPY = Path(obspy.__file__).parent / "io"

@@ -12,7 +12,6 @@ from obspy.core import inventory
 import rocking
 from rocking.catalogue import load_catalogue
 from rocking.catalogue.catalogue import catalogue_text
-from rocking.catalogue.folder import list_folder
 from rocking.catalogue.station import open_station
 from rocking.errors import RecordError, UndeclaredError
 from rocking.records import read
@@ -20,6 +19,7 @@ from rocking.records.archive import members
 from rocking.records.kinds import RecordKind
 from rocking.records.obspy import workspace
 from tests.contracts.made_files import STEP, TRUE
+from tests.folders import list_folder
 from tests.refusals import refused
 
 h5py = pytest.importorskip("h5py")

@@ -12,12 +12,12 @@ import pytest
 from made_files import TRUE, by_obspy, knet, peer
 
 from rocking.assessment.rows import RemarkRow
-from rocking.catalogue.folder import list_folder
 from rocking.errors import ConfigurationError, RecordError
 from rocking.structures.kinds import StructureKind
 from rocking.study.cli import main
 from rocking.study.kinds import StudyKind
 from rocking.study.own_files import Declared, read_files, scenes_of, stations_of
+from tests.folders import list_folder
 
 FILES = {
     "RSN1_MADE_ST000.AT2": peer().replace(", 45", ", 000"),
