@@ -178,30 +178,24 @@ def other_quantity(text: str) -> str | None:
     return next((word for word, pattern in _OTHER.items() if pattern.search(text)), None)
 
 
-def quantity_in_name(file: str) -> str | None:
-    """Return the quantity other than acceleration of which the name of a file speaks alone."""
-    if series := _SERIES_IN_NAME.search(file):
-        return "velocity" if series[1] else "displacement"
-    return other_quantity(spaced(file))
+def of_another(quantity: str) -> RecordError:
+    """Return the error of a file of another quantity than acceleration."""
+    return RecordError(
+        f"this is a file of {quantity}; use the acceleration of the same record.", quantity=quantity
+    )
+
+
+def _of_spectrum(said: str) -> RecordError:
+    return RecordError(
+        f"this is a spectrum ({said}); use the record of acceleration against time.", quantity="spectrum"
+    )
 
 
 def refuse_other_quantity(file: str, text: str) -> None:
     """Raise RecordError when `text`, a header, or the ending of the name `file` speaks of another quantity."""
     suffix = next((word for word, ends in _SUFFIXES.items() if file.lower().endswith(ends)), None)
     if quantity := other_quantity(text) or suffix:
-        raise RecordError(
-            f"this is a file of {quantity}; use the acceleration of the same record.", quantity=quantity
-        )
-
-
-def refuse_by_name(file: str) -> None:
-    """Raise RecordError when the name of a file of bare numbers speaks of velocity or displacement alone."""
-    if quantity := quantity_in_name(file):
-        raise RecordError(
-            f"its name speaks of {quantity}, and nothing in it of acceleration; use the acceleration of the same "
-            "record, or rename the file if it is that.",
-            quantity=quantity,
-        )
+        raise of_another(quantity)
 
 
 def refuse_spectrum(header: Sequence[str]) -> None:
@@ -209,9 +203,7 @@ def refuse_spectrum(header: Sequence[str]) -> None:
     if any(_OF_MOTION.search(line) for line in header):
         return
     if said := next((match[0] for line in header if (match := _SPECTRUM.search(line))), ""):
-        raise RecordError(
-            f"this is a spectrum ({said}); use the record of acceleration against time.", quantity="spectrum"
-        )
+        raise _of_spectrum(said)
 
 
 _ABSCISSA = re.compile(r"(?i)\s*(period|freq(uency)?)\b.*|f(_hz)?|.*[(\[]\s*hz\s*[)\]]")
@@ -222,21 +214,24 @@ _OTHER_TITLE = re.compile(
 )
 
 
-def refuse_other_columns(names: Sequence[str]) -> None:
-    """Raise RecordError when the names of the columns of a table are those of a spectrum."""
-    if names and (_ABSCISSA.fullmatch(names[0]) or any(map(_ORDINATE.fullmatch, names[1:]))):
-        raise RecordError(
-            f"this is a spectrum ({', '.join(names[:4])}); use the record of acceleration against time.",
-            quantity="spectrum",
-        )
+def refuse_other_table(file: str, above: str, columns: Sequence[str], *, is_stated: bool) -> None:
+    """Raise RecordError when names of columns, the text above them or the name of the file are of another quantity.
 
-
-def refuse_title(above: str) -> None:
-    """Raise RecordError when the text above a table speaks of forces, strains or a spectrum, and of no motion."""
+    Of a column that states a unit of acceleration (is_stated) the name of the file does not count, and of a text that
+    speaks of acceleration no other word.
+    """
+    if columns and (_ABSCISSA.fullmatch(columns[0]) or any(map(_ORDINATE.fullmatch, columns[1:]))):
+        raise _of_spectrum(", ".join(columns[:4]))
+    refuse_other_quantity(file, above)
     if (word := _OTHER_TITLE.search(above)) and not (_ACCELERATION.search(above) or "match" in above.lower()):
+        raise of_another(word[1].lower())
+    series = _SERIES_IN_NAME.search(file)
+    of_series = ("velocity" if series[1] else "displacement") if series else None
+    if not is_stated and (quantity := of_series or other_quantity(spaced(file))):
         raise RecordError(
-            f"this is a file of {word[1].lower()}; use the acceleration of the same record.",
-            quantity=word[1].lower(),
+            f"its name speaks of {quantity}, and nothing in it of acceleration; use the acceleration of the same "
+            "record, or rename the file if it is that.",
+            quantity=quantity,
         )
 
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import NUMBER, acceleration_factor, acceleration_unit, positive
-from rocking.records.claims import Claim, Where, agreed, claims_of_name, refuse_other_quantity
+from rocking.records.claims import Claim, Where, agreed, claims_of_name, of_another, refuse_other_quantity
 from rocking.records.direction import directed
 from rocking.records.doors import advice
 from rocking.records.formats.layouts import Layouts
@@ -388,10 +388,7 @@ class Layout:
         if "quantity" in self.patterns:
             quantity = self.required("quantity", head)
             if quantity.lower() not in ("acceleration", "accelaration"):  # as RESORCE spells it
-                raise RecordError(
-                    f"the file holds {quantity}; use the acceleration file of the same record.",
-                    quantity=quantity,
-                )
+                raise of_another(quantity)
         if "unit" not in self.patterns:
             return self.unit
         unit = self.required("unit", head)

@@ -5,7 +5,14 @@ from typing import Any
 
 from rocking.errors import RecordError
 from rocking.quantities import is_number
-from rocking.records.claims import Declarations, agreed, azimuth_of_sensor, factor_warnings, other_quantity
+from rocking.records.claims import (
+    Declarations,
+    agreed,
+    azimuth_of_sensor,
+    factor_warnings,
+    of_another,
+    other_quantity,
+)
 from rocking.records.formats.format import Format, Layout, Options
 from rocking.records.formats.text import after_lines, count, lines, number, numbers, whole
 from rocking.records.kinds import RecordKind
@@ -59,9 +66,7 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     text = "\n".join(head)
     # What a line of its own says counts more than a title that speaks of an accelerogram.
     if quantity := next((other for line in head if (other := other_quantity(line))), None):
-        raise RecordError(
-            f"this is a PEER {quantity} file; use the AT2 file of the same record.", quantity=quantity
-        )
+        raise of_another(quantity)
     unit = agreed("unit", [*Declarations.of(head).of_numbers(), *options.said("unit")]) or ""
     declared = count("NPTS", size["npts"])
     values, warnings = whole(numbers(after_lines(content, len(head))), declared, per_line=8)

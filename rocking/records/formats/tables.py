@@ -26,11 +26,9 @@ from rocking.records.claims import (
     doubts_of_claims,
     factor_warnings,
     meaning,
+    of_another,
     point_apart,
-    refuse_by_name,
-    refuse_other_columns,
-    refuse_other_quantity,
-    refuse_title,
+    refuse_other_table,
     speaks_of_factor,
 )
 from rocking.records.direction import Direction, directed, names_acceleration
@@ -238,16 +236,6 @@ def _labels(line: str) -> tuple[str, ...]:
     return tuple(part.strip().strip("\"'") for part in parts)
 
 
-def _refuse_others(table: NumberTable, file: str) -> None:
-    """Refuse a table whose names, text or file name say that it holds no acceleration."""
-    above = "\n".join((*table.comments, *table.words))
-    refuse_other_columns([label.text for label in table.labels])
-    refuse_other_quantity(file, above)
-    refuse_title(above)
-    if not any(label.unit for label in table.labels):
-        refuse_by_name(file)
-
-
 def is_table(content: bytes) -> bool:
     """Whether a content is a table, by its first lines."""
     return _seen_of(content) is not None
@@ -342,7 +330,9 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     if seen is None or not seen.content:
         raise (seen and seen.fault) or RecordError("this is no table of numbers.", rows=0)
     table = seen.table
-    _refuse_others(table, options.file)
+    above_them = "\n".join((*table.comments, *table.words))
+    is_stated = any(label.unit for label in table.labels)
+    refuse_other_table(options.file, above_them, [label.text for label in table.labels], is_stated=is_stated)
 
     layouts = options.layouts or Layouts(options.folder)
     signature = seen.signature(options.file, layouts.place)
@@ -795,9 +785,7 @@ def _refuse_all(labels: Sequence[ColumnLabel]) -> None:
         "velocity",
         "displacement",
     ):
-        raise RecordError(
-            f"this is a file of {quantity}; use the acceleration of the same record.", quantity=quantity
-        )
+        raise of_another(quantity)
     contents = "; ".join(f"{name[:40]!r} is {what}" for name, what in others.items())
     raise RecordError(
         f"no column is of acceleration in a unit that is known: {contents}; convert the column, or use another file.",

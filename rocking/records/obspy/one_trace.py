@@ -8,6 +8,7 @@ import numpy as np
 
 from rocking.errors import RecordError, UndeclaredError, about
 from rocking.quantities import GRAVITY, acceleration_factor
+from rocking.records.claims import of_another
 from rocking.records.direction import Direction, directed
 from rocking.records.formats.format import plain, without_offset
 from rocking.records.kinds import RecordKind
@@ -260,10 +261,7 @@ def _channel_named(stats: Any) -> dict[str, Any]:
 
 def _of_sac(stats: Any) -> dict[str, Any]:
     if quantity := _OTHER_SAC.get(int(stats.sac.get("idep", 0))):
-        raise RecordError(
-            f"its header says that it holds {quantity}; use the acceleration of the same record.",
-            quantity=quantity,
-        )
+        raise of_another(quantity)
     numbers = {key: float(x) for key, x in stats.sac.items() if isinstance(x, np.floating | float)}
     header = {key: value for key, value in numbers.items() if value != _UNDEFINED}
     facts: dict[str, Any] = {name: header[key] for name, key in _SAC_PLACE.items() if key in header}
