@@ -323,15 +323,15 @@ def unlisted(catalogue: Path) -> tuple[Remark, ...]:
     records = []
     for path in islice((path for path in files_in(folder) if path not in catalogued), _LOOKED_AT):
         with suppress(RecordError):
-            form = recognise(bare_text(unpack(bytes_of(path), path.name)))
-            records += [path] if form.name != "StationXML" else []
+            recognise(bare_text(unpack(bytes_of(path), path.name)))
+            records.append(path)
     if records:
         readings = Readings(folder, Layouts(folder))
         records = [path for path in records if not _was_refused(path, folder, readings)]
     if not records:
         return ()
-    names = listed([printable(path.relative_to(folder).as_posix()) for path in records], NAMED)
-    return (Remark.of(RecordKind.FILES_UNLISTED, files=names, folder=str(folder)),)
+    files = listed([printable(path.relative_to(folder).as_posix()) for path in records], NAMED)
+    return (Remark.of(RecordKind.FILES_UNLISTED, files=files, folder=str(folder)),)
 
 
 def _was_refused(path: Path, folder: Path, readings: Readings) -> bool:

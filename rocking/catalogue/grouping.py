@@ -125,8 +125,10 @@ def named_channel(file: ListedFile) -> ListedChannel:
     """Return the one channel of a file, called as the file's name says where its header does not."""
     (channel,) = file.channels
     if direction := _direction(file):
-        pointing = Direction.of_channel(channel).refined(Direction.of(direction))
-        return replace(channel, component=direction, azimuth=pointing.azimuth, vertical=pointing.vertical)
+        channel = replace(channel, component=direction)
+        if channel.azimuth is None and not channel.vertical:
+            by_name = Direction.of(direction)
+            return replace(channel, azimuth=by_name.azimuth, vertical=by_name.vertical)
     return channel
 
 

@@ -88,43 +88,32 @@ class Direction:
     relative: str = ""
 
     @classmethod
+    @cache
     def of(cls, name: str) -> "Direction":
         """Return what the name of a component says, in plain degrees ("228"), bearings ("N26W"), words and codes.
 
-        >>>         >>> Direction.of("N26W").azimuth, Direction.of("+V").vertical, Direction.of("--L").relative
+        >>> Direction.of("N26W").azimuth, Direction.of("+V").vertical, Direction.of("--L").relative
         (334.0, True, 'L')
         """
-        return _of_name(name)
-
-    @classmethod
-    def of_channel(cls, channel: Channel) -> "Direction":
-        """Return the direction of a channel whose facts stand, with the axis that its name says."""
-        by_name = _of_name(channel.component)
-        return cls(channel.azimuth, channel.vertical, by_name.relative)
+        word = name.strip().upper().replace("–", "-")
+        if _is_vertical(word):
+            return cls(vertical=True)
+        along = _azimuth(word)
+        bare = word.strip(" .+-")
+        axis = _RELATIVE.get(bare) or _RELATIVE.get(bare.rstrip("0123456789"), "")
+        if code := _OF_ONE_INSTRUMENT.fullmatch(bare):
+            axis = code[2]
+        return cls(along, relative=axis)
 
     @property
     def is_known(self) -> bool:
         """Whether it is upwards, or an azimuth."""
         return self.vertical or self.azimuth is not None
 
-    def refined(self, by: "Direction") -> "Direction":
-        """Return this direction where it is known, else what `by` says, which comes later: a file's name, a row."""
-        return self if self.is_known or not (by.is_known or by.relative) else by
-
-    def angle_to(self, other: "Direction") -> float | None:
-        """Return the angle to another horizontal one, degrees in [0, 180), None where it is not known."""
-        if self.azimuth is None or other.azimuth is None:
-            return None
-        return (other.azimuth - self.azimuth) % 180
-
-    def is_across(self, other: "Direction") -> bool:
-        """Whether the two are axes at right angles by what they mean, such as L and T, FN and FP."""
-        return {self.relative, other.relative} in _ACROSS
-
 
 def directed(fields: Mapping[str, Any]) -> dict[str, Any]:
     """Return fields of an Accelerogram, `vertical` and `azimuth` by its component's name where they are blank."""
-    by_name = _of_name(fields.get("component", ""))
+    by_name = Direction.of(fields.get("component", ""))
     vertical = fields.get("vertical")
     azimuth = fields.get("azimuth")
     if vertical is None:
@@ -132,19 +121,6 @@ def directed(fields: Mapping[str, Any]) -> dict[str, Any]:
     if azimuth is None:
         azimuth = by_name.azimuth
     return {**fields, "vertical": vertical, "azimuth": None if vertical else azimuth}
-
-
-@cache
-def _of_name(name: str) -> Direction:
-    word = name.strip().upper().replace("–", "-")
-    if _is_vertical(word):
-        return Direction(vertical=True)
-    along = _azimuth(word)
-    bare = word.strip(" .+-")
-    axis = _RELATIVE.get(bare) or _RELATIVE.get(bare.rstrip("0123456789"), "")
-    if code := _OF_ONE_INSTRUMENT.fullmatch(bare):
-        axis = code[2]
-    return Direction(along, relative=axis)
 
 
 def _is_vertical(word: str) -> bool:
@@ -203,7 +179,7 @@ def doubts_of_channel(channel: Channel) -> tuple[Remark, ...]:
     return (Remark(RecordKind.DIRECTION_UNKNOWN, name),) if unknown else ()
 
 
-def contradiction(channel: Channel) -> Remark | None:
+def contradiction(channel: Channel) -> tuple[Remark, ...]:
     """Return a remark where a channel code (HNE) points elsewhere than the header of its record.
 
     A code is taken at its word where N and E are near their axes, whichever way they point.
@@ -211,18 +187,18 @@ def contradiction(channel: Channel) -> Remark | None:
     code = _BAND.fullmatch(channel.component.strip().upper())
     axis = {"N": 0.0, "E": 90.0}.get(code[1][2]) if code else None
     if code is None or (axis is None and code[1][2] != "Z"):
-        return None
+        return ()
     along = channel.azimuth
     is_same = channel.vertical == code[1].endswith("Z")
     off_axis = (
         0.0 if along is None or axis is None or channel.vertical else abs((along - axis + 90) % 180 - 90)
     )
     if is_same and off_axis <= _OFF_AXIS:
-        return None
+        return ()
     direction = (
         "upwards" if channel.vertical else "to no known azimuth" if along is None else f"to {along:g}°"
     )
-    return Remark.of(RecordKind.DIRECTION_CONTRADICTED, channel.component.strip(), direction=direction)
+    return (Remark.of(RecordKind.DIRECTION_CONTRADICTED, channel.component.strip(), direction=direction),)
 
 
 def vertical_doubt(channels: Sequence[Channel]) -> Remark | None:
@@ -251,9 +227,9 @@ def pair_doubt(horizontal: Sequence[Channel]) -> Remark | None:
     """Return a remark where the angle of two horizontal components is neither known nor said by their names."""
     if len(horizontal) != 2 or any(channel.vertical for channel in horizontal):
         return None
-    one, other = map(Direction.of_channel, horizontal)
     first, second = (channel.component for channel in horizontal)
-    if one.angle_to(other) is not None or one.is_across(other):
+    axes = {Direction.of(name).relative for name in (first, second)}
+    if angle_between(*horizontal) is not None or axes in _ACROSS:
         return None
     if names_no_direction(first) and names_no_direction(second):
         return None
@@ -262,4 +238,6 @@ def pair_doubt(horizontal: Sequence[Channel]) -> Remark | None:
 
 def angle_between(first: Channel, second: Channel) -> float | None:
     """Return the angle between two horizontal channels, degrees in [0, 180), None where it is unknown."""
-    return Direction.of_channel(first).angle_to(Direction.of_channel(second))
+    if first.azimuth is None or second.azimuth is None:
+        return None
+    return (second.azimuth - first.azimuth) % 180

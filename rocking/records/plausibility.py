@@ -249,12 +249,11 @@ _ODDS = 100.0
 
 def damage_warnings(record: Accelerogram) -> tuple[Remark, ...]:
     """Return a warning for each kind of damage in a record."""
-    tests = (
-        _sample_alone(record),
-        _zeros_in_shaking(record),
-        _still_stretch(record),
+    return (
+        *_sample_alone(record),
+        *_zeros_in_shaking(record),
+        *_still_stretch(record),
     )
-    return tuple(remark for remark in tests if remark is not None)
 
 
 _ALONE = 3.0, 2.0
@@ -266,22 +265,24 @@ _SHORTEST = 100
 """Samples below which a record is too short for a remark on its course."""
 
 
-def _sample_alone(record: Accelerogram) -> Remark | None:
+def _sample_alone(record: Accelerogram) -> tuple[Remark, ...]:
     """Return a warning on a sample alone far above all others."""
     magnitudes = np.abs(record.acceleration)
     if magnitudes.size < _SHORTEST or not magnitudes.any():
-        return None
+        return ()
     at = int(magnitudes.argmax())
     peak = float(magnitudes[at])
     others = np.delete(magnitudes, at)
     near = others[max(0, at - _NEIGHBOURS) : at + _NEIGHBOURS].max()
     if peak <= _ALONE[0] * near or peak <= _ALONE[1] * others.max():
-        return None
-    return Remark.of(
-        RecordKind.SAMPLE_ALONE,
-        time_s=at * record.time_step,
-        peak_g=peak / GRAVITY,
-        others_g=float(others.max()) / GRAVITY,
+        return ()
+    return (
+        Remark.of(
+            RecordKind.SAMPLE_ALONE,
+            time_s=at * record.time_step,
+            peak_g=peak / GRAVITY,
+            others_g=float(others.max()) / GRAVITY,
+        ),
     )
 
 
@@ -289,18 +290,18 @@ _ZEROS = 50
 """Exact zeros in a row that no recorder writes while the ground shakes; real files hold at most 14."""
 
 
-def _zeros_in_shaking(record: Accelerogram) -> Remark | None:
+def _zeros_in_shaking(record: Accelerogram) -> tuple[Remark, ...]:
     """Return a warning on zeros within strong shaking, between 5 and 95 % of the energy."""
     magnitudes = np.abs(record.acceleration)
     if magnitudes.size < 2 * _ZEROS or not magnitudes.any():
-        return None
+        return ()
     spent = np.cumsum(np.square(magnitudes))
     begin, end = np.searchsorted(spent, np.array([0.05, 0.95]) * spent[-1])
     moving = np.flatnonzero(magnitudes[begin : end + 1])
     longest = int(np.diff(moving).max(initial=0)) - 1
     if longest < _ZEROS:
-        return None
-    return Remark.of(RecordKind.ZEROS_IN_SHAKING, samples=longest)
+        return ()
+    return (Remark.of(RecordKind.ZEROS_IN_SHAKING, samples=longest),)
 
 
 _STEPS_AROUND = 100
@@ -311,7 +312,7 @@ _LIVELY = 0.5
 """Share of the steps next to a still stretch that must change the value: in files of few digits even noise is still."""
 
 
-def _still_stretch(record: Accelerogram) -> Remark | None:
+def _still_stretch(record: Accelerogram) -> tuple[Remark, ...]:
     """Return a warning where the value stays what it is for longer than the samples on both sides allow.
 
     Where a share q of the steps next to it change the value, n steps in a row change nothing in (1 - q)ⁿ of cases.
@@ -319,7 +320,7 @@ def _still_stretch(record: Accelerogram) -> Remark | None:
     values = record.acceleration
     changes = np.flatnonzero(np.diff(values))
     if changes.size < 2 * _STEPS_AROUND // 5:
-        return None
+        return ()
     steps = np.diff(changes) - 1
     # Not of the longest alone: a record that begins or ends still has a longer one there.
     for place in np.argsort(steps, kind="stable")[::-1].tolist():
@@ -332,10 +333,12 @@ def _still_stretch(record: Accelerogram) -> Remark | None:
         share = min(before, after)
         by_chance = (last - first) * math.log1p(-min(share, 1 - 1 / _STEPS_AROUND)) + math.log(values.size)
         if share >= _LIVELY and by_chance <= -3 * math.log(_ODDS):
-            return Remark.of(
-                RecordKind.STILL_STRETCH, time_s=first * record.time_step, samples=last - first + 1
+            return (
+                Remark.of(
+                    RecordKind.STILL_STRETCH, time_s=first * record.time_step, samples=last - first + 1
+                ),
             )
-    return None
+    return ()
 
 
 def _share_of_changes(values: np.ndarray) -> float:
@@ -347,14 +350,14 @@ _STILL = 1 / 200
 """Least share of steps without a change that is believed of a channel, from the two hundred next to them."""
 
 
-def repeated_rows(records: Sequence[Accelerogram]) -> Remark | None:
+def repeated_rows(records: Sequence[Accelerogram]) -> tuple[Remark, ...]:
     """Return a warning where a row of numbers, one of each of several channels, stands twice in succession.
 
     By chance no channel changes in the product of the shares in which each does not, from the steps next to it.
     """
     sizes = {record.acceleration.size for record in records}
     if len(records) < 2 or len(sizes) > 1 or min(sizes) < 2 * _STEPS_AROUND:
-        return None
+        return ()
     still = np.array([np.diff(record.acceleration) == 0 for record in records])
     steps = still.shape[1]
     places = np.flatnonzero(still.all(axis=0))
@@ -365,8 +368,8 @@ def repeated_rows(records: Sequence[Accelerogram]) -> Remark | None:
     shares = np.maximum(others / (end - first - 1), _STILL)
     unlikely = places[np.prod(shares, axis=0) * steps < 1 / _ODDS]
     if not unlikely.size:
-        return None
-    return Remark.of(RecordKind.ROW_REPEATED, time_s=float(unlikely[0] + 1) * records[0].time_step)
+        return ()
+    return (Remark.of(RecordKind.ROW_REPEATED, time_s=float(unlikely[0] + 1) * records[0].time_step),)
 
 
 def same_motion(first: Accelerogram, second: Accelerogram) -> bool:

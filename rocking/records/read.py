@@ -153,29 +153,25 @@ def read_content(
     with about(name[:120]):
         text = bare_text(content)
         reader = reader or recognise(text)
-        if isinstance(reader.read, str):
-            raise RecordError(reader.read, format=reader.name)
         try:
             read_by = reader.read(text, replace(options, file=name))
         except RecordError:
             refuse_spectrum(lines(text, _HEAD_OF_SPECTRUM))
             raise
-        records = distinct_channels(_named_by_file(read_by, name))
+        records = [
+            replace(
+                record,
+                source=replace(record.source, path=source.path, sha256=source.sha256, format=reader.name),
+            )
+            for record in _named_by_file(read_by, name)
+        ]
         if not records:
             raise RecordError(
                 "the file holds no channel of acceleration; use the acceleration file.", channels=0
             )
         is_doubled = b"\r\r\n" in content[:2000] and text is not content
-        notes = [Remark(RecordKind.LINE_ENDS_DOUBLED)] if is_doubled else []
-        of_rows = repeated_rows(records)
-        repeated = [of_rows] if of_rows is not None else []
-        for i, record in enumerate(records):
-            own = replace(record.source, path=source.path, sha256=source.sha256, format=reader.name)
-            limited = record if abs(options.scale_factor) >= 1 else record.scaled(options.scale_factor)
-            doubts = (*record.warnings, *notes, *pass_limits(limited, reader.name))
-            damage = (*damage_warnings(record), *repeated)
-            records[i] = replace(record, source=own, warnings=tuple(dict.fromkeys((*doubts, *damage))))
-        return records
+        notes = (Remark(RecordKind.LINE_ENDS_DOUBLED),) if is_doubled else ()
+        return checked_channels(records, notes, options.scale_factor)
 
 
 _HEAD_OF_SPECTRUM = 30
@@ -192,12 +188,21 @@ def signature_in(raw: bytes, name: str, folder: str) -> Signature | None:
     return None
 
 
-def checked_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
-    """Return channels that came without a file, with names of their own and the doubts that a file's would have."""
+def checked_channels(
+    records: Sequence[Accelerogram], notes: tuple[Remark, ...] = (), scale_factor: float = 1.0
+) -> list[Accelerogram]:
+    """Return the channels of a file or a stream, with names of their own and all that is doubtful of their samples.
+
+    notes: on all of them. scale_factor: by which the caller will multiply them. Raises RecordError beyond any ground.
+    """
+    channels = distinct_channels(records)
+    of_rows = repeated_rows(channels)
     checked = []
-    for record in distinct_channels(records):
-        doubts = (*pass_limits(record, record.source.format), *damage_warnings(record))
-        checked.append(record.warned(*(doubt for doubt in doubts if doubt not in record.warnings)))
+    for record in channels:
+        limited = record if abs(scale_factor) >= 1 else record.scaled(scale_factor)
+        limits = pass_limits(limited, record.source.format)
+        doubts = (*record.warnings, *notes, *limits, *damage_warnings(record), *of_rows)
+        checked.append(replace(record, warnings=tuple(dict.fromkeys(doubts))))
     return checked
 
 
@@ -245,11 +250,18 @@ _OTHER_KINDS = tuple((re.compile(pattern, re.I), sentence) for pattern, sentence
     (rb"\s*(FILE\s+\d+\s+OF\s+)?CORRECTED ACCELEROGRAM\b", "this is a Volume II file without the component (COMP or "
      "CHAN) in its first line, by which that of USC and CSMIP is read; use the file of the same record from PEER, from "
      "the USGS (SMC), or of Volume I."),
+    (rb"\s*((Response and )?Fourier amplitude spectr|Response (and|spectr))",
+     "this is a Volume 3 file of spectra, not a time history; use the V1 or V2 file."),
+    (rb"\s*\S{1,6} +\S{1,8} +\d{9,10}\.\d+ +-?\d+ +-?\d+ +[\d-]+ +\d{9,10}\.\d+ +\d+ +[\d.]+ +[\d.-]+ ",
+     "a CSS table (wfdisc) holds no samples, but names the files that do; read them together: "
+     "rocking.from_obspy(obspy.read(path, format='CSS'), inventory=...)."),
     (rb"BEGIN (GSE|IMS)|DATA_TYPE WAVEFORM", "this is a message of GSE or IMS; cut off what stands above its line "
      "WID2, and it is read."),
     (SACPZ, "this is a SAC file of poles and zeros, which holds a response and no motion: read the file "
      "of the samples, with the StationXML of its station as the inventory, which the same data centre serves."),
-    (rb"\s*<\?xml|\s*<(FDSNStationXML|q:quakeml)", "this is an XML file, which holds no motion; read the record."),
+    (rb"(?s)\s*<.{,350}<FDSNStationXML|\s*<FDSNStationXML",
+     "a StationXML holds no samples, but describes an instrument; read the miniSEED."),
+    (rb"\s*<\?xml|\s*<q:quakeml", "this is an XML file, which holds no motion; read the record."),
     (rb"(?s)\s*<(!doctype html|html|table|meta)(?=.{0,350}<(table|tr|td)\b|.{0,350}(excel|spreadsheet))",
      "this is a web page with a table, as some programs call .xls; open it in a spreadsheet, and save it as CSV."),
     (rb"\s*<(!doctype html|html|table)", "this is a web page, and no record: the download failed; fetch it again."),
@@ -392,11 +404,10 @@ def distinct_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
     for place, record in enumerate(records, 1):
         name = record.component or f"channel {place}"
         name += f" (channel {place})" if shared[record.component] > 1 else ""
-        contradicted = contradiction(record)
         doubts = (
             *record.warnings,
             *channel_warnings(record.component),
-            *([contradicted] if contradicted else []),
+            *contradiction(record),
             *([copies[place]] if place in copies else []),
             *site_warnings(record.station),
             *site_warnings(record.component),

@@ -453,12 +453,16 @@ MADE_REFUSED: dict[str, tuple[str, str, str]] = {
     "PEER AT2: VT2": (
         peer().replace("ACCELERATION TIME SERIES IN UNITS OF G", "VELOCITY IN CM/S"), "quantity", "velocity",
     ),
-    "CSMIP V3 spectra": ("Response and Fourier Amplitude Spectra\n 1 2 3\n", "format", "CSMIP V3 spectra"),
-    "CSS wfdisc": (of_obspy("css/tests/data/test_css.wfdisc").decode(), "format", "CSS wfdisc"),
-    "StationXML": ('<?xml version="1.0"?>\n<FDSNStationXML></FDSNStationXML>\n', "format", "StationXML"),
 }  # fmt: skip
 """Format, and what is special after a colon → (a file of what is no acceleration, the field and value refused)."""
 
+
+OTHER_KINDS = {
+    "spectra": "Response and Fourier Amplitude Spectra\n 1 2 3\n",
+    "from_obspy": of_obspy("css/tests/data/test_css.wfdisc").decode(),
+    "StationXML": '<?xml version="1.0"?>\n<FDSNStationXML></FDSNStationXML>\n',
+}
+"""A word of the sentence by which it is refused → a file of no format, which is known all the same."""
 
 OF_OBSPY = {
     "SEISAN": "seisan/tests/data/2011-09-06-1311-36S.A1032_001BH_Z",

@@ -14,6 +14,7 @@ from made_files import (
     MADE_BINARY,
     MADE_REFUSED,
     OF_OBSPY,
+    OTHER_KINDS,
     STEP,
     TRUE,
     N,
@@ -23,7 +24,7 @@ from made_files import (
 )
 
 import rocking
-from rocking.errors import RecordError
+from rocking.errors import RecordError, UnknownFormatError
 from rocking.records import Accelerogram
 from rocking.records.formats import FORMATS, Format
 from rocking.records.kinds import RecordKind
@@ -51,6 +52,12 @@ def test_what_is_no_acceleration_is_recognised_and_refused(name: str) -> None:
     assert recognise(text.encode()).name == format_of(name)
     with refused(RecordError, *named):
         read_text(text)
+
+
+@pytest.mark.parametrize("word", OTHER_KINDS)
+def test_what_is_no_record_is_known_and_refused(word: str) -> None:
+    with pytest.raises(UnknownFormatError, match=word):
+        read_text(OTHER_KINDS[word])
 
 
 def read_made(name: str, text: str) -> list[Accelerogram]:

@@ -1,7 +1,6 @@
 """The formats that obspy reads, from bytes we have recognised, by the format we name, never by its own guess.
 
-K-NET, Kinemetrics EVT, SAC, and files of counts: miniSEED, GSE, SLIST, TSPAIR, WIN, SEISAN, REFTEK. CSS is refused, for
-its samples lie in other files.
+K-NET, Kinemetrics EVT, SAC, and files of counts: miniSEED, GSE, SLIST, TSPAIR, WIN, SEISAN, REFTEK.
 """
 
 import io
@@ -25,7 +24,7 @@ from rocking.records.formats.text import LARGEST_SERIES
 from rocking.records.kinds import RecordKind
 from rocking.records.obspy import workspace
 from rocking.records.obspy.inventories import inventory_for
-from rocking.records.obspy.one_trace import as_stated, from_traces, header
+from rocking.records.obspy.one_trace import as_stated, from_traces, header, stated_by_sac
 from rocking.records.obspy.traces import first_line, joined, printed
 from rocking.remarks import Remark
 from rocking.signal.accelerogram import Accelerogram
@@ -53,23 +52,26 @@ def _stream(content: bytes, form: str, **options: Any) -> Any:
     messages = [first_line(warning.message) for warning in caught] + [first_line(line) for line in lines]
     if form == "MSEED" and (damage := [text for text in messages if _DAMAGE.search(text)]):
         raise RecordError(f"damaged {form} file, {damage[0]}; fetch it again.", format=form)
-    samples = sum(trace.stats.npts for trace in result)
-    if not samples:
-        raise RecordError(f"the {form} file holds no samples.", samples=0)
-    if samples > LARGEST_SERIES:
-        raise RecordError(
-            f"the file unpacks to {samples} samples, more than {LARGEST_SERIES}; cut it first.",
-            samples=samples,
-        )
+    _check_size(result)
     notes += [Remark.of(RecordKind.WARNING_OF_OBSPY, text=text) for text in messages]
     for _, station, _, channel, _, begin, length, _ in result.get_gaps():
         if length < 0:
             of = f"{station} {channel}"
             notes.append(Remark.of(RecordKind.BLOCKS_OVERLAP, of, overlap_s=float(-length), time=str(begin)))
     whole = joined(result)
-    if not whole:
+    if not any(trace.stats.npts for trace in whole):
         raise RecordError(f"the {form} file holds no samples.", samples=0)
     return whole, tuple(sorted(set(notes), key=str))
+
+
+def _check_size(stream: Any) -> None:
+    """Raise RecordError for more samples of all channels than a record has."""
+    samples = sum(trace.stats.npts for trace in stream)
+    if samples > LARGEST_SERIES:
+        raise RecordError(
+            f"the file unpacks to {samples} samples, more than {LARGEST_SERIES}; cut it first.",
+            samples=samples,
+        )
 
 
 def _check_blocks(content: bytes) -> list[Remark]:
@@ -91,12 +93,7 @@ def _check_blocks(content: bytes) -> list[Remark]:
             f"{record} is cut after {notes['excess_bytes']}; fetch the whole file.",
             record=notes["excess_bytes"],
         )
-    samples = sum(trace.stats.npts for trace in heads)
-    if samples > LARGEST_SERIES:
-        raise RecordError(
-            f"the file unpacks to {samples} samples, more than {LARGEST_SERIES}; cut it first.",
-            samples=samples,
-        )
+    _check_size(heads)
     marks = (content[place : place + 6] for place in range(0, len(content), notes["record_length"]))
     numbers = np.array([int(mark) for mark in marks if mark.isdigit()])
     leaps = np.flatnonzero((np.diff(numbers) != 1) & (numbers[1:] != 1))
@@ -143,7 +140,6 @@ def _read_knet(content: bytes, options: Options) -> list[Accelerogram]:
 
 
 _SAC_HEADER = 632
-_UNDEFINED = -12345.0
 _VERSION = 304
 """Byte at which the header's version stands (SAC manual, word 76)."""
 _SAMPLES = 316
@@ -165,8 +161,7 @@ def _read_sac(content: bytes, options: Options) -> list[Accelerogram]:
     traces, warnings = _stream(content, "SAC", checksize=True)
     records = []
     for trace in traces:
-        numbers = {key: float(x) for key, x in trace.stats.sac.items() if isinstance(x, np.floating | float)}
-        header = {key: value for key, value in numbers.items() if value != _UNDEFINED}
+        header = stated_by_sac(trace.stats)
         # The step in the file has single precision: 0.02 is stored as 0.0199999996.
         _check_sac(header, trace.data, float(f"{trace.stats.delta:.6g}"))
         try:
@@ -195,7 +190,7 @@ _SAC_SILENT = "unit is not declared, for a SAC file declares none, and {}"
 def _check_sac(header: dict[str, float], data: np.ndarray, step: float) -> None:
     """Compare the extremes and the end that the header states with the samples, before any mean is removed."""
     measured = {"depmin": data.min(), "depmax": data.max(), "depmen": data.mean(dtype=float)}
-    allowed = 1e-4 * max(abs(header.get("depmin", _UNDEFINED)), abs(header.get("depmax", _UNDEFINED)))
+    allowed = 1e-4 * max(abs(header.get(key, 0.0)) for key in ("depmin", "depmax"))
     for key, value in measured.items():
         if allowed and key in header and not abs(header[key] - value) <= allowed:
             stated = f"the header states {key.upper()} = {header[key]:g}, but the samples reach {value:g}"
@@ -462,16 +457,6 @@ REFTEK = Format(
     partial(_read_counts, "REFTEK130"),
     binary=True,
 )
-CSS = Format(
-    "CSS wfdisc",
-    "CTBTO and US laboratories",
-    "line of 283 or more characters with station, channel and epoch of a wfdisc",
-    re.compile(
-        r"\S{1,6} +\S{1,8} +\d{9,10}\.\d+ +-?\d+ +-?\d+ +[\d-]+ +\d{9,10}\.\d+ +\d+ +[\d.]+ +[\d.-]+ "
-    ),
-    "a CSS table (wfdisc) holds no samples, but names the files that do; read them together: "
-    "rocking.from_obspy(obspy.read(path, format='CSS'), inventory=...).",
-)
 KNET = Format(
     "K-NET/KiK-net",
     "NIED, Japan",
@@ -486,11 +471,4 @@ ASDF = Format(
     lambda content: content.startswith(workspace.STATION),
     workspace.read_station,
     binary=True,
-)
-STATIONXML = Format(
-    "StationXML",
-    "FDSN data centres",
-    "FDSNStationXML element",
-    re.compile(r"(?s).{,2000}?<FDSNStationXML"),
-    "a StationXML holds no samples, but describes an instrument; read the miniSEED.",
 )

@@ -157,8 +157,7 @@ class Format:
     origin: who publishes records in it. signature: what the recogniser looks for, as the end of "no ...".
     first: a pattern that the first lines match, after up to four empty ones; or a function of the whole content that
     never raises.
-    read: (content, options) to accelerograms; raises RecordError only, whose message need not name the file; or the
-    sentence by which every such file is refused.
+    read: (content, options) to accelerograms; raises RecordError only, whose message need not name the file.
     plugin: its name among obspy's formats, where it is offered to obspy.
     yields: whether another format that recognises a file as well has it: bare numbers below any text.
     binary: whether its files hold zero bytes, so that of a text nobody asks.
@@ -168,7 +167,7 @@ class Format:
     origin: str
     signature: str
     first: Callable[[bytes], bool] | re.Pattern[str]
-    read: Callable[[bytes, Options], list[Accelerogram]] | str
+    read: Callable[[bytes, Options], list[Accelerogram]]
     plugin: str = ""
     yields: bool = False
     binary: bool = False

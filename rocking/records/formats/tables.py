@@ -147,6 +147,11 @@ class NumberTable:
         return Declarations.of((*self.comments, *self.words, *self.tail))
 
     @property
+    def below(self) -> str:
+        """The text below the numbers, without a word for their end."""
+        return plain(" / ".join(line for line in self.tail if not END.fullmatch(line)))
+
+    @property
     def is_understood(self) -> bool:
         """Whether the words above the numbers leave no doubt: a title, and lines each of which declares something.
 
@@ -352,11 +357,9 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
         _holds(table, drawn, values),
         drawn.proposal(has_step, table.said.stated_steps or _steps_of_name(options.file)),
     )
-    notes = (
-        *seen.notes,
-        *factor_warnings((*table.comments, *table.words, *table.tail)),
-        *_tail_remarks(table),
-    )
+    notes = (*seen.notes, *factor_warnings((*table.comments, *table.words, *table.tail)))
+    if table.below:
+        notes += (Remark.of(RecordKind.TAIL_PASSED_OVER, text=table.below[:80]),)
     if answer and layout:
         if not table.labels and layout.is_series != drawn.is_series:
             # Another file of its folder was answered for.
@@ -446,16 +449,6 @@ def _is_row(line: str, width: int) -> bool:
         return True
     is_like_one = len(cells) == width and 2 * sum(map(is_number, cells)) >= width
     return is_like_one or (width == 1 == len(cells) and bool(re.search(r"\d", bare)))
-
-
-def _tail_remarks(table: NumberTable) -> tuple[Remark, ...]:
-    """Return a remark on text below the numbers that is more than a word for their end."""
-    text_below = [line for line in table.tail if not END.fullmatch(line)]
-    return (
-        (Remark.of(RecordKind.TAIL_PASSED_OVER, text=plain(" / ".join(text_below))[:80]),)
-        if text_below
-        else ()
-    )
 
 
 _FILLING = re.compile(rb"(?i)(?:[ \t]+nan)+\s*\Z")
@@ -569,8 +562,8 @@ def _holds(table: NumberTable, drawn: TableLayout, values: np.ndarray) -> str:
     """Return what a table holds as far as it can be seen, for a person who knows the rest."""
     rows = values.size // table.width
     size = f"{rows:,} rows".replace(",", " ")
-    if text_below := [line for line in table.tail if not END.fullmatch(line)]:
-        size += f"; below them {plain(' / '.join(text_below))[:60]!r}"
+    if table.below:
+        size += f"; below them {table.below[:60]!r}"
     if drawn.is_series:
         return f"one series in {drawn.columns[0].unit or '?'}, {table.width} a line; {size}"
     contents = []

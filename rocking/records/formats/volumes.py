@@ -228,7 +228,6 @@ def _bhrc(block: list[str], options: Options, _: int) -> Accelerogram:
 _VOLUME_1 = re.compile(r"Uncorrected Accelerogram Data[ \t]+Processed", re.I)
 _VOLUME_2 = re.compile(r"Corrected accelerogram[ \t].*Chan", re.I)
 _USC_2_FIRST = re.compile(r"Corrected accelerogram[ \t](?!.*Chan).*\bComp\b", re.I)
-_VOLUME_3 = re.compile(r"(Response and )?Fourier amplitude spectr|Response (and|spectr)", re.I)
 _OF_RENADIC = r"(?:.*\n){0,12}.*RENADIC"
 _CSMIP_FIRST = re.compile(rf"{_VOLUME_1.pattern}(?!{_OF_RENADIC})|{_VOLUME_2.pattern}", re.I)
 _DATA_1 = re.compile(
@@ -350,11 +349,4 @@ CSMIP = Format(
     _CSMIP_FIRST,
     _read_csmip,
     "CSMIP_V1V2",
-)
-SPECTRA = Format(
-    "CSMIP V3 spectra",
-    "California Geological Survey (CSMIP, CDMG)",
-    "first line that names response or Fourier spectra",
-    _VOLUME_3,
-    "this is a Volume 3 file of spectra, not a time history; use the V1 or V2 file.",
 )

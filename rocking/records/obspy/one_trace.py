@@ -11,6 +11,7 @@ from rocking.quantities import GRAVITY, acceleration_factor
 from rocking.records.claims import of_another
 from rocking.records.direction import Direction, directed
 from rocking.records.formats.format import plain, without_offset
+from rocking.records.formats.text import LARGEST_SERIES
 from rocking.records.kinds import RecordKind
 from rocking.records.obspy.traces import STEEP, calibrated, names, quantity_order, site, unit_left_by
 from rocking.records.plausibility import BURIED
@@ -27,8 +28,6 @@ _RAW = (*_CALIBRATED_TO, "SAC")
 """The formats of one recorder's numbers, from whose mean its offset is known."""
 _DIRECTED = ("component", "azimuth", "vertical")
 """The facts that a rotation makes untrue."""
-LARGEST_TRACE = 4_000_000
-"""Samples of the longest trace that is taken: five and a half hours at 200 Hz."""
 _UNDEFINED = -12345.0
 """What a SAC header holds where it says nothing."""
 _OTHER_SAC = {6: "displacement", 7: "velocity"}
@@ -68,9 +67,9 @@ def _from_trace(
     Raises RecordError for velocity and displacement, and UndeclaredError where nothing says what the samples are.
     """
     stats = trace.stats
-    if stats.npts > LARGEST_TRACE:
+    if stats.npts > LARGEST_SERIES:
         raise RecordError(
-            f"it holds {stats.npts} samples, more than {LARGEST_TRACE}; cut the motion out of it first.",
+            f"it holds {stats.npts} samples, more than {LARGEST_SERIES}; cut the motion out of it first.",
             samples=stats.npts,
         )
     form = str(stats.get("_format", ""))
@@ -259,11 +258,16 @@ def _channel_named(stats: Any) -> dict[str, Any]:
     return {"component": f"channel {name}", "azimuth": None} if name.isdigit() and len(name) == 1 else {}
 
 
+def stated_by_sac(stats: Any) -> dict[str, float]:
+    """Return the numbers that a SAC header states, by their keys."""
+    numbers = {key: float(x) for key, x in stats.sac.items() if isinstance(x, np.floating | float)}
+    return {key: value for key, value in numbers.items() if value != _UNDEFINED}
+
+
 def _of_sac(stats: Any) -> dict[str, Any]:
     if quantity := _OTHER_SAC.get(int(stats.sac.get("idep", 0))):
         raise of_another(quantity)
-    numbers = {key: float(x) for key, x in stats.sac.items() if isinstance(x, np.floating | float)}
-    header = {key: value for key, value in numbers.items() if value != _UNDEFINED}
+    header = stated_by_sac(stats)
     facts: dict[str, Any] = {name: header[key] for name, key in _SAC_PLACE.items() if key in header}
     facts |= _sac_direction(header, stats.channel)
     if header.get("stdp", 0.0) >= BURIED:

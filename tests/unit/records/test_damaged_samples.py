@@ -82,10 +82,10 @@ def test_a_row_of_all_channels_that_stands_twice_is_told() -> None:
     table = np.stack([shaking(seed) for seed in (5, 6, 7)], axis=1)
     whole = [Accelerogram(column, 0.01) for column in table.T]
     twice = [Accelerogram(column, 0.01) for column in np.insert(table, 2000, table[1999], axis=0).T]
-    assert repeated_rows(whole) is None is repeated_rows(twice[:1])
-    assert repeated_rows(twice) == Remark.of(RecordKind.ROW_REPEATED, time_s=2000 * 0.01)
+    assert repeated_rows(whole) == () == repeated_rows(twice[:1])
+    assert repeated_rows(twice) == (Remark.of(RecordKind.ROW_REPEATED, time_s=2000 * 0.01),)
     coarse = [Accelerogram(np.round(column), 0.01) for column in table.T]
-    assert repeated_rows(coarse) is None
+    assert repeated_rows(coarse) == ()
 
 
 @pytest.mark.parametrize(("size", "is_told"), [(0, False), (1, True), (8, True)])

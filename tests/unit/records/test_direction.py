@@ -62,12 +62,6 @@ def test_a_pair_of_columns_without_names_is_not_doubted() -> None:
 
 def test_what_is_said_first_counts() -> None:
     """The reader's header, then the name of the component, then that of the file, then the row."""
-    header = Direction.of_channel(Channel("HNE", azimuth=92.0))
-    assert header.azimuth == 92.0
-    assert header.refined(Direction.of("180")) == header
-    unknown = Direction.of_channel(Channel("acc"))
-    assert unknown == Direction() and unknown.refined(Direction.of("180")).azimuth == 180.0
-    assert Direction.of("L").refined(Direction.of("")) == Direction.of("L")
     assert directed({"component": "HNE", "azimuth": 92.0}) == {
         "component": "HNE",
         "azimuth": 92.0,

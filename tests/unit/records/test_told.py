@@ -66,8 +66,7 @@ def test_a_spectrum_whose_header_says_so_is_told_so_first(tmp_path: Path, head: 
     (tmp_path / "a.txt").write_text(head + "\n".join(f"{value:.6f}" for value in np.abs(TRUE)) + "\n")
     with pytest.raises(RecordError) as caught:
         read(tmp_path / "a.txt")
-    named = (caught.value.field, caught.value.value)
-    assert named in {("quantity", "spectrum"), ("format", "CSMIP V3 spectra")}
+    assert caught.value.field in {"quantity", "format"} and "spectr" in str(caught.value)
 
 
 def test_a_motion_made_to_a_spectrum_is_told_what_is_wrong_with_it(tmp_path: Path) -> None:
