@@ -95,7 +95,7 @@ def at2_text(recipe: SyntheticRecord) -> str:
     record = synthetic_record(recipe)
     values = [f"{value:15.7e}" for value in record.acceleration / GRAVITY]
     head = (
-        f"SYNTHETIC ACCELEROGRAM, NOT RECORDED; MADE BY rocking.records.synthetic, SEED {recipe.seed}",
+        f"SYNTHETIC ACCELEROGRAM, NOT RECORDED; MADE BY python -m tests.synthetic, SEED {recipe.seed}",
         f"{record.event.split(',')[0]}, 1/1/2000, {recipe.name}, {record.component}",
         "ACCELERATION TIME SERIES IN UNITS OF G",
         f"NPTS= {len(values):6d}, DT= {record.time_step:8.5f} SEC",

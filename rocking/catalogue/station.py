@@ -11,6 +11,7 @@ from rocking.catalogue.catalogue import CatalogueRecord, RecordFile
 from rocking.catalogue.files import in_catalogue_folder, path_of
 from rocking.catalogue.joining import joined
 from rocking.catalogue.place import Coordinates, place_of
+from rocking.earthquakes.sample import MADE
 from rocking.errors import RecordError, about
 from rocking.hashes import sha256_of_bytes
 from rocking.records.direction import (
@@ -197,7 +198,16 @@ def _listed(channels: Sequence[Accelerogram]) -> str:
 
 
 def _as_declared(channel: Accelerogram, record: CatalogueRecord) -> Accelerogram:
-    """Return a channel with what its row says of name, scale, station, event, corner, magnitude and distance."""
+    """Return a channel with what its row says of name, scale, station, event, corner, magnitude and distance.
+
+    Raises RecordError where the row names an earthquake of a motion that was made by what its file says.
+    """
+    if channel.event == MADE and record.event not in ("", MADE):
+        raise RecordError(
+            f"event is {record.event!r}, but the header of {channel.source.path} says that the motion was made; write "
+            f"{MADE!r} in the column event, or correct the file.",
+            event=record.event,
+        )
     facts: dict[str, Any] = {
         "station": record.station or channel.station,
         "event": record.event or channel.event,

@@ -29,10 +29,11 @@ class Where(IntEnum):
     FILE_NAME = 0
     SPOKEN = 1
     OPTION = 2
-    HEAD = 3
-    SAMPLES = 4
-    COLUMN = 5
-    ANSWER = 6
+    FORMAT = 3
+    HEAD = 4
+    SAMPLES = 5
+    COLUMN = 6
+    ANSWER = 7
 
     def __str__(self) -> str:
         return _PLACES[self]
@@ -42,6 +43,7 @@ _PLACES = (
     "its name",
     "a rate in its header",
     "declared",
+    "its format",
     "its header",
     "its numbers",
     "the name of the column",
@@ -169,6 +171,17 @@ _OF_MOTION = re.compile(
     r"(?i)match|compatib|consistent|scaled to|target|time[ -]?(history|series)|accelerogram"
 )
 """Words of a motion that was made to a spectrum, or accompanies one."""
+
+
+_MADE = re.compile(
+    r"(?i)\b(?:synthetic|artificial|simulated)[ _-]+(?:\w+[ _-]+)?"
+    r"(?:accelerogram|motion|record|time[ _-]?(?:histor(?:y|ies)|series))"
+)
+
+
+def says_made(header: Sequence[str]) -> bool:
+    """Whether the lines of a header say that nobody recorded the motion."""
+    return any(_MADE.search(line) for line in header)
 
 
 def other_quantity(text: str) -> str | None:

@@ -15,11 +15,12 @@ from pickletools import genops
 
 import numpy as np
 
+from rocking.earthquakes.sample import MADE
 from rocking.errors import RecordError, UndeclaredError, UnknownFormatError, about
 from rocking.hashes import sha256_of_bytes
 from rocking.quantities import listed, shown
 from rocking.records.archive import archive_of, is_archive, member_bytes, members
-from rocking.records.claims import refuse_spectrum, vertical_in_name, without_end
+from rocking.records.claims import refuse_spectrum, says_made, vertical_in_name, without_end
 from rocking.records.direction import (
     contradiction,
     doubts_of_channel,
@@ -156,7 +157,7 @@ def read_content(
         try:
             read_by = reader.read(text, replace(options, file=name))
         except RecordError:
-            refuse_spectrum(lines(text, _HEAD_OF_SPECTRUM))
+            refuse_spectrum(lines(text, _HEAD))
             raise
         records = [
             replace(
@@ -165,6 +166,8 @@ def read_content(
             )
             for record in _named_by_file(read_by, name)
         ]
+        if says_made(lines(text, _HEAD) if b"\0" not in text[:512] else ()):
+            records = [replace(record, event=MADE) for record in records]
         if not records:
             raise RecordError(
                 "the file holds no channel of acceleration; use the acceleration file.", channels=0
@@ -174,8 +177,8 @@ def read_content(
         return checked_channels(records, notes, options.scale_factor)
 
 
-_HEAD_OF_SPECTRUM = 30
-"""Lines in which a header says that it is one of a spectrum."""
+_HEAD = 30
+"""Lines in which a header says that it is one of a spectrum, or of a motion that was made."""
 
 
 def signature_in(raw: bytes, name: str, folder: str) -> Signature | None:

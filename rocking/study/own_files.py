@@ -25,6 +25,7 @@ from rocking.catalogue.folder import files_in, rows_of_files
 from rocking.catalogue.grouping import stations
 from rocking.catalogue.listing import ListedFile, listed_file, reading_of
 from rocking.errors import ConfigurationError, RecordError
+from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.records.archive import archive_of, is_archive, members
 from rocking.records.formats import Options
@@ -290,8 +291,11 @@ def assess_stations(
             with TemporaryDirectory() as folder:
                 write_report(result, rows, study, Path(folder))
                 write_whole(pdf, read_whole(Path(folder) / "report.pdf", _LARGEST_REPORT, ConfigurationError))
-        if len(found) > 1:
-            yield f"{own.record.id} ({own.record.file})"
+        peaks = (
+            f"{channel.component or 'component not named'} {channel.peak_acceleration / GRAVITY:.3g} g"
+            for channel in own.channels
+        )
+        yield f"{own.record.id} ({own.record.file}): PGA as read {', '.join(peaks)}"
         for station in result.worst_first:
             yield from _lines_of(station, own.record.scale_factor)
         for failure in rows.failures:

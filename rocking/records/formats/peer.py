@@ -6,7 +6,9 @@ from typing import Any
 from rocking.errors import RecordError
 from rocking.quantities import is_number
 from rocking.records.claims import (
+    Claim,
     Declarations,
+    Where,
     agreed,
     azimuth_of_sensor,
     factor_warnings,
@@ -67,7 +69,10 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     # What a line of its own says counts more than a title that speaks of an accelerogram.
     if quantity := next((other for line in head if (other := other_quantity(line))), None):
         raise of_another(quantity)
-    unit = agreed("unit", [*Declarations.of(head).of_numbers(), *options.said("unit")]) or ""
+    said = [*Declarations.of(head).of_numbers(), *options.said("unit")]
+    if any(claim.what == "unit" and claim.where == Where.HEAD for claim in said):
+        said.append(Claim("unit", "g", Where.FORMAT, "an AT2 of PEER is in g"))
+    unit = agreed("unit", said) or ""
     declared = count("NPTS", size["npts"])
     values, warnings = whole(numbers(after_lines(content, len(head))), declared, per_line=8)
     parts = [part.strip() for part in head[1].split(",")] if len(head) > 1 else [""]

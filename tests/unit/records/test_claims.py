@@ -84,18 +84,33 @@ def test_a_unit_is_read_in_any_spelling_at_every_door(tmp_path: Path, unit: str,
     (tmp_path / "b.txt").write_text(
         f"t;NS ({bare})\n{table(TIMES, MOTION / value, parted=';', digits='.9g')}", "utf-8"
     )
-    for path in (
-        at2(tmp_path, unit=f"UNITS OF {unit}", factor=1 / value),
-        tmp_path / "a.txt",
-        tmp_path / "b.txt",
+    for path, declared in (
+        (at2(tmp_path, unit=f"UNITS OF {unit}", factor=1 / value), bare),
+        (tmp_path / "a.txt", None),
+        (tmp_path / "b.txt", None),
     ):
         try:
-            (record,) = read(path)
-        except UndeclaredError as error:
+            (record,) = read(path, unit=declared)
+        except RecordError as error:
             assert error.field == "unit"  # asked, never read as another
             assert unit in ("m s-2",)
             continue
         assert record.acceleration == pytest.approx(MOTION, rel=1e-4, abs=1e-5), path
+
+
+def test_an_at2_that_says_another_unit_than_its_format_is_asked_and_the_user_settles_it(
+    tmp_path: Path,
+) -> None:
+    """Else its values were 980 times too small, in silence: no peak stands in such a head."""
+    path = at2(tmp_path, unit="UNITS OF CM/S/S")
+    with refused(UndeclaredError, "unit") as caught:
+        read(path)
+    assert "CM/S/S" in str(caught.value) and "in g" in str(caught.value) and "unit=" in str(caught.value)
+    for unit, value in (("g", G), ("cm/s2", 0.01)):
+        (record,) = read(path, unit=unit)
+        assert record.acceleration == pytest.approx(MOTION * value / G, rel=1e-5)
+    with refused(RecordError, "unit"):
+        read(path, unit="mg")
 
 
 @pytest.mark.parametrize(
