@@ -97,8 +97,8 @@ class RecordKind(Kind):
     DIRECTION_CONTRADICTED = auto(), """The header of {about} gives the direction {direction}, which the
         channel code contradicts; the header is followed: check which of the two is right, and name the
         horizontal ones in the column component."""
-    DIRECTION_SAID_TWICE = auto(), """The text above the numbers says {other}, but their column is called {about},
-        which is followed."""
+    DIRECTION_SAID_TWICE = auto(), """The file gives two directions, {other} and {about}: the second, which is said of
+        the component itself, is followed."""
     ORIENTATION_UNKNOWN = auto(), """The StationXML says that the orientation of {about} is not known: its azimuth
         is not used."""
     SAME_MOTION = auto(), """The samples of {about} are those of {other}, sample by sample, or their negative: one

@@ -14,6 +14,7 @@ from rocking.records.claims import (
     factor_warnings,
     of_another,
     other_quantity,
+    point_apart,
 )
 from rocking.records.formats.format import Format, Layout, Options
 from rocking.records.formats.text import after_lines, count, lines, number, numbers, whole
@@ -82,8 +83,12 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     poles = _POLES.findall(text)
     points = _FILTER_POINTS.search(text)
     corner = points[1] if points else poles[1][1] if len(poles) > 1 and poles[1][0] != "0" else "0"
+    sensor = azimuth_of_sensor(head)
+    named = _component(title)
+    if point_apart(sensor, named):
+        warnings += (Remark.of(RecordKind.DIRECTION_SAID_TWICE, sensor, other=named),)
     facts: dict[str, Any] = {
-        "component": azimuth_of_sensor(head) or _component(title),
+        "component": sensor or named,
         "processed": True,
         "warnings": warnings,
     }

@@ -11,10 +11,12 @@ from made_files import MADE, MADE_BINARY, content_of
 
 import rocking
 from rocking.catalogue import load_catalogue, open_record
+from rocking.earthquakes.sample import MADE as MADE_MOTION
 from rocking.errors import RecordError
 from rocking.records import read
 from rocking.records.formats import Options
 from rocking.records.formats.layouts import AskedError
+from rocking.records.kinds import RecordKind
 from rocking.records.obspy import workspace
 from rocking.records.read import read_content
 from tests.unit.catalogue.test_catalogue import row, write
@@ -66,6 +68,21 @@ def book(
 
 def of_peer(name: str = "made.AT2", **parts: str) -> Callable[[Path], Path]:
     return lambda folder: at2(folder, **parts).rename(folder / name)
+
+
+def of_instrument(code: str, azimuth: str) -> Callable[[Path], Path]:
+    """Counts next to the StationXML of a channel of this code and azimuth."""
+
+    def write(folder: Path) -> Path:
+        record = trace()
+        xml = XML.format(units="M/S**2").replace("<Azimuth>72</Azimuth>", f"<Azimuth>{azimuth}</Azimuth>")
+        xml = xml.replace(f'code="{record.stats.channel}"', f'code="{code}"')
+        record.stats.channel = code
+        record.write(str(folder / "record.mseed"), format="MSEED")
+        (folder / "station.xml").write_text(xml)
+        return folder / "record.mseed"
+
+    return write
 
 
 def answer(write: Callable[[Path], Path], text_of: str) -> Callable[[Path], Path]:
@@ -151,6 +168,56 @@ def test_two_words_that_differ_are_asked_or_refused_with_both(tmp_path: Path, ca
         read(path, **typed)
     for word in named:
         assert word in str(said.value), str(said.value)
+
+
+@pytest.mark.parametrize(("made", "kind", "named"), [
+    (of_peer(first="COMPONENT AZIMUTH = 300"), RecordKind.DIRECTION_SAID_TWICE, ("300", "090")),
+    (of_peer("x_UP.AT2"), RecordKind.VERTICAL_IN_NAME, ("UP", "090")),
+    (text("# Component: EW\n"), RecordKind.DIRECTION_SAID_TWICE, ("EW", "NS")),
+    (book("Component: EW"), RecordKind.DIRECTION_SAID_TWICE, ("EW", "NS")),
+    (of_instrument("HNN", "100"), RecordKind.DIRECTION_CONTRADICTED, ("HNN", "100")),
+    (of_instrument("HNZ", "72"), RecordKind.DIRECTION_CONTRADICTED, ("HNZ", "72")),
+])  # fmt: skip
+def test_two_directions_that_differ_are_told_with_both(
+    tmp_path: Path, made: Callable[[Path], Path], kind: RecordKind, named: tuple[str, ...]
+) -> None:
+    """No option could settle them."""
+    (record,) = read(made(tmp_path))
+    told = [str(warning) for warning in record.warnings if warning.kind is kind]
+    assert len(told) == 1 and all(word in told[0] for word in named)
+
+
+@pytest.mark.parametrize(("code", "azimuth"), [("HNN", 100.0), ("HNZ", 72.0)])
+def test_a_stream_is_told_what_its_stationxml_says_of_its_direction(
+    tmp_path: Path, code: str, azimuth: float
+) -> None:
+    path = of_instrument(code, f"{azimuth:g}")(tmp_path)
+    (record,) = rocking.from_obspy(obspy.read(str(path)), inventory(tmp_path))
+    assert record.azimuth == azimuth
+    assert RecordKind.DIRECTION_CONTRADICTED in {warning.kind for warning in record.warnings}
+
+
+def test_the_pieces_of_a_stream_that_say_two_steps_are_refused_with_both() -> None:
+    """Also where they would not overlap: the later one may be resampled."""
+    one = trace()
+    other = one.copy()
+    other.stats.sampling_rate = 2 * one.stats.sampling_rate
+    other.stats.starttime = one.stats.endtime + one.stats.delta
+    with pytest.raises(RecordError) as said:
+        rocking.from_obspy(obspy.Stream([one, other]), unit="g")
+    assert all(f"{piece.stats.sampling_rate:g}" in str(said.value) for piece in (one, other))
+
+
+def test_what_a_header_calls_synthetic_is_made_in_every_catalogue(tmp_path: Path) -> None:
+    """Else it counted as recorded where a row does not say it."""
+    at2(tmp_path, first="SYNTHETIC ACCELEROGRAM, NOT RECORDED")
+    for event in ("", MADE_MOTION):
+        path = write(tmp_path, row(file="made.AT2", sha256="", event=event))
+        assert open_record(load_catalogue(path)[0])[0].event == MADE_MOTION
+    path = write(tmp_path, row(file="made.AT2", sha256="", event="Kobe 1995"))
+    with pytest.raises(RecordError) as said:
+        open_record(load_catalogue(path)[0])
+    assert "Kobe 1995" in str(said.value) and MADE_MOTION in str(said.value)
 
 
 FORMATS = [name for name in (MADE | MADE_BINARY) if not (MADE | MADE_BINARY)[name][2].unit]

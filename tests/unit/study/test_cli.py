@@ -161,8 +161,14 @@ def test_assess_tells_overturning_from_no_uplift(record, blocks, capsys):
     assert main(["assess", str(record), "--structures", str(blocks), "--unit", "g"]) == 0
     lines = capsys.readouterr().out.splitlines()
     told = [line.split(": ")[1].split(";")[0] for line in lines]
-    expected = ["overturns (100\u00a0%)", "overturns", "stands (0\u00a0%)", "no uplift"]
-    assert told == expected, "verdict and share, then the component by itself"
+    expected = [
+        "PGA as read channel 1 0.5 g",
+        "overturns (100\u00a0%)",
+        "overturns",
+        "stands (0\u00a0%)",
+        "no uplift",
+    ]
+    assert told == expected, "the peak, verdict and share, then the component by itself"
 
 
 @pytest.mark.parametrize(
