@@ -91,7 +91,7 @@ TRIED = 4
 """Files of a kind that are tried, at most, until one is read by both ways."""
 
 
-@pytest.mark.process
+@pytest.mark.slow
 def test_an_example_of_each_format() -> None:
     """Of each format of obspy's and of each network's real files the smallest one that both ways read."""
     files = {name: paths for name, paths in files_by_kind().items() if name in OF_BOTH or "formats_" in name}

@@ -96,8 +96,8 @@ def test_stronger_and_more_ductile_ties_never_lower_a_capacity():
 
     To 1e-9, as levels are sought to 1e-14 and a break is followed to 1e-12.
     """
-    strengths = (0.5e3, 5e3, 12e3, 40e3, 63e3, 100e3)
-    for elongation in (0.0, 0.02, 0.08):
+    strengths = (0.5e3, 12e3, 40e3, 100e3)
+    for elongation in (0.0, 0.08):
         linear, nonlinear = [], []
         walls = [
             WALL,
@@ -115,7 +115,7 @@ def test_stronger_and_more_ductile_ties_never_lower_a_capacity():
         tied = replace(WALL, **TIE, tie_strength=strength, crack_storey=1, crack="known")
         levels = [
             kinematic_check(replace(tied, tie_plastic_elongation=value), SPECTRUM).nonlinear.capacity
-            for value in (0.0, 0.02, 0.1, 0.4)
+            for value in (0.0, 0.02, 0.4)
         ]
         assert (np.diff(levels) > -1e-9 * np.array(levels[1:])).all(), levels
 
