@@ -1,13 +1,11 @@
-"""The public names carry their types, are as cheap to import as promised, and can be read when they are printed."""
+"""The public names are as cheap to import as promised, and can be read when they are printed."""
 
 import doctest
 import inspect
 import math
-import os
 import re
 import subprocess
 import sys
-from enum import Enum
 from pathlib import Path
 
 import numpy as np
@@ -16,55 +14,6 @@ import pytest
 import rocking
 
 ROOT = Path(rocking.__file__).parents[1]
-
-LIBRARIES = re.compile(r"dtype\[(typing\.)?Any\]|tuple\[(typing\.)?Any, \.\.\.\]|\*\*options: Any")
-"""How numpy shows a number type and a shape, which the docstring states, and options handed on to matplotlib."""
-HANDED_ON = {f"rocking.{wall}.{name}" for wall in ("Wall", "LoadedWall") for name in ("of_size", "hinged_at")}
-HANDED_ON |= {"rocking.Accelerogram.processed_by"}
-"""Names whose further values and keywords are those of another, which their docstring names."""
-OF_OBSPY = {"rocking.from_obspy", "rocking.Accelerogram.from_obspy", "rocking.Accelerogram.to_obspy"}
-UNTYPED = OF_OBSPY | HANDED_ON
-"""And names that take or give what obspy has, which carries no types of its own."""
-
-
-def members() -> list[str]:
-    """Every public name, and every public attribute of the classes among them, as an expression.
-
-    Not the frames: pandas carries no types of its own.
-    """
-    expressions = []
-    for name in rocking.__all__:
-        value = getattr(rocking, name)
-        expressions.append(f"rocking.{name}")
-        if inspect.isclass(value) and not issubclass(value, Exception | Enum):
-            own = (
-                name for base in value.__mro__ if base.__module__.startswith("rocking") for name in vars(base)
-            )
-            public = (member for member in dict.fromkeys(own) if not member.startswith("_"))
-            expressions += [
-                f"rocking.{name}.{member}" for member in public if not gives_frame(getattr(value, member))
-            ]
-    return expressions
-
-
-def gives_frame(member: object) -> bool:
-    return "DataFrame" in str(getattr(member, "__annotations__", {}).get("return", ""))
-
-
-@pytest.mark.slow
-def test_mypy_knows_the_type_of_every_public_name(tmp_path):
-    pytest.importorskip("mypy", reason="mypy checks the types, of the extra test")
-    expressions = members()
-    surface = "\n".join(["import rocking", *(f"reveal_type({name})" for name in expressions)])
-    (tmp_path / "surface.py").write_text(surface, encoding="utf-8")
-    command = [sys.executable, "-m", "mypy", "--strict", "--config-file=", "--cache-dir=cache", "surface.py"]
-    surroundings = os.environ | {"MYPYPATH": str(ROOT)}
-    done = subprocess.run(command, cwd=tmp_path, env=surroundings, capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout + done.stderr
-    notes = re.findall(r'surface\.py:(\d+): note: Revealed type is "(.*)"', done.stdout)
-    types = {expressions[int(line) - 2]: LIBRARIES.sub("", kind) for line, kind in notes}
-    untyped = {name for name in expressions if re.search(r"\bAny\b", types.get(name, "Any"))}
-    assert untyped <= UNTYPED
 
 
 def test_every_name_of_the_stub_is_there():

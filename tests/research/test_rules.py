@@ -32,16 +32,6 @@ def test_each_rule_runs_a_function_and_each_function_has_a_rule(monkeypatch):
     assert all(callable(function) for function in targets().values())
 
 
-def test_no_rule_of_the_research_stands_outside_its_table():
-    """Each rule is made in the one loop over the table, so that the test above sees all of them."""
-    rules = RULES.read_text(encoding="utf-8")
-    loop = re.search(r"^for TARGET, .* in TARGETS_OF_RESEARCH\.items\(\):\n((?:[ \t].*\n|\n)+)", rules, re.M)
-    assert loop, "the loop over the table is written otherwise"
-    headings = r"^[ \t]*(?:rule|checkpoint|use rule|include|module)\b.*"
-    assert [text.strip() for text in re.findall(headings, rules, re.M)] == ["rule:"]
-    assert re.search(r"^    rule:$", loop[1], re.M)
-
-
 @pytest.mark.parametrize("name", sorted(_names_of_rules()))
 def test_no_record_has_the_name_of_a_target(tmp_path, name):
     """The folder of a target stands beside those of the records."""
