@@ -14,7 +14,7 @@ from docs.site.build import TOPICS, public_names
 from docs.site.drawings import forms
 from docs.site.kept import scores_of
 from rocking.assessment.evidence import EVIDENCE
-from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, HistoryRow, SpectrumRow
+from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, HistoryRow, PredictionRow, SpectrumRow
 from rocking.described import described_values, parts_of
 from rocking.products.trade.measure import what_follows as sentences_of_trade
 from rocking.products.trade.rows import TradeRow
@@ -66,7 +66,15 @@ def tables() -> str:
     """Every column of every table."""
     of_products = [rows_of_table(product, name) for product in PRODUCTS for name in product.tables]
     classes = dict.fromkeys(
-        (*RECORD_TABLES, HistoryRow, *SUMMARY_TABLES, *of_products, StrengtheningRow, SpectrumRow)
+        (
+            *RECORD_TABLES,
+            PredictionRow,
+            HistoryRow,
+            *SUMMARY_TABLES,
+            *of_products,
+            StrengtheningRow,
+            SpectrumRow,
+        )
     )
     package = json.loads(
         data_package("tables", {row_class: row_class.table.file_name for row_class in classes})

@@ -15,7 +15,14 @@ from rocking.assessment.case import (
     SceneResult,
 )
 from rocking.assessment.cracks import cracked, slides_at
-from rocking.assessment.inputs import CaseInputs, Inputs, PairInputs, PulseInputs, ReserveInputs
+from rocking.assessment.inputs import (
+    CaseInputs,
+    Inputs,
+    PairInputs,
+    PredictionInputs,
+    PulseInputs,
+    ReserveInputs,
+)
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
 from rocking.assessment.motions import (
     Component,
@@ -29,6 +36,7 @@ from rocking.assessment.motions import (
 from rocking.assessment.one_case import (
     Clock,
     compute_case,
+    compute_prediction,
     compute_pulses,
     compute_reserve,
     count_motions,
@@ -181,11 +189,19 @@ class Assessor:
         for scene in scenes.values():
             try:
                 with one_structure(scene.name):
+                    scale = self.settings.acceleration_scale
                     mechanism = scene.structure.mechanism()
-                    mechanism.equivalent_block(self.settings.acceleration_scale)  # no part of what is timed
+                    mechanism.equivalent_block(scale)  # no part of what is timed
                     for name, component in by_name(components).items():
-                        with self.clock.stage(Method.CLOSED_FORM):
-                            of_all[scene.name, name] = predict(mechanism, component.candidates, self.settings)
+                        if not (component.candidates and mechanism.can_overturn):
+                            of_all[scene.name, name] = None
+                            continue
+                        inputs = PredictionInputs(
+                            structure=scene.structure,
+                            candidates=component.candidates,
+                            acceleration_scale=scale,
+                        )
+                        of_all[scene.name, name] = self._remembered(Prediction, inputs, compute_prediction)
             except FaultError as error:
                 failure = Failure("prediction", str(error))
                 of_all |= {(scene.name, name): failure for name in by_name(components)}

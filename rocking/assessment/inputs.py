@@ -12,9 +12,10 @@ from rocking.assessment.contacts import ContactShare
 from rocking.assessment.motions import Motion, arrived
 from rocking.assessment.settings import AssessmentSettings, PredictingPulse
 from rocking.hashes import sha256_of_content
-from rocking.pulses import Pulse
+from rocking.pulses import Pulse, PulseEvidence
 from rocking.records import Accelerogram
 from rocking.structures import Structure
+from rocking.structures.equivalent_block import Scale
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -72,6 +73,15 @@ class PulseInputs(Inputs):
     place: int
     settings: PredictingPulse
     measured: bool
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class PredictionInputs(Inputs):
+    """What the closed form of a structure is computed from. candidates: as a pulse method offers them."""
+
+    structure: Structure
+    candidates: tuple[PulseEvidence, ...]
+    acceleration_scale: Scale
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -20,7 +20,7 @@ from rocking.assessment.cracks import (
 from rocking.assessment.evidence import gathered
 from rocking.assessment.evidence.asked import Asked
 from rocking.assessment.falls import reserve
-from rocking.assessment.inputs import CaseInputs, PairInputs, PulseInputs, ReserveInputs
+from rocking.assessment.inputs import CaseInputs, PairInputs, PredictionInputs, PulseInputs, ReserveInputs
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
 from rocking.assessment.motions import (
     AS_IT_IS,
@@ -88,6 +88,15 @@ def predict(
         maximum=predict_maximum(block, pulse),
         printed=predict_as_printed(mechanism, pulse),
     )
+
+
+def compute_prediction(inputs: PredictionInputs, clock: Clock) -> Prediction:
+    """Return the closed forms of a structure that can overturn, under one of the candidates."""
+    settings = AssessmentSettings(acceleration_scale=inputs.acceleration_scale)
+    with clock.stage(Method.CLOSED_FORM):
+        found = predict(inputs.structure.mechanism(), inputs.candidates, settings)
+    assert found is not None
+    return found
 
 
 def compute_case(inputs: CaseInputs, clock: Clock | None = None) -> CaseResult:

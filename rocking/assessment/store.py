@@ -8,7 +8,7 @@ one whose content is not what was written, counts as none.
 import json
 import types
 import typing
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from enum import Enum
 from functools import cache
@@ -50,13 +50,19 @@ class RecordStore:
     """The results of one record in a file; `save` writes those that were used, and drops the others.
 
     tell: takes a sentence where the file is ignored. timings: the file for the times that the results took, which
-    differs between two runs of the same input; None keeps no times.
+    differs between two runs of the same input; None keeps no times. former: of the steps before this one, in which
+    results are looked up as well.
     """
 
     def __init__(
-        self, path: Path, tell: Callable[[str], object] = lambda _: None, timings: Path | None = None
+        self,
+        path: Path,
+        tell: Callable[[str], object] = lambda _: None,
+        timings: Path | None = None,
+        former: Sequence["RecordStore"] = (),
     ) -> None:
         self._path = path
+        self._former = former
         self._timings = timings
         self._durations = _durations_in(timings) if timings is not None else {}
         self._before: Mapping[str, Any] = {}
@@ -73,7 +79,8 @@ class RecordStore:
         """Return the `kind` that was kept by this fingerprint; None where there is none that can be read."""
         kept = self._before.get(fingerprint)
         if kept is None:
-            return None
+            found = (store.find(kind, fingerprint) for store in self._former)
+            return next((result for result in found if result is not None), None)
         try:
             result: T = decoded(kind, kept)
         except (ValueError, KeyError, TypeError, AttributeError, RockingError):
@@ -83,7 +90,8 @@ class RecordStore:
 
     def durations(self, fingerprint: str) -> Mapping[str, float]:
         """Return the CPU time of each stage that computed what is kept, s; {} where it is not known."""
-        return self._durations.get(fingerprint, {})
+        found = (store.durations(fingerprint) for store in self._former)
+        return self._durations.get(fingerprint) or next(filter(None, found), {})
 
     def keep(self, fingerprint: str, result: object, durations: Mapping[str, float]) -> None:
         """Keep a result by its fingerprint, and the CPU time of each stage that computed it, s."""

@@ -37,7 +37,7 @@ from rocking.signal.scaling import ScalingTarget, scaled_to
 from rocking.structures import Structure
 from rocking.study.apart import tell
 from rocking.study.outcomes import RecordOutcome, keep_outcome, read_outcomes
-from rocking.study.outputs import kept_of, outcome_of, sums_of
+from rocking.study.outputs import STEPS, TABLES, kept_of, outcome_of, sums_of
 from rocking.study.plan import Plan, scenes_of, study_remarks
 from rocking.study.products import BY_NAME
 from rocking.study.settings import Settings, settings_sha256
@@ -63,6 +63,12 @@ class Study:
     def of(cls, plan: Plan) -> "Study":
         """Return that of a plan."""
         return cls(plan.scenes, plan.settings, settings_sha256(plan.settings, plan.scenes))
+
+    @classmethod
+    def of_step(cls, plan: Plan, step: str) -> "Study":
+        """Return that of a step of a record, with the settings from which the step is made."""
+        settings, scenes = plan.of_step(step)
+        return cls(scenes, settings, settings_sha256(settings, scenes))
 
     def __post_init__(self) -> None:
         scenes = on_joints(self.scenes, self.settings.joints)
@@ -202,12 +208,19 @@ def costs_no_other(
         faults.append(FailureRow(record=record, structure=structure, stage="fault", message=sentence))
 
 
-def write_record(result: RecordResult, record: CatalogueRecord, study: Study, log: Path) -> None:
-    """Write the files of a record, and its outcome for what stands over all records."""
+def write_record(
+    result: RecordResult, record: CatalogueRecord, study: Study, log: Path, pulses_sha256: str
+) -> None:
+    """Write what the report of a record gives, and its outcome for what stands over all records.
+
+    pulses_sha256: names what its pulses are made from in the rows about its components.
+    """
     settings = study.settings
     if settings.histories:
         result = with_histories(result, settings.tolerance)
     rows = rows_of(result, record, study)
+    of_pulses = rows_of(result, record, replace(study, settings_sha256=pulses_sha256))
+    rows = replace(rows, record=of_pulses.record, pulses=of_pulses.pulses)
     results = Path(settings.results)
     folder = results / record.id
     page: dict[str, Any] = {}
@@ -228,12 +241,13 @@ def write_record(result: RecordResult, record: CatalogueRecord, study: Study, lo
             level = settings.design_spectrum.spectrum()
             if level is not None:
                 spectra = component_spectra(result.accelerograms, level)
-        write_tables(rows.tables, folder)
+        write_tables({row_class: rows.tables[row_class] for row_class in TABLES["report"]}, folder)
         if settings.histories:
             histories = history_rows(record.id, result.responses)
             write_rows(HistoryRow, histories, folder / HistoryRow.table.file_name)
     tables = {row_class: list(of_it) for row_class, of_it in rows.tables.items()}
-    outcome = RecordOutcome(tables, page, spectra, sums_of("record", settings, record.id))
+    sums = {path: sha256 for step in STEPS for path, sha256 in sums_of(step, settings, record.id).items()}
+    outcome = RecordOutcome(tables, page, spectra, sums)
     keep_outcome(outcome_of(results, record.id), outcome)
     tell(f"{record.id}: {record_line(result.scenes.values(), rows.failures)}")
 

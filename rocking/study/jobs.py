@@ -4,23 +4,20 @@ import contextlib
 import errno
 import os
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
 from traceback import print_exception
 
-from rocking.assessment.case import Failure, RecordResult
 from rocking.assessment.cores import on_cores
-from rocking.assessment.one_case import Clock
 from rocking.assessment.rows import FailureRow
-from rocking.assessment.store import RecordStore
-from rocking.catalogue import CatalogueRecord
 from rocking.errors import RockingError, fault_in_words
 from rocking.study.documents import write_reason
-from rocking.study.job import Job, Study, write_record
+from rocking.study.job import Job, Study
 from rocking.study.kept import keep_rows
-from rocking.study.outputs import cases_of, outputs_of, times_of
+from rocking.study.outputs import outputs_of
 from rocking.study.plan import Plan
 from rocking.study.products import BY_NAME
+from rocking.study.steps import Steps
 from rocking.study.summary import summarise
 from rocking.study.work import work_of
 from rocking.tables import write_whole
@@ -45,63 +42,19 @@ def run(
                 os.utime(file)
     with contextlib.chdir(folder or "."), on_cores(cores):
         match rule:
-            case "record":
-                (catalogued,) = plan.records.values()
-                record(
-                    catalogued,
-                    Study.of(plan),
+            case "read" | "pulses" | "predict" | "integrate" | "report":
+                (record,) = plan.records.values()
+                steps = Steps(
+                    record,
+                    Study.of_step(plan, rule),
                     Path(log),
-                    lambda: plan.contents(rule, catalogued.id) == contents,
+                    Study.of_step(plan, "pulses").settings_sha256,
                 )
+                steps.take(rule, lambda: plan.contents(rule, record.id) == contents)
             case "summary":
                 summarise(Job(rule, plan, Study.of(plan), Path(log)))
             case _:
                 product(Job(rule, plan, Study.of(plan), Path(log)))
-
-
-def record(
-    catalogued: CatalogueRecord, study: Study, log: Path, is_unchanged: Callable[[], bool] = lambda: True
-) -> None:
-    """Take a record through the five steps, each on what the one before it gave.
-
-    Whatever goes wrong with it costs no other: its outcome is a row that says why. What goes wrong with the machine, a
-    full disk, too little memory or a folder that is gone, ends the job. is_unchanged: asks whether its files are those
-    of the plan.
-    """
-    name = catalogued.id
-    results = Path(study.settings.results)
-    clock = Clock()
-    store = RecordStore(cases_of(results, name), print, times_of(results, name))
-    assessor = study.assessor(store, clock)
-    try:
-        with clock.stage("read"):
-            horizontal, vertical = study.open(
-                catalogued
-            )  # 1: by obspy, or by a reader of ours where it has none
-        components = assessor.pulses(horizontal, vertical)  # 2: the sine pulses that dominate it
-        predictions = assessor.predict(
-            components, study.scenes
-        )  # 3: the closed form of each equivalent block
-        result = assessor.integrate(
-            name, components, study.scenes, predictions, vertical
-        )  # 4: the whole record
-        result = assessor.compare(result)  # 5: the two, and decide
-        store.save()
-    except RockingError as error:
-        if not is_unchanged():  # else the row would stand for the file that was planned
-            raise
-        result = _failed(name, Failure("read", error.without_place(name)), clock)
-    except (OSError, MemoryError):
-        raise
-    except Exception as fault:
-        print_exception(fault)
-        result = _failed(name, Failure("fault", fault_in_words(fault, log)), clock)
-    store.stand()  # outputs of the rule like the others
-    write_record(result, catalogued, study, log)
-
-
-def _failed(record: str, failure: Failure, clock: Clock) -> RecordResult:
-    return RecordResult(record=record, failures=(("", failure),), durations=dict(clock.durations))
 
 
 def product(job: Job) -> None:

@@ -8,12 +8,20 @@ import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, TimingRow
+from rocking.assessment.rows import (
+    RECORD_TABLES,
+    SUMMARY_TABLES,
+    PredictionRow,
+    PulseRow,
+    RecordRow,
+    TimingRow,
+)
 from rocking.catalogue.catalogue import is_safe_id
 from rocking.hashes import sha256_of_file
 from rocking.study.product import KEPT, Output, draws
 from rocking.study.products import PRODUCTS
 from rocking.study.settings import Settings
+from rocking.tables import Row
 
 SUMS = "SHA256SUMS"
 """In the folder of the results: the hashes of the pages to sign and of the tables, for sha256sum -c."""
@@ -31,19 +39,41 @@ def _draws_reports(settings: Settings) -> bool:
     return settings.reports and draws(settings)
 
 
+STEPS = ("read", "pulses", "predict", "integrate", "report")
+"""The rules of a record, each of which takes up the files of all before it."""
+TABLES: Mapping[str, tuple[type[Row], ...]] = {
+    "read": (),
+    "pulses": (RecordRow, PulseRow),
+    "predict": (PredictionRow,),
+    "integrate": (),
+    "report": tuple(row_class for row_class in RECORD_TABLES if row_class not in (RecordRow, PulseRow)),
+}
+"""The tables of each step."""
+
+
+def _tables(step: str) -> list[Output]:
+    return [
+        Output(f"{{record}}/{row_class.table.file_name}", is_measured=row_class is TimingRow)
+        for row_class in TABLES[step]
+    ]
+
+
+def _times(step: str, is_store: bool = False) -> Output:
+    return Output(f"{KEPT}/times/{step}/{{record}}.json", is_store=is_store)
+
+
 OUTPUTS: Mapping[str, tuple[Output, ...]] = {
-    "record": (
-        *(
-            Output(f"{{record}}/{row_class.table.file_name}", is_measured=row_class is TimingRow)
-            for row_class in RECORD_TABLES
-        ),
+    "read": (Output("{record}/motion.mseed"), Output("{record}/motion.json"), _times("read")),
+    "pulses": (*_tables("pulses"), Output("{record}/pulses.json"), _times("pulses")),
+    "predict": (*_tables("predict"), Output("{record}/predictions.json"), _times("predict")),
+    "integrate": (Output(f"{KEPT}/cases/{{record}}.json", is_store=True), _times("integrate", is_store=True)),
+    "report": (
+        *_tables("report"),
         Output("{record}/histories.csv", _histories),
         Output("{record}/report.pdf", _reports, label="report", caption="record", category="Records"),
         Output("{record}/explore.js", _reports),
         Output("{record}/report_figures.zip", _draws_reports),
         Output(f"{KEPT}/outcomes/{{record}}.json"),
-        Output(f"{KEPT}/cases/{{record}}.json", is_store=True),
-        Output(f"{KEPT}/times/{{record}}.json", is_store=True),
     ),
     "summary": (
         *(
@@ -120,14 +150,19 @@ def outcome_of(results: Path, record: str) -> Path:
     return results / KEPT / "outcomes" / f"{record}.json"
 
 
-def cases_of(results: Path, record: str) -> Path:
-    """Return the file that keeps the results of the cases of a record, for the next run."""
-    return results / KEPT / "cases" / f"{record}.json"
+def store_of(results: Path, step: str, record: str) -> Path:
+    """Return the file of the results of a step of a record, which later steps and the next run look up."""
+    names = {"pulses": "pulses", "predict": "predictions"}
+    return (
+        results / record / f"{names[step]}.json"
+        if step in names
+        else results / KEPT / "cases" / f"{record}.json"
+    )
 
 
-def times_of(results: Path, record: str) -> Path:
-    """Return the file that keeps how long those results took."""
-    return results / KEPT / "times" / f"{record}.json"
+def times_of(results: Path, step: str, record: str) -> Path:
+    """Return the file of how long those results took."""
+    return results / KEPT / "times" / step / f"{record}.json"
 
 
 def former_files(settings: Settings, products: Iterable[str], records: Iterable[str]) -> list[Path]:
@@ -140,7 +175,8 @@ def former_files(settings: Settings, products: Iterable[str], records: Iterable[
     owned = {path for rule in rules for path in outputs_of(rule, settings).values()}
     owned |= {results / log_of(rule) for rule in rules}
     for record in records:
-        owned |= {*outputs_of("record", settings, record).values(), results / log_of("record", record)}
+        for step in STEPS:
+            owned |= {*outputs_of(step, settings, record).values(), results / log_of(step, record)}
     return [
         path
         for path in sorted(results.rglob("*"))
@@ -151,7 +187,7 @@ def former_files(settings: Settings, products: Iterable[str], records: Iterable[
 def _may_be_ours(path: str) -> bool:
     """Whether a rule can give a file of this path, from the folder of the results."""
     names = [output.path for outputs in OUTPUTS.values() for output in outputs]
-    names += [log_of("record", "{record}"), *(log_of(rule) for rule in OUTPUTS if rule != "record")]
+    names += [log_of(rule, "{record}" if rule in STEPS else "") for rule in OUTPUTS]
     for name in names:
         begin, record, end = name.partition("{record}")
         found = re.fullmatch(f"{re.escape(begin)}([^/]+){re.escape(end)}", path) if record else None

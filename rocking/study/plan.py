@@ -55,14 +55,20 @@ _ON_PAGES = (AssessmentKind.HELD_AT_CEILING,)
 """Remarks on what a structure is taken for, which stand on its pages and ask nothing of who starts a run."""
 _PLAIN = " ./,+=()[]'_-"
 """Next to letters and digits, what a param holds as it is: --report prints params, and no text of a study is markup."""
+_DOCUMENTS = (*NUMBERS, *TOLD, "reports", "figures", "histories", "design_spectrum")
+_READ = ("processing", "scale_to", "vertical")
 MADE_FROM: Mapping[str, tuple[str, ...]] = {
-    "record": (*TOLD, "reports", "figures", "histories", "design_spectrum"),
-    "summary": (*TOLD, "reports", "figures", "histories", "design_spectrum"),
-    **{product.name: product.settings for product in PRODUCTS},
+    "read": _READ,
+    "pulses": (*_READ, "pulse"),
+    "predict": (*_READ, "pulse", "acceleration_scale", "friction_coefficient"),
+    "integrate": (*NUMBERS, "reports", "histories"),
+    "report": _DOCUMENTS,
+    "summary": _DOCUMENTS,
+    **{product.name: (*NUMBERS, *product.settings) for product in PRODUCTS},
 }
-"""The settings, and sections of settings, that each rule is made from, besides those that change a number."""
+"""The settings, and sections of settings, that each rule is made from. The steps of a record get no others."""
 NAMED_FILES: Mapping[str, tuple[str, ...]] = {
-    "record": ("design_spectrum.points",),
+    "report": ("design_spectrum.points",),
     "summary": ("design_spectrum.points",),
     **{product.name: product.named_files for product in PRODUCTS},
 }
@@ -134,6 +140,11 @@ class Plan:
             )
         return replace(self, records={record: self.records[record]})
 
+    def of_step(self, step: str) -> tuple[Settings, Mapping[str, Scene]]:
+        """Return the settings and the structures from which a step of a record is made."""
+        settings = self.settings.only((*MADE_FROM[step], "results", "mirror"))
+        return settings, {} if step in ("read", "pulses") else self.scenes
+
     # What a job reads ------------------------------------------------------------------------------------
 
     @property
@@ -163,10 +174,10 @@ class Plan:
     def files(self, rule: str, record: str = "") -> list[str]:
         """Return the further files that a job reads: of its records, and those that its settings name."""
         product = BY_NAME.get(rule)
-        rows = [self.of(record).records[record]] if record else []
+        rows = [self.of(record).records[record]] if rule == "read" else []
         if (product and product.opens_records) or (product and product.pool and not self._pool(rule)):
             rows += self.records.values()
-        named = [path for path in self.settings.values_of(NAMED_FILES[rule]).values() if path]
+        named = [path for path in self.settings.values_of(NAMED_FILES.get(rule, ())).values() if path]
         if pool := self._pool(rule):
             named.append(pool)
             rows += _rows_of(pool)
@@ -181,11 +192,13 @@ class Plan:
     def params(self, rule: str) -> dict[str, str]:
         """Return what all jobs of a rule are made from, by name: settings with their values, contents as hashes."""
         product = BY_NAME.get(rule)
-        chosen = self.settings.values_of((*NUMBERS, *MADE_FROM[rule]))
+        chosen = self.settings.values_of(MADE_FROM[rule])
         made_from = {name.replace(".", "_"): _in_print(name, value) for name, value in chosen.items()}
-        made_from["package"] = package_sha256(reports=product is not None or self.settings.reports)[:16]
+        draws = product is not None or (self.settings.reports and rule in ("report", "summary"))
+        made_from["package"] = package_sha256(reports=draws)[:16]
         made_from["libraries"] = ", ".join(f"{name} {number}" for name, number in versions().items())
-        made_from["structures_sha256"] = sha256_of(*structure_hashes(self.scenes).items())[:16]
+        if rule not in ("read", "pulses"):
+            made_from["structures_sha256"] = sha256_of(*structure_hashes(self.scenes).items())[:16]
         shown_products = [BY_NAME[name] for name in self.products] if rule == "summary" else []
         for shown_product in [product] if product else shown_products:
             made_from[f"source_of_{shown_product.name}"] = folder_sha256(shown_product.source)[:16]
@@ -200,9 +213,9 @@ class Plan:
         """Return one hash for the rows of the records of a job, the contents of `files` and how tables are read."""
         rows = [self.of(record).records[record]] if record else [*self.records.values()]
         files = [] if rule == "summary" else self.files(rule, record)
-        opens = bool(record) or (rule in BY_NAME and BY_NAME[rule].opens_records)
+        opens = rule == "read" or (rule in BY_NAME and BY_NAME[rule].opens_records)
         answers = [self.answers_of(row) for row in rows] if opens else []
-        hashes = files_by_name(rows[0]) if self.by_name and record else {}
+        hashes = files_by_name(rows[0]) if self.by_name and rule == "read" else {}
         contents = [(file, hashes.get(file) or _content(file)) for file in files]
         return sha256_of(*rows, *contents, *answers)[:16]
 

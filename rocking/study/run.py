@@ -26,7 +26,7 @@ from rocking.study.apart import warm_up
 from rocking.study.flow import SNAKEFILE, workflow_folder
 from rocking.study.kept import kept_conclusion, kept_rows
 from rocking.study.outcomes import verdicts_of
-from rocking.study.outputs import kept_of
+from rocking.study.outputs import STEPS, kept_of
 from rocking.study.plan import Plan, check_config_file, check_files, config_file, make_plan
 from rocking.study.product import Product
 from rocking.study.products import BY_NAME, PRODUCTS
@@ -159,7 +159,7 @@ def targets(home: Path) -> list[str]:
     research = home / "docs" / "research" / "research.smk"
     if research.is_file():
         names |= set(_RESEARCH.findall(research.read_text(encoding="utf-8")))
-    return sorted(names - {"record"})
+    return sorted(names - {*STEPS})
 
 
 def _check_target(target: str) -> None:

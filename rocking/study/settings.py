@@ -332,6 +332,10 @@ class Settings(AssessmentSettings):
             except RecordError as error:
                 raise ConfigurationError(str(error)) from None
 
+    def only(self, names: Iterable[str]) -> "Settings":
+        """Return these settings with all others than `names`, of settings and sections, at their defaults."""
+        return Settings(**{name: getattr(self, name) for name in names})
+
     @property
     def joints(self) -> Joints:
         """The joints of every structure of the study."""

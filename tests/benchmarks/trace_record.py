@@ -24,6 +24,7 @@ import sys
 from pathlib import Path
 
 from rocking.study import jobs
+from rocking.study.outputs import STEPS
 from rocking.study.plan import check_config_file, make_plan
 
 package, record = sys.argv[1:]
@@ -45,7 +46,8 @@ def note(frame, event, _):
 
 plan = make_plan(check_config_file(Path("config.yaml"))).of(record)
 sys.setprofile(note)
-jobs.run("record", plan, "", "record.log", [], 1, "")
+for step in STEPS:
+    jobs.run(step, plan, "", "record.log", [], 1, "")
 sys.setprofile(None)
 for file in dict.fromkeys(entered.values()):
     print(file, *(f"    {code.co_qualname}" for code, place in entered.items() if place == file), sep="\\n")

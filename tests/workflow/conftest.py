@@ -18,6 +18,7 @@ from typing import Any
 import pytest
 import yaml
 
+from rocking.study.outputs import STEPS
 from tests.synthetic import SyntheticRecord, at2_text
 from tests.workflow.forked import run_snakemake
 
@@ -142,7 +143,8 @@ class SmallStudy:
 def kinds_of_jobs(told: str) -> list[str]:
     """The kinds of jobs in the table that snakemake prints before a run and a dry run, without the target."""
     table = told.partition("Job stats:")[2].partition("\ntotal ")[0]
-    return sorted(re.findall(r"(?m)^(record|summary|checks|trade|fragility) +\d+ *$", table))
+    rules = "|".join((*STEPS, "summary", "checks", "trade", "fragility"))
+    return sorted(re.findall(rf"(?m)^({rules}) +\d+ *$", table))
 
 
 def new_study(folder: Path, tree: Path) -> SmallStudy:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import yaml
 
-from rocking.study.outputs import outputs_of
+from rocking.study.outputs import STEPS, outputs_of
 from rocking.study.plan import make_plan
 from rocking.study.products import PRODUCTS
 from tests.synthetic import SyntheticRecord, at2_text
@@ -22,13 +22,25 @@ SETTINGS = {
     "fragility": {"hazard": "hazard.csv", "in_every_run": True},
     "trade": {"in_summary": True},
 }
-NUMBERS = "a b S C F T M"
+ALL = "S C F T M"
+NUMBERS = f"a b {ALL}"
 """What depends on every number: both records, summary, checks, fragility, trade and map."""
+PULSES, PREDICTED, INTEGRATED = (f"a.{step} b.{step} {ALL}" for step in ("pulses", "predict", "integrate"))
+"""The same, where both records are taken up from a later step on."""
+REPORTED = "a.report b.report S C T M"
+STEPS_TOLD = {
+    "Read ": "read",
+    "Pulses of ": "pulses",
+    "Predict under ": "predict",
+    "Integrate under ": "integrate",
+    "Report on ": "report",
+}
+"""By the message of its rule, before the name of the record, each step."""
 JOBS = {
     "Summary of all records": "S",
     **{f"{product.name}: {product.does}": product.name[0].upper() for product in PRODUCTS},
 }
-"""By the message of its rule the letter of a job; that of a record is its name."""
+"""By the message of its rule the letter of a job over all records."""
 
 
 def _waves(seed: int) -> bytes:
@@ -69,7 +81,7 @@ def write_study() -> None:
 def write_outputs() -> None:
     """Write some file in the place of each output of a run; what it is made from snakemake is told by --touch."""
     plan = make_plan(yaml.safe_load(Path("config.yaml").read_text()))
-    rules = [("record", record) for record in plan.records] + [
+    rules = [(step, record) for record in plan.records for step in STEPS] + [
         (rule, "") for rule in (*plan.products, "summary")
     ]
     for rule, record in rules:
@@ -150,35 +162,35 @@ BLOCK, WALL = STRUCTURES
 EDITS: list[Edit] = [
     ("nothing", lambda: None, ""),
     # What is told of the study stands in the report of a record, in the summary and on the pages to sign.
-    ("study", _setting(study="A town"), "a b S C T M"),
-    ("client", _setting(client="A town"), "a b S C T M"),
-    ("project_number", _setting(project_number="12"), "a b S C T M"),
-    ("author", _setting(author="Somebody"), "a b S C T M"),
-    ("date", _setting(date="1 May"), "a b S C T M"),
-    ("display_units", _setting(display_units="g and cm"), "a b S C T M"),
-    ("figures", _setting(figures="svg"), "a b S C F T M"),
+    ("study", _setting(study="A town"), REPORTED),
+    ("client", _setting(client="A town"), REPORTED),
+    ("project_number", _setting(project_number="12"), REPORTED),
+    ("author", _setting(author="Somebody"), REPORTED),
+    ("date", _setting(date="1 May"), REPORTED),
+    ("display_units", _setting(display_units="g and cm"), REPORTED),
+    ("figures", _setting(figures="svg"), f"a.report b.report {ALL}"),
     ("language", _setting(language="it"), "S C"),
     # Where files lie changes nothing; what lies there does.
     ("mirror", _setting(mirror="elsewhere"), ""),
     ("catalogue elsewhere", _move_catalogue, NUMBERS),
     ("structures elsewhere", _move_structures, ""),
     ("structures as CSV", _structures_as_csv, ""),
-    ("cell of the structures as CSV", _content("list.csv", "3.2", "3.3"), NUMBERS, _structures_as_csv),
-    ("unnamed_events", _setting(unnamed_events="each"), NUMBERS),
+    ("cell of the structures as CSV", _content("list.csv", "3.2", "3.3"), PREDICTED, _structures_as_csv),
+    ("unnamed_events", _setting(unnamed_events="each"), INTEGRATED),
     # What else is written, and when.
-    ("reports", _setting(reports=False), "a b S C T"),
-    ("histories", _setting(histories=True), "a b S C T M"),
+    ("reports", _setting(reports=False), "a.integrate b.integrate S C T"),
+    ("histories", _setting(histories=True), "a.integrate b.integrate S C T M"),
     ("fragility.in_every_run", _section("fragility", in_every_run=False), "S"),
     ("trade.in_summary", _section("trade", in_summary=False), "S"),
     # Numbers.
-    ("tolerance", _setting(tolerance=1e-7), NUMBERS),
-    ("acceleration_scale", _setting(acceleration_scale="uplift"), NUMBERS),
-    ("fidelity", _setting(fidelity="quick"), NUMBERS),
-    ("friction_coefficient", _setting(friction_coefficient=0.5), NUMBERS),
+    ("tolerance", _setting(tolerance=1e-7), INTEGRATED),
+    ("acceleration_scale", _setting(acceleration_scale="uplift"), PREDICTED),
+    ("fidelity", _setting(fidelity="quick"), INTEGRATED),
+    ("friction_coefficient", _setting(friction_coefficient=0.5), PREDICTED),
     ("scale_to", _setting(scale_to="pga 0.3 g"), NUMBERS),
     ("vertical", _setting(vertical=True), NUMBERS),
-    ("candidates", _setting(candidates=3), NUMBERS),
-    ("processing_variants", _setting(processing_variants=False), NUMBERS),
+    ("candidates", _setting(candidates=3), INTEGRATED),
+    ("processing_variants", _setting(processing_variants=False), INTEGRATED),
     ("processing.apply", _section("processing", apply="always"), NUMBERS),
     ("processing.pre_event_s", _section("processing", pre_event_s=0.5), NUMBERS),
     ("processing.baseline", _section("processing", baseline="none"), NUMBERS),
@@ -187,26 +199,22 @@ EDITS: list[Edit] = [
     ("processing.low_pass_Hz", _section("processing", low_pass_hz=25), NUMBERS),
     ("processing.order", _section("processing", order=2), NUMBERS),
     ("processing.time_step_s", _section("processing", time_step_s=0.005), NUMBERS),
-    ("pulse.lowest_frequency_Hz", _section("pulse", lowest_frequency_hz=0.2), NUMBERS),
-    ("pulse.highest_frequency_Hz", _section("pulse", highest_frequency_hz=4), NUMBERS),
-    ("pulse.candidates", _section("pulse", candidates=5), NUMBERS),
-    ("pulse.alternatives", _section("pulse", alternatives=3), NUMBERS),
-    ("pulse.pursuit", _section("pulse", pursuit=2), NUMBERS),
-    ("pulse.choice", _section("pulse", choice="demand"), NUMBERS),
-    ("ensemble.members", _section("ensemble", members=16), NUMBERS),
-    ("ensemble.amplitude_range", _section("ensemble", amplitude_range=0.1), NUMBERS),
-    ("ensemble.restitution_range", _section("ensemble", restitution_range=0.1), NUMBERS),
-    ("ensemble.polarity", _section("ensemble", polarity=False), NUMBERS),
-    ("ensemble.processing", _section("ensemble", processing=False), NUMBERS),
-    ("ensemble.risk", _section("ensemble", risk=0.1), NUMBERS),
-    ("ensemble.reserve", _section("ensemble", reserve=2.0), NUMBERS),
+    ("pulse.lowest_frequency_Hz", _section("pulse", lowest_frequency_hz=0.2), PULSES),
+    ("pulse.highest_frequency_Hz", _section("pulse", highest_frequency_hz=4), PULSES),
+    ("pulse.candidates", _section("pulse", candidates=5), PULSES),
+    ("pulse.alternatives", _section("pulse", alternatives=3), PULSES),
+    ("pulse.pursuit", _section("pulse", pursuit=2), PULSES),
+    ("pulse.choice", _section("pulse", choice="demand"), PULSES),
+    ("ensemble.members", _section("ensemble", members=16), INTEGRATED),
+    ("ensemble.amplitude_range", _section("ensemble", amplitude_range=0.1), INTEGRATED),
+    ("ensemble.restitution_range", _section("ensemble", restitution_range=0.1), INTEGRATED),
+    ("ensemble.polarity", _section("ensemble", polarity=False), INTEGRATED),
+    ("ensemble.processing", _section("ensemble", processing=False), INTEGRATED),
+    ("ensemble.risk", _section("ensemble", risk=0.1), INTEGRATED),
+    ("ensemble.reserve", _section("ensemble", reserve=2.0), INTEGRATED),
     # The design level is drawn in reports; what only the checks use is theirs.
-    (
-        "design level",
-        _section("design_spectrum", points=None, ag_g=0.2, f0=2.5, tc_star_s=0.4),
-        "a b S C T M",
-    ),
-    ("design_spectrum.damping", _section("design_spectrum", damping=0.1), "a b S C T M"),
+    ("design level", _section("design_spectrum", points=None, ag_g=0.2, f0=2.5, tc_star_s=0.4), REPORTED),
+    ("design_spectrum.damping", _section("design_spectrum", damping=0.1), REPORTED),
     ("checks.limit_state", _section("checks", limit_state="SLC"), "S C"),
     ("checks.confidence_factor", _section("checks", confidence_factor=1.2), "S C"),
     ("checks.behaviour_factor", _section("checks", behaviour_factor=1.5), "S C"),
@@ -218,7 +226,7 @@ EDITS: list[Edit] = [
     ("checks.longest_period_s", _section("checks", longest_period_s=1.5), "S C"),
     ("checks.seed", _section("checks", seed=1), "S C"),
     ("checks.pool", _section("checks", pool=None), "S C"),
-    ("content of design.csv", _content("design.csv", "0.06", "0.05"), "a b S C T M"),
+    ("content of design.csv", _content("design.csv", "0.06", "0.05"), REPORTED),
     ("content of a record of the pool", _bytes("pool/p.AT2", _waves(9)), "S C"),
     ("catalogue of the pool", lambda: write_catalogue("pool", "p", scale_factor="2"), "S C"),
     ("record of the pool away", lambda: Path("pool/p.AT2").unlink(), "S C"),
@@ -250,17 +258,18 @@ EDITS: list[Edit] = [
     ("record less", lambda: write_catalogue("records", "a"), "S C F T M"),
     ("record more", _add_record, "p S C F T M"),
     # Structures.
-    ("structure changed", _structures(BLOCK | {"height_m": 3.1}, WALL), NUMBERS),
-    ("structure renamed", _structures(BLOCK | {"name": "pier"}, WALL), NUMBERS),
-    ("structure added", _structures(BLOCK, WALL, BLOCK | {"name": "pier"}), NUMBERS),
-    ("structure less", _structures(BLOCK), NUMBERS),
-    ("structures in another order", _structures(WALL, BLOCK), NUMBERS),
+    ("structure changed", _structures(BLOCK | {"height_m": 3.1}, WALL), PREDICTED),
+    ("structure renamed", _structures(BLOCK | {"name": "pier"}, WALL), PREDICTED),
+    ("structure added", _structures(BLOCK, WALL, BLOCK | {"name": "pier"}), PREDICTED),
+    ("structure less", _structures(BLOCK), PREDICTED),
+    ("structures in another order", _structures(WALL, BLOCK), PREDICTED),
     ("comment in the list", lambda: _content("structures.yaml", "- ", "# old\n- ")(), ""),
     ("terms of the checks", _structures(BLOCK | {"elastic_period_s": 0.3}, WALL), "S C"),
     # What was written is made again where it is not there; what serves the next run alone nobody misses.
-    ("report away", _removed("a/report.pdf"), "a S C T M"),
-    ("table of a record away", _removed("b/timings.csv"), "b S C T M"),
-    ("outcome away", _removed(".kept/outcomes/a.json"), "a S C T M"),
+    ("report away", _removed("a/report.pdf"), "a.report S C T M"),
+    ("table of a record away", _removed("b/timings.csv"), "b.report S C T M"),
+    ("pulses away", _removed("a/pulses.csv"), "a.pulses S C T M"),
+    ("outcome away", _removed(".kept/outcomes/a.json"), "a.report S C T M"),
     ("table of the summary away", _removed("summary/provenance.json"), "S"),
     ("sums away", _removed("SHA256SUMS"), "S"),
     ("page to sign away", _removed("summary/structures.pdf"), "S C"),

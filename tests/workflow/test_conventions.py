@@ -9,10 +9,12 @@ import time
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+import obspy
 import pytest
 import yaml
 
 from rocking.study.cli import main
+from rocking.study.outputs import STEPS
 from tests.workflow.conftest import ROOT, SmallStudy
 from tests.workflow.forked import PLANNING, run_snakemake
 
@@ -99,6 +101,25 @@ def test_a_product_that_cannot_be_made_is_a_page_and_a_row_and_status_1(begun, t
     assert (study.results / "summary" / "verdicts.csv").read_text().count("\n") == 3
 
 
+def test_a_run_until_a_step_gives_the_files_of_that_step_and_goes_on_from_there(
+    begun, done, tmp_path
+) -> None:
+    study = begun.copy_to(tmp_path / "study")
+    snakemake(study, "--until", "pulses")
+    own = study.results / "good_1"
+    assert {path.name for path in own.iterdir()} == {
+        *("motion.mseed", "motion.json", "record.csv", "pulses.csv", "pulses.json")
+    }
+    with (own / "record.csv").open(encoding="utf-8", newline="") as stream:
+        (row,) = csv.DictReader(stream)
+    (channel,) = obspy.read(own / "motion.mseed")
+    assert abs(channel.data).max() == pytest.approx(float(row["peak_acceleration_m_s2"]), rel=1e-9)
+    assert study.planned() == ["integrate", "predict", "report", "summary"]
+    snakemake(study, "results/good_1/report.pdf", "--config", "reports=true")
+    assert (own / "report.pdf").is_file() and not (study.results / "summary" / "verdicts.csv").exists()
+    assert study.rows_of("good_1")["pulses.csv"] == done.rows_of("good_1")["pulses.csv"]
+
+
 def test_inputs_are_left_alone(begun, tmp_path) -> None:
     """Also the blank hash of a file; the provenance holds it."""
     study = begun.copy_to(tmp_path / "study")
@@ -178,7 +199,7 @@ def test_every_generated_unit_test_parses(done, tmp_path) -> None:
     command = [sys.executable, "-m", "snakemake", "--generate-unit-tests", "tests"]  # where it was imported
     subprocess.run(command, capture_output=True, check=True, **study.surroundings)
     written = list((study.folder / "tests").rglob("test_*.py"))
-    assert {"test_record.py", "test_summary.py"} <= {path.name for path in written}
+    assert {*(f"test_{step}.py" for step in STEPS), "test_summary.py"} <= {path.name for path in written}
     for path in written:
         compile(path.read_text(encoding="utf-8"), path, "exec")
 

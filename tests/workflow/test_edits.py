@@ -10,9 +10,10 @@ import pytest
 import yaml
 
 from rocking.hashes import sha256_of_file
+from rocking.study.outputs import STEPS
 from rocking.study.plan import make_plan
 from tests.workflow.conftest import ROOT, SmallStudy
-from tests.workflow.edits import EDITS, JOBS, write_outputs, write_study
+from tests.workflow.edits import EDITS, JOBS, STEPS_TOLD, write_outputs, write_study
 from tests.workflow.forked import PLANNING, run_snakemake
 
 pytestmark = pytest.mark.process
@@ -39,9 +40,15 @@ def _snakemake(*options: str) -> str:
 
 
 def _again(told: str) -> set[str]:
-    """The jobs of a dry run, each by its letter."""
+    """The jobs of a dry run over all records, each by its letter, and the first step of each record that is taken."""
     messages = re.findall(r"(?m)^Job \d+: (.*)$", told)
-    return {JOBS.get(message) or message.removeprefix("Record ") for message in messages}
+    first: dict[str, str] = {}
+    for begin, step in STEPS_TOLD.items():
+        for message in messages:
+            if message.startswith(begin):
+                first.setdefault(message.removeprefix(begin), step)
+    of_records = {name if step == "read" else f"{name}.{step}" for name, step in first.items()}
+    return of_records | {JOBS[message] for message in messages if message in JOBS}
 
 
 def _finish() -> None:
@@ -89,9 +96,9 @@ def test_each_edit_makes_again_what_depends_on_it_and_nothing_else(study, edit) 
 
 
 def _made_from() -> dict[str, object]:
-    """What each job is made from by the plan, by its letter; that of a record by its name."""
+    """What each job is made from by the plan, by its letter; those of a record by the names of both."""
     plan = make_plan(yaml.safe_load(Path("config.yaml").read_text()))
-    jobs = {record: ("record", record) for record in plan.records}
+    jobs = {f"{record}.{step}": (step, record) for record in plan.records for step in STEPS}
     jobs |= {name[0].upper(): (name, "") for name in plan.products}
     return {
         letter: (plan.params(rule), plan.contents(rule, record)) for letter, (rule, record) in jobs.items()
@@ -108,7 +115,8 @@ def test_the_plan_makes_a_job_from_what_changes_it_and_from_nothing_else(study, 
     change()
     after = _made_from()
     again = set(expected.split())
-    own = {letter for letter, made_from in after.items() if before.get(letter) != made_from}
+    changed = [letter for letter, made_from in after.items() if before.get(letter) != made_from]
+    own = {*{letter.partition(".")[0]: letter.removesuffix(".read") for letter in reversed(changed)}.values()}
     follows = set("SCTM") if own - set("CFTM") else {"S"}
     assert again - follows <= own <= again
 
@@ -273,7 +281,7 @@ def test_a_file_of_one_record_is_made_when_it_is_asked_for_by_its_name(finished,
     """And no more; a name that is no record's is refused."""
     study = finished.copy_to(tmp_path / "study")
     (study.results / "good_2" / "comparison.csv").unlink()
-    assert study.planned("results/good_2/comparison.csv") == ["record"]
+    assert study.planned("results/good_2/comparison.csv") == ["report"]
     study.run("results/good_2/comparison.csv")
     lines = (study.results / "good_2" / "comparison.csv").read_bytes().splitlines()[1:]
     assert lines == finished.rows_of("good_2")["comparison.csv"]

@@ -123,7 +123,7 @@ def test_jobs_that_share_no_folder_make_the_same_tables(start, tmp_path: Path) -
     _to_storage(study, machines, ("records", "structures.yaml", "design.csv", "push.csv"))
     machines.run(study)
     assert not study.results.exists(), "nothing was made in the folder of the study"
-    assert "record" not in machines.run(study, "-n").partition("Job stats:")[2].partition("total")[0]
+    assert "report" not in machines.run(study, "-n").partition("Job stats:")[2].partition("total")[0]
     _compared(study, machines)
 
 

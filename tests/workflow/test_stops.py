@@ -25,7 +25,7 @@ def _jobs_run(study) -> bool:
 
 
 def _record_is_done(study) -> bool:
-    return any(log.stat().st_size for log in study.results.glob("summary/logs/record/*.log"))
+    return any(log.stat().st_size for log in study.results.glob("summary/logs/report/*.log"))
 
 
 @contextmanager
@@ -93,7 +93,7 @@ def test_a_job_that_is_ended_is_named_with_its_cause_and_the_next_run_goes_on(
     finished, start, tmp_path: Path, number: int
 ) -> None:
     study = start.copy_to(tmp_path / "study")
-    with _started(study, until=lambda study: any(study.results.glob("summary/logs/record/*.log"))) as process:
+    with _started(study, until=lambda study: any(study.results.glob("summary/logs/report/*.log"))) as process:
         run = psutil.Process(process.pid)
         job = next(job for child in run.children() for job in child.children())
         job.send_signal(number)

@@ -26,6 +26,11 @@ def gives(rule, record="{record}"):
     return [in_report(output, str(path)) for output, path in outputs_of(rule, SETTINGS, record).items()]
 
 
+def takes(step):
+    """The files of a step of a record."""
+    return [str(path) for path in outputs_of(step, SETTINGS).values()]
+
+
 def in_report(output, path):
     """A file, with its place in the page that snakemake --report makes."""
     if output.is_store and not ELSEWHERE:
@@ -54,17 +59,17 @@ def cores_of_record(wildcards):
     cores = min(workflow.resource_settings.cores or 1, os.cpu_count() or 1)
     if not workflow.is_main_process:
         return max(1, cores // len(PLAN.records))
-    return max(1, cores // (sum(job.rule.name == "record" for job in workflow.dag.needrun_jobs()) or 1))
+    return max(1, cores // (sum(job.rule.name == "integrate" for job in workflow.dag.needrun_jobs()) or 1))
 
 
 def memory_of_record(wildcards, input, attempt):
-    """MB of a record: by the largest file, and more at each further attempt.
+    """MB of a step of a record: by its largest file, and more at each further attempt.
 
     A pair of 150 s at 100 Hz takes 310 MB, of 600 s, which is 0.9 MB a file as text, 370 MB; packed files hold up to ten
     times as many samples a byte.
     """
     size_of = dict(zip(input, input.size_files_mb))
-    return attempt * round(500 + 1000 * max((size_of[file] for file in input.files), default=0))
+    return attempt * round(500 + 1000 * max((size_of[file] for file in input), default=0))
 
 
 def work(rule, plan, input, output, params, log, cores=1):

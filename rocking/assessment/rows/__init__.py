@@ -27,6 +27,8 @@ from rocking.assessment.rows.of_record import FailureRow as FailureRow
 from rocking.assessment.rows.of_record import HistoryRow as HistoryRow
 from rocking.assessment.rows.of_record import MechanismRow as MechanismRow
 from rocking.assessment.rows.of_record import OfStructure as OfStructure
+from rocking.assessment.rows.of_record import PredictedCase as PredictedCase
+from rocking.assessment.rows.of_record import PredictionRow as PredictionRow
 from rocking.assessment.rows.of_record import RecordRows as RecordRows
 from rocking.assessment.rows.of_record import RemarkRow as RemarkRow
 from rocking.assessment.rows.of_record import SupportRow as SupportRow
@@ -35,6 +37,7 @@ from rocking.assessment.rows.of_record import VariationRow as VariationRow
 from rocking.assessment.rows.of_record import VerdictRow as VerdictRow
 from rocking.assessment.rows.of_record import counted_cases as counted_cases
 from rocking.assessment.rows.of_record import history_rows as history_rows
+from rocking.assessment.rows.of_record import identities_of as identities_of
 from rocking.assessment.rows.of_record import rows_of_record as rows_of_record
 from rocking.assessment.rows.of_record import worst_period_each as worst_period_each
 from rocking.assessment.rows.of_study import SUMMARY_TABLES as SUMMARY_TABLES

@@ -46,6 +46,7 @@ if TYPE_CHECKING:  # else who reads a table would load numba
     from rocking.assessment.case import (
         CaseResult,
         PeriodResult,
+        Prediction,
         RecordResult,
         Variation,
     )
@@ -92,6 +93,43 @@ class DecidedRow(CaseRow[C]):
         "Largest share that overturns, of the members of each crack and the stacks that make the verdict; 0 or 1 of a "
         "single run; empty where unknown",
         lambda of: of.period_result.decision.share,
+    )
+
+
+@dataclass(frozen=True)
+class PredictedCase(Identified):
+    """The closed form of one structure under one component."""
+
+    structure: str
+    prediction: "Prediction"
+
+
+of_predicted_case = Columns(PredictedCase)
+of_predicted = of_predicted_case.part(lambda of: of.prediction)
+
+
+@row("predictions")
+class PredictionRow(ComponentRow[PredictedCase]):
+    """One row per structure and component: the closed form of its equivalent block, before anything is integrated."""
+
+    structure: str = of_predicted_case(STRUCTURE, lambda of: of.structure)
+    predicted_rotation_ratio: float = of_predicted(
+        "Rotation ratio of the equivalent block under the pulse",
+        lambda predicted: predicted.maximum.rotation_ratio,
+    )
+    regime: Regime = of_predicted("Regime of the closed form", lambda predicted: predicted.maximum.regime)
+    pulse_rank: int = of_predicted(
+        "Rank of the pulse that predicts among those of its method", lambda predicted: predicted.pulse_rank
+    )
+    amplitude_ratio: float = of_predicted(
+        "Amplitude ratio a = a_g/(gλ) of the pulse",
+        lambda predicted: predicted.amplitude_ratio,
+        equation="Eq. 16",
+    )
+    frequency_ratio: float = of_predicted(
+        "Circular frequency of the pulse over p",
+        lambda predicted: predicted.frequency_ratio,
+        equation="Eq. 16",
     )
 
 
@@ -816,6 +854,20 @@ def _remarked(result: "RecordResult", vertical: bool) -> list[RemarkRow]:
     return list(dict.fromkeys(remarked))
 
 
+def identities_of(result: "RecordResult", settings_sha256: str = "") -> dict[str, Identity]:
+    """Return what the rows about each component of a record name, by the name of the component."""
+    identities = [
+        Identity(
+            record=result.record,
+            component=accelerogram.component,
+            record_sha256=accelerogram.source.sha256,
+            settings_sha256=settings_sha256,
+        )
+        for accelerogram in result.accelerograms
+    ]
+    return dict(zip(result.names, identities, strict=True))
+
+
 def rows_of_record(
     result: "RecordResult",
     settings_sha256: str = "",
@@ -829,16 +881,8 @@ def rows_of_record(
     vertical: whether its vertical component is asked for. licence, epicentre: as the catalogue declares them.
     """
     record = result.record
-    identities = [
-        Identity(
-            record=record,
-            component=accelerogram.component,
-            record_sha256=accelerogram.source.sha256,
-            settings_sha256=settings_sha256,
-        )
-        for accelerogram in result.accelerograms
-    ]
-    by_component = dict(zip(result.names, identities, strict=True))
+    by_component = identities_of(result, settings_sha256)
+    identities = [*by_component.values()]
     comparison: list[ComparisonRow] = []
     variations: list[VariationRow] = []
     failures = [

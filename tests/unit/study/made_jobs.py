@@ -6,13 +6,13 @@ from pathlib import Path
 
 from rocking.assessment.rows import FailureRow
 from rocking.catalogue import CatalogueRecord
-from rocking.study import jobs
 from rocking.study.job import Job, Study
 from rocking.study.kept import keep_rows
 from rocking.study.outcomes import RecordOutcome, read_outcomes
-from rocking.study.outputs import kept_of, outcome_of
+from rocking.study.outputs import STEPS, kept_of, outcome_of
 from rocking.study.plan import Plan
 from rocking.study.products import BY_NAME
+from rocking.study.steps import Steps
 from rocking.study.work import work_of
 
 
@@ -36,8 +36,14 @@ def keep_nothing(results: Path, *products: str) -> None:
 
 
 def worked(records: Sequence[CatalogueRecord], study: Study, results: Path) -> Job:
-    """Assess `records`, each in a job of its own; return the summary's."""
+    """Assess `records`, each by jobs of its own; return the summary's."""
     job = made_job(records, study, results)
     for record in records:
-        jobs.record(record, job.study, job.log)
+        take(record, job)
     return job
+
+
+def take(record: CatalogueRecord, job: Job) -> None:
+    """Take a record through its steps."""
+    for step in STEPS:
+        Steps(record, job.study, job.log, job.study.settings_sha256).take(step)

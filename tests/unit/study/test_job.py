@@ -29,11 +29,10 @@ from rocking.products.trade.rows import TradeMethod, TradeRow
 from rocking.records import Accelerogram
 from rocking.reports.explore import RECORD_SCRIPT
 from rocking.structures import Block
-from rocking.study import jobs
 from rocking.study.job import Study, assess_catalogued, rows_of
 from rocking.study.kept import keep_rows
 from rocking.study.outcomes import read_outcomes
-from rocking.study.outputs import cases_of, kept_of, outcome_of, outputs_of
+from rocking.study.outputs import STEPS, kept_of, outcome_of, outputs_of, store_of
 from rocking.study.results import Results
 from rocking.study.settings import Settings, StudyTrade
 from rocking.study.summary import summarise
@@ -42,7 +41,7 @@ from rocking.tables import csv_lines, frame, read_rows, write_tables
 from tests.refusals import refused
 from tests.synthetic import SHIPPED, SyntheticRecord, at2_text
 from tests.unit.assessment.made_rows import Impossible, filled
-from tests.unit.study.made_jobs import keep_nothing, made_job, outcomes_in, worked
+from tests.unit.study.made_jobs import keep_nothing, made_job, outcomes_in, take, worked
 
 ROOT = Path(__file__).parents[3]
 CONTENT = at2_text(SyntheticRecord(name="made", seed=1)).encode()
@@ -91,13 +90,14 @@ def test_a_record_that_fails_has_all_its_tables_and_says_why(tmp_path: Path) -> 
         )
 
 
-def test_a_record_that_fails_has_every_output_of_its_rule_and_keeps_what_was_kept(tmp_path: Path) -> None:
+def test_a_record_that_fails_has_every_output_of_its_rules_and_keeps_what_was_kept(tmp_path: Path) -> None:
     """Else its job would fail, and end the run of all others."""
     study = replace(_study(), settings=replace(_study().settings, reports=True))
     job = worked([_record(tmp_path, content=b"not a record")], study, tmp_path / "results")
-    outputs = outputs_of("record", job.plan.settings, "made")
-    assert [path for path in outputs.values() if not path.is_file()] == []
-    kept = cases_of(job.results, "made")
+    for step in STEPS:
+        outputs = outputs_of(step, job.plan.settings, "made")
+        assert [path for path in outputs.values() if not path.is_file()] == []
+    kept = store_of(job.results, "integrate", "made")
     worked([_record(tmp_path)], study, tmp_path / "results")
     whole = kept.read_bytes()
     worked([_record(tmp_path, content=b"not a record")], study, tmp_path / "results")
@@ -218,7 +218,8 @@ class Faulty(Broken):
 def test_a_job_that_breaks_off_leaves_nothing(tmp_path: Path) -> None:
     with pytest.raises(MemoryError):
         worked([_record(tmp_path)], _study(broken=Broken(1.0, 0.2)), tmp_path / "results")
-    assert not list((tmp_path / "results").rglob("*.json"))
+    left = {path.name for path in (tmp_path / "results").rglob("*.json")}
+    assert left == {"motion.json", "pulses.json", "made.json"}, "of the steps before it"
 
 
 def test_a_fault_of_this_package_costs_no_other_record_and_asks_to_be_reported(tmp_path, monkeypatch) -> None:
@@ -228,8 +229,8 @@ def test_a_fault_of_this_package_costs_no_other_record_and_asks_to_be_reported(t
     job = made_job(records, _study(faulty=Faulty(1.0, 0.2)), results)
     monkeypatch.setattr("rocking.errors.LOGS", [job.log])
     results.mkdir()
-    jobs.record(records[0], job.study, job.log)
-    jobs.record(records[1], replace(job.study, scenes=_study().scenes), job.log)
+    take(records[0], job)
+    take(records[1], replace(job, study=replace(job.study, scenes=_study().scenes)))
     first, second = (outcome.rows for outcome in outcomes_in(results, records))
     assert {failure.structure for failure in first[FailureRow]} == {"faulty"}
     for failure in first[FailureRow]:

@@ -64,7 +64,7 @@ def test_a_plan_writes_nothing_and_counts_the_content_of_a_file_whose_hash_is_bl
     assert plan.records["a"].sha256 == hashlib.sha256(b"one").hexdigest() and plan.records["b"].sha256 == ""
     assert Path(str(settings["catalogue"])).read_bytes() == before
     (tmp_path / "a.AT2").write_bytes(b"two")
-    assert make_plan(settings).contents("record", "a") != plan.contents("record", "a")
+    assert make_plan(settings).contents("read", "a") != plan.contents("read", "a")
 
 
 def test_the_files_that_the_lists_name_are_those_by_which_every_job_knows_the_study(tmp_path: Path) -> None:
@@ -146,7 +146,7 @@ def _record(folder: Path, content: bytes = b"samples", **cells: object) -> Catal
 
 
 def _hash(record: CatalogueRecord, **settings: object) -> str:
-    return Plan(Settings(**settings), {"a": record}).contents("record", "a")
+    return Plan(Settings(**settings), {"a": record}).contents("read", "a")
 
 
 @pytest.mark.parametrize("when", [1e9, time.time() + 3e8], ids=["long ago", "in ten years"])

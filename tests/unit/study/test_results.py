@@ -20,7 +20,7 @@ from rocking.errors import RockingError
 from rocking.remarks import Remark, every_kind
 from rocking.study.cli import main
 from rocking.study.outcomes import RecordOutcome, keep_outcome, verdicts_of
-from rocking.study.outputs import cases_of, former_files, outcome_of, outputs_of, remove
+from rocking.study.outputs import STEPS, former_files, outcome_of, outputs_of, remove, store_of
 from rocking.study.settings import Settings
 from rocking.tables import read_rows, write_rows
 from tests.refusals import refused
@@ -104,7 +104,7 @@ def test_the_tables_of_records_assessed_one_by_one_are_gathered(tmp_path: Path) 
 # fmt: off
 OURS = (
     "summary/structures.pdf", "summary/code_checks.csv", "gone/report.pdf", "gone/histories.csv", "kept/histories.csv",
-    ".kept/outcomes/gone.json", ".kept/rows/checks.json", "summary/logs/checks.log", "summary/logs/record/gone.log",
+    ".kept/outcomes/gone.json", ".kept/rows/checks.json", "summary/logs/checks.log", "summary/logs/report/gone.log",
 )
 """Files of products that the study does not make, and of records that it does not hold."""
 OF_A_USER = (
@@ -119,8 +119,8 @@ OF_A_USER = (
 def test_what_no_product_owns_any_more_goes_and_no_file_of_a_user_does(tmp_path: Path) -> None:
     settings = Settings(results=str(tmp_path / "results"), figures="svg")
     owned = [path for rule in ("trade", "summary") for path in outputs_of(rule, settings).values()]
-    owned += outputs_of("record", settings, "kept").values()
-    owned += [cases_of(tmp_path / "results", "other")]
+    owned += [path for step in STEPS for path in outputs_of(step, settings, "kept").values()]
+    owned += [store_of(tmp_path / "results", "integrate", "other")]
     ours, of_a_user = ([tmp_path / "results" / name for name in names] for names in (OURS, OF_A_USER))
     for path in (*owned, *ours, *of_a_user):
         path.parent.mkdir(parents=True, exist_ok=True)
