@@ -40,10 +40,10 @@ _STEPS = (1.0, 2.0, 5.0)
 TITLE = "Prediction against integration"
 HEADS = (
     AgainstHead("paper", "Eqs. 15, 16"),
-    AgainstHead("closed form", "exact"),
-    AgainstHead("integrated", "whole record"),
+    AgainstHead("predict", "closed form"),
+    AgainstHead("integrate", "whole record"),
 )
-"""The methods whose results stand at the strips."""
+"""The methods whose results stand at the strips: of the source paper, and of the two steps that are compared."""
 LEGEND = (
     "Black: the mechanism under the whole record, with the crack of its row in comparison.csv, under the component "
     "that turns it farthest; a triangle where it falls. Band: closed form of the equivalent block under the sine, "

@@ -25,14 +25,12 @@ from rocking.tables import write_whole
 _DRAWN = (".pdf", ".svg", ".xlsx", ".html")
 
 
-def run(
-    rule: str, plan: Plan, contents: str, log: str, files: Iterable[str], cores: int, folder: str
-) -> None:
+def run(rule: str, plan: Plan, log: str, files: Iterable[str], cores: int, folder: str) -> None:
     """Do the job of a rule.
 
-    contents: what the plan says of those of the files that it reads. files: of other jobs that it reads, and those that
-    it wrote before: dates of these ahead of the clock, with which snakemake would never be content, become now. folder:
-    in which the files lie that the rule declares, as the study names them; on another machine they are copies.
+    files: of other jobs that it reads, and those that it wrote before: dates of these ahead of the clock, with which
+    snakemake would never be content, become now. folder: in which the files lie that the rule declares, as the study
+    names them; on another machine they are copies.
     """
     now = time.time()
     log = str(Path(log).absolute())
@@ -50,7 +48,7 @@ def run(
                     Path(log),
                     Study.of_step(plan, "pulses").settings_sha256,
                 )
-                steps.take(rule, lambda: plan.contents(rule, record.id) == contents)
+                steps.take(rule)
             case "summary":
                 summarise(Job(rule, plan, Study.of(plan), Path(log)))
             case _:

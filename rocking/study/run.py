@@ -46,6 +46,8 @@ _ANSWERS = re.compile(
     r"detailed-summary|report|unlock|touch|archive|delete-all-output|print-compilation))(=.*)?"
 )
 """Options with which snakemake answers a question instead of running the study: its answer is shown as it is."""
+_PART = ("--until", "-U", "--omit-from", "-O")
+"""Options with which snakemake makes a part of the study."""
 _RULE = re.compile(r"(?m)^rule (\w+):")
 _RESEARCH = re.compile(r'(?m)^    "(\w+)": \(')
 """The declaration of a rule, and of a target of the research."""
@@ -87,10 +89,10 @@ def run(folder: Path, options: Sequence[str]) -> int:
         with _logged(log):
             status = _snakemake(arguments)
     if status:
-        print(f"Not finished: {_end_of(log)}\nCorrect that, then go on: rocking run {folder}")
+        print(f"Not finished: {_end_of(log)}\nWhat is finished stays; to go on: rocking run {folder}")
         return 1
-    if target:
-        print(f"Finished: {target}; what it wrote lies in {folder / plan.results}")
+    if target or any(option.startswith(_PART) for option in options):
+        print(f"Finished: {' '.join(options)}; what it wrote lies in {folder / plan.results}")
         return 0
     return _print_outcome(folder, plan)
 

@@ -13,7 +13,6 @@ one before it for its result.
 """
 
 import json
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -50,12 +49,11 @@ class Steps:
     pulses_sha256: str
     clock: Clock = field(default_factory=Clock)
 
-    def take(self, step: str, is_unchanged: Callable[[], bool] = lambda: True) -> None:
+    def take(self, step: str) -> None:
         """Do a step; where it gives nothing its files are empty, and those of the last step say why.
 
         Whatever goes wrong with a record costs no other. What goes wrong with the machine, a full disk, too little
-        memory or a folder that is gone, ends the job. is_unchanged: asks whether the files that are read are those of
-        the plan.
+        memory or a folder that is gone, ends the job.
         """
         try:
             failure = None if step == "read" else self._why_unread
@@ -63,8 +61,6 @@ class Steps:
                 getattr(self, step)()
                 return
         except RockingError as error:
-            if not is_unchanged():  # else the row would stand for the file that was planned
-                raise
             failure = Failure("read", error.without_place(self.record.id))
         except (OSError, MemoryError):
             raise

@@ -28,16 +28,8 @@ NUMBERS = f"a b {ALL}"
 PULSES, PREDICTED, INTEGRATED = (f"a.{step} b.{step} {ALL}" for step in ("pulses", "predict", "integrate"))
 """The same, where both records are taken up from a later step on."""
 REPORTED = "a.report b.report S C T M"
-STEPS_TOLD = {
-    "Read ": "read",
-    "Pulses of ": "pulses",
-    "Predict under ": "predict",
-    "Integrate under ": "integrate",
-    "Report on ": "report",
-}
-"""By the message of its rule, before the name of the record, each step."""
 JOBS = {
-    "Summary of all records": "S",
+    "summary: all records": "S",
     **{f"{product.name}: {product.does}": product.name[0].upper() for product in PRODUCTS},
 }
 """By the message of its rule the letter of a job over all records."""

@@ -1,7 +1,9 @@
 """What a user of snakemake expects of a workflow, each on the real command in the folder of a study of one's own."""
 
 import csv
+import errno
 import os
+import shutil
 import subprocess
 import sys
 import tarfile
@@ -117,7 +119,22 @@ def test_a_run_until_a_step_gives_the_files_of_that_step_and_goes_on_from_there(
     assert study.planned() == ["integrate", "predict", "report", "summary"]
     snakemake(study, "results/good_1/report.pdf", "--config", "reports=true")
     assert (own / "report.pdf").is_file() and not (study.results / "summary" / "verdicts.csv").exists()
-    assert study.rows_of("good_1")["pulses.csv"] == done.rows_of("good_1")["pulses.csv"]
+    assert (own / "pulses.csv").read_bytes() == (done.results / "good_1" / "pulses.csv").read_bytes()
+
+
+def test_rocking_run_until_a_step_says_where_its_files_lie(begun, done, tmp_path) -> None:
+    study = begun.copy_to(tmp_path / "study")
+    told = study.rocking("run", str(study.folder), "--until", "predict").stdout
+    assert f"Finished: --until predict; what it wrote lies in {study.results}" in told
+    own = Path("good_1", "predictions.csv")
+    assert (study.results / own).read_bytes() == (done.results / own).read_bytes()
+    assert study.planned() == ["integrate", "report", "summary"]
+
+
+def test_the_graph_of_the_readme_is_that_of_the_rules() -> None:
+    command = [sys.executable, "-m", "snakemake", "--rulegraph", "mermaid-js", "summary"]
+    drawn = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    assert f"```mermaid\n{drawn.strip()}\n```" in (ROOT / "README.md").read_text(encoding="utf-8")
 
 
 def test_inputs_are_left_alone(begun, tmp_path) -> None:
@@ -152,11 +169,12 @@ def test_a_link_to_itself_among_the_results_stops_nothing(done, tmp_path) -> Non
     assert study.tables() == done.tables()
 
 
-def test_a_file_system_without_locks_is_a_warning(done, tmp_path) -> None:
+@pytest.mark.parametrize("number", [errno.ENOLCK, errno.ENOSYS])
+def test_a_file_system_without_locks_is_a_warning(done, tmp_path, number) -> None:
     study = done.copy_to(tmp_path / "study")
     code = (
-        "import errno, fcntl, sys\n"
-        "def flock(*_): raise OSError(errno.ENOLCK, 'No locks available')\n"
+        "import fcntl, os, sys\n"
+        f"def flock(*_): raise OSError({number}, os.strerror({number}))\n"
         "fcntl.flock = flock\n"
         "from rocking.study.cli import main\n"
         "sys.exit(main(['run', sys.argv[1]]))"
@@ -164,7 +182,28 @@ def test_a_file_system_without_locks_is_a_warning(done, tmp_path) -> None:
     command = [sys.executable, "-c", code, str(study.folder)]
     ended = subprocess.run(command, capture_output=True, text=True, check=False, **study.surroundings)
     assert ended.returncode == 0, ended.stdout + ended.stderr
-    assert "not locked, No locks available" in ended.stdout
+    assert f"not locked, {os.strerror(number)}" in ended.stdout
+
+
+def test_a_catalogue_that_cannot_be_written_stops_nothing(begun, done, tmp_path) -> None:
+    """Nor any other file that the user wrote: a run only reads them."""
+    study = begun.copy_to(tmp_path / "study")
+    study.write_catalogue([row | {"sha256": ""} for row in study.rows()])
+    command = [sys.executable, "-m", "snakemake", "--nocolor"]
+    if os.geteuid() == 0:  # to whom permissions mean nothing, unless that is taken from it
+        if not shutil.which("setpriv"):
+            pytest.skip("root writes everywhere, and setpriv is not installed to take that from it")
+        command = ["setpriv", "--bounding-set=-dac_override", *command]
+    for path in (
+        *(study.folder / "records").iterdir(),
+        study.folder / "records",
+        study.folder / "config.yaml",
+    ):
+        path.chmod(0o555 if path.is_dir() else 0o444)
+    ended = subprocess.run(command, capture_output=True, text=True, check=False, **study.surroundings)
+    (study.folder / "records").chmod(0o755)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    assert study.tables() == done.tables()
 
 
 @pytest.mark.slow

@@ -13,7 +13,7 @@ from rocking.hashes import sha256_of_file
 from rocking.study.outputs import STEPS
 from rocking.study.plan import make_plan
 from tests.workflow.conftest import ROOT, SmallStudy
-from tests.workflow.edits import EDITS, JOBS, STEPS_TOLD, write_outputs, write_study
+from tests.workflow.edits import EDITS, JOBS, write_outputs, write_study
 from tests.workflow.forked import PLANNING, run_snakemake
 
 pytestmark = pytest.mark.process
@@ -43,10 +43,10 @@ def _again(told: str) -> set[str]:
     """The jobs of a dry run over all records, each by its letter, and the first step of each record that is taken."""
     messages = re.findall(r"(?m)^Job \d+: (.*)$", told)
     first: dict[str, str] = {}
-    for begin, step in STEPS_TOLD.items():
+    for step in STEPS:
         for message in messages:
-            if message.startswith(begin):
-                first.setdefault(message.removeprefix(begin), step)
+            if message.startswith(f"{step}: "):
+                first.setdefault(message.removeprefix(f"{step}: "), step)
     of_records = {name if step == "read" else f"{name}.{step}" for name, step in first.items()}
     return of_records | {JOBS[message] for message in messages if message in JOBS}
 

@@ -79,7 +79,7 @@ def test_what_the_settings_ask_for_is_waited_for(finished) -> None:
     told = finished.run("--dry-run", "--config", *settings)
     for rule in ("summary", "trade", "fragility"):
         assert re.search(rf"(?m)^{rule} +1 *$", told), told
-    (reason,) = re.findall(r": Summary of all records\nReason: (.*)", told)
+    (reason,) = re.findall(r"summary: all records\nReason: (.*)", told)
     assert "results/fragility/fragility.csv" in reason, told
 
 

@@ -13,9 +13,9 @@ def files(rule):
     return lambda wildcards: [ancient(path) for path in not_ahead(PLAN.files(rule, *wildcards))]
 
 
-def contents(rule):
-    """The hash of what a job reads."""
-    return lambda wildcards: CONTENTS(rule, *wildcards)
+def made_from(rule):
+    """What the jobs of a rule are made from, as params, with the hash of what each reads."""
+    return PLAN.params(rule) | {"contents": lambda wildcards: CONTENTS(rule, *wildcards)}
 
 
 CONTENTS = cache(PLAN.contents)
@@ -24,11 +24,6 @@ CONTENTS = cache(PLAN.contents)
 def gives(rule, record="{record}"):
     """The files of a rule."""
     return [in_report(output, str(path)) for output, path in outputs_of(rule, SETTINGS, record).items()]
-
-
-def takes(step):
-    """The files of a step of a record."""
-    return [str(path) for path in outputs_of(step, SETTINGS).values()]
 
 
 def in_report(output, path):
@@ -72,13 +67,11 @@ def memory_of_record(wildcards, input, attempt):
     return attempt * round(500 + 1000 * max((size_of[file] for file in input), default=0))
 
 
-def work(rule, plan, input, output, params, log, cores=1):
+def work(rule, plan, input, output, log, cores=1):
     """Do the job of a rule in a process of its own."""
     folder = folder_of(input.listed[0], SETTINGS.catalogue) if ELSEWHERE else ""
     made = [file for file in (*input, *output) if Path(file).is_relative_to(RESULTS)]
-    run_apart(
-        SETTINGS, log[0], "rocking.study.jobs:run", rule, plan, params.contents, log[0], made, cores, folder
-    )
+    run_apart(SETTINGS, log[0], "rocking.study.jobs:run", rule, plan, log[0], made, cores, folder)
 
 
 def research(rule, catalogues, output, log):

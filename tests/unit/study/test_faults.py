@@ -23,7 +23,7 @@ from tests.unit.study.made_jobs import keep_nothing, outcomes_in, worked
 from tests.unit.study.test_job import _record, _study
 
 FUNCTIONS = {
-    "rocking.assessment.assessor": ("predict", "governing_crack", "cracked"),
+    "rocking.assessment.assessor": ("compute_prediction", "governing_crack", "cracked"),
     "rocking.assessment.one_case": ("check_model", "ensemble_over_cracks", "other_cracks"),
     rows_of_record.__module__: ("candidate_cases",),
 }
