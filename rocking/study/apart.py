@@ -1,8 +1,7 @@
 """Jobs in processes of their own that start warm: forked from one that has imported and prepared what every job needs.
 
 A job of one record would otherwise import libraries and load kernels for longer than it computes. The process that is
-forked is the standard library's (multiprocessing, start method "forkserver"); where there is none, as on Windows, each
-job imports for itself.
+forked is the standard library's (multiprocessing, start method "forkserver").
 """
 
 import importlib
@@ -19,7 +18,6 @@ from pathlib import Path
 from rocking.errors import LOGS, RockingError
 from rocking.study.settings import Settings, commented_yaml
 
-_FORKS = "forkserver" in multiprocessing.get_all_start_methods()
 _ONE_AT_A_TIME = threading.Lock()
 """The lock to start a process and to end it: what multiprocessing notes of them is not made for threads."""
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -33,8 +31,6 @@ def warm_up(settings: Settings) -> None:
 
     settings: of the study in this folder, whose structures it prepares.
     """
-    if not _FORKS:
-        return
     # A console script, which imports its `main`, is run again as a module in each process that is started.
     script = getattr(vars(sys.modules["__main__"]).get("main"), "__module__", None)
     forkserver.set_forkserver_preload(["rocking.study.warm", *([script] if script else [])])
@@ -52,7 +48,7 @@ def run_apart(settings: Settings, log: str, work: str, *arguments: object) -> No
 
     settings: of the study. log: of the job, which takes what it prints. Raises RuntimeError where it did not end well.
     """
-    context = multiprocessing.get_context("forkserver") if _FORKS else multiprocessing.get_context("spawn")
+    context = multiprocessing.get_context("forkserver")
     process = context.Process(target=_work, args=(str(Path(log).absolute()), work, *arguments))
     with _ONE_AT_A_TIME:
         warm_up(settings)
@@ -84,7 +80,8 @@ def _work(log: str, work: str, *arguments: object) -> None:
         except BaseException as error:
             traceback.print_exc()
             stream.flush()
-            tell(_in_a_sentence(error, log))
+            said = "".join(traceback.format_exception_only(error)).strip()
+            tell(str(error) if isinstance(error, RockingError) else said)
             os._exit(1)  # what would be printed later finds the log closed
 
 
@@ -93,17 +90,3 @@ def tell(line: str) -> None:
     if sys.stderr is not sys.__stderr__:
         print(line)
     print(line, file=sys.__stderr__, flush=True)
-
-
-def _in_a_sentence(error: BaseException, log: str) -> str:
-    match error:
-        case RockingError():
-            return str(error)
-        case OSError():
-            return f"{error.filename or 'a file'}: {error.strerror or error}"
-        case MemoryError():
-            return "a job had not enough memory; give more, or run fewer jobs at once: --cores 1"
-        case KeyboardInterrupt():
-            return "a job was stopped"
-        case _:
-            return f"a job ended with {type(error).__name__}: {' '.join(str(error).split())}; see {log}"

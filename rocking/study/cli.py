@@ -6,9 +6,7 @@ Each verb imports what it calls, so that help and refusals come at once.
 import argparse
 import contextlib
 import io
-import os
 import sys
-import tempfile
 import warnings
 from collections.abc import Sequence
 from importlib.metadata import version
@@ -17,7 +15,6 @@ from shlex import quote
 from typing import Any, TextIO
 
 from rocking.errors import CatalogueError, ConfigurationError, RockingError, UnknownFormatError
-from rocking.hashes import sha256_of_bytes
 from rocking.quantities import GRAVITY, escaped
 from rocking.records.doors import through
 from rocking.study import close_doors
@@ -69,8 +66,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
             with warnings.catch_warnings():
                 warnings.showwarning = _show
                 close_doors()
-                if options.run in (_run, _product) and " " in sys.executable and os.name == "posix":
-                    _start_without_blanks(arguments)
                 with through("command"):
                     return options.run(options) or 0
         except RockingError as error:
@@ -98,28 +93,6 @@ _NOT_HERE = (
     "this command needs Linux or macOS; on Windows run it in WSL, or use the commands that run no study, such as "
     "`rocking assess`, and the functions of `import rocking`, which need no locks."
 )
-
-
-def _start_without_blanks(arguments: Sequence[str] | None) -> None:
-    """Go on as a process whose Python has no blank in its path, which snakemake parts there: by a link to its folder.
-
-    Raises ConfigurationError where there is no place for such a link, or a program called this with `arguments`.
-    """
-    python = Path(sys.executable)
-    prefix = Path(sys.prefix)
-    link = Path(tempfile.gettempdir()) / f"rocking-python-{os.getuid()}-{sha256_of_bytes(bytes(prefix))[:12]}"
-    defect = f"the path of Python, {str(python)!r}, has a blank, at which snakemake parts it"
-    if arguments is not None or " " in str(link) or not python.is_relative_to(prefix):
-        raise ConfigurationError(f"{defect}; make the environment in a folder without one.")
-    with contextlib.suppress(FileExistsError):
-        link.symlink_to(prefix, target_is_directory=True)
-    if link.lstat().st_uid != os.getuid() or not link.is_symlink() or link.readlink() != prefix:
-        raise ConfigurationError(
-            f"{defect}, and {link} is another's; make the environment in a folder without one."
-        )
-    plain = str(link / python.relative_to(prefix))
-    sys.stdout.flush()
-    os.execv(plain, [plain, "-m", "rocking.study.cli", *sys.argv[1:]])
 
 
 def _show(message: Warning | str, *_: object, **__: object) -> None:

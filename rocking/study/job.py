@@ -16,6 +16,7 @@ from rocking.assessment.cracks import prepare_structure
 from rocking.assessment.methods import NEGLIGIBLE
 from rocking.assessment.one_case import Clock
 from rocking.assessment.rows import (
+    RECORD_TABLES,
     FailureRow,
     HistoryRow,
     RecordRows,
@@ -36,7 +37,7 @@ from rocking.signal.processing import process
 from rocking.signal.scaling import ScalingTarget, scaled_to
 from rocking.structures import Structure
 from rocking.study.apart import tell
-from rocking.study.outcomes import RecordOutcome, keep_outcome, read_outcomes
+from rocking.study.kept import Kept, keep, kept_in
 from rocking.study.outputs import STEPS, TABLES, kept_of, outcome_of, sums_of
 from rocking.study.plan import Plan, scenes_of, study_remarks
 from rocking.study.products import BY_NAME
@@ -181,9 +182,9 @@ class Job:
         """The file that keeps the rows of the product for the summary."""
         return kept_of(self.results, self.rule)
 
-    def outcomes(self) -> Iterator[RecordOutcome]:
+    def outcomes(self) -> Iterator[Kept]:
         """Yield the outcome of each record, in catalogue order, one at a time."""
-        return read_outcomes(self.plan.outcomes)
+        return (kept_in(path, RECORD_TABLES) for path in self.plan.outcomes)
 
     def show_line(self, line: str, _done: int = 0, _total: int = 0) -> None:
         """Add a line to the log, and show it."""
@@ -247,8 +248,7 @@ def write_record(
             write_rows(HistoryRow, histories, folder / HistoryRow.table.file_name)
     tables = {row_class: list(of_it) for row_class, of_it in rows.tables.items()}
     sums = {path: sha256 for step in STEPS for path, sha256 in sums_of(step, settings, record.id).items()}
-    outcome = RecordOutcome(tables, page, spectra, sums)
-    keep_outcome(outcome_of(results, record.id), outcome)
+    keep(outcome_of(results, record.id), Kept(tables, page=page, spectra=spectra, sums=sums))
     tell(f"{record.id}: {record_line(result.scenes.values(), rows.failures)}")
 
 

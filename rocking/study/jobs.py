@@ -13,7 +13,7 @@ from rocking.assessment.rows import FailureRow
 from rocking.errors import RockingError, fault_in_words
 from rocking.study.documents import write_reason
 from rocking.study.job import Job, Study
-from rocking.study.kept import keep_rows
+from rocking.study.kept import Kept, keep
 from rocking.study.outputs import outputs_of
 from rocking.study.plan import Plan
 from rocking.study.products import BY_NAME
@@ -42,13 +42,8 @@ def run(rule: str, plan: Plan, log: str, files: Iterable[str], cores: int, folde
         match rule:
             case "read" | "pulses" | "predict" | "integrate" | "report":
                 (record,) = plan.records.values()
-                steps = Steps(
-                    record,
-                    Study.of_step(plan, rule),
-                    Path(log),
-                    Study.of_step(plan, "pulses").settings_sha256,
-                )
-                steps.take(rule)
+                pulses_sha256 = Study.of_step(plan, "pulses").settings_sha256
+                Steps(record, Study.of_step(plan, rule), Path(log), pulses_sha256).take(rule)
             case "summary":
                 summarise(Job(rule, plan, Study.of(plan), Path(log)))
             case _:
@@ -71,7 +66,7 @@ def product(job: Job) -> None:
         sentence = str(error) if isinstance(error, RockingError) else fault_in_words(error, job.log, job.rule)
         _say_why_not(job, sentence)
     else:
-        keep_rows(job.kept, {FailureRow: [], **made.rows}, made.conclusion)
+        keep(job.kept, Kept({FailureRow: [], **made.rows}, made.conclusion))
 
 
 _OF_THE_DISK = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)
@@ -85,4 +80,4 @@ def _say_why_not(job: Job, sentence: str) -> None:
         else:
             write_whole(path, b"")
     fault = FailureRow(stage=job.rule, message=sentence)
-    keep_rows(job.kept, {row_class: [] for row_class in work.shown} | {FailureRow: [fault]})
+    keep(job.kept, Kept({row_class: [] for row_class in work.shown} | {FailureRow: [fault]}))

@@ -1,40 +1,59 @@
-"""What is kept of the rows of tables for other products and for the next run: as JSON, which holds every digit."""
+"""What a job keeps for those that stand over all records: rows of tables and more, as JSON, which holds every digit."""
 
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 from typing import Any, get_type_hints
 
-from rocking.assessment.store import decoder, encoded
+from rocking.assessment.store import LARGEST, decoder, encoded
 from rocking.errors import RockingError
-from rocking.tables import Row, read_whole, regular_file, write_whole
-
-LARGEST = 200_000_000
-"""Bytes of what is kept of a product that are read; of a record under ten structures some hundred thousand."""
+from rocking.tables import Row, read_whole, write_whole
 
 Rows = Mapping[type[Row], Sequence[Row]]
 """The rows of tables by their class."""
 
 
-def keep_rows(path: Path, rows: Rows, conclusion: str = "") -> None:
-    """Keep the rows of a product over all records, and the sentence that it comes down to."""
-    lines = (json.dumps(key, separators=(",", ":")).encode() for key in (conclusion, encoded_rows(rows)))
-    write_whole(path, b"\n".join(lines))
+@dataclass(frozen=True)
+class Kept:
+    """What a record, or a product over all records, leaves for what is made of it.
+
+    conclusion: the sentence that a product comes down to. Of a record, page: what the page to explore shows; spectra:
+    of the components, m/s², where there is a design level; both are empty without reports. sums: the sha256 of its
+    report and its tables, by their paths from the folder of the results.
+    """
+
+    rows: Rows
+    conclusion: str = ""
+    page: dict[str, Any] = field(default_factory=dict)
+    spectra: Mapping[str, Sequence[float]] = field(default_factory=dict)
+    sums: Mapping[str, str] = field(default_factory=dict)
 
 
-def kept_rows(path: Path, tables: Iterable[type[Row]]) -> dict[type[Row], list[Row]]:
-    """Return the rows of some tables of a product. Raises RockingError where they are not what this version writes."""
+def keep(path: Path, kept: Kept) -> None:
+    """Write what a job keeps as the file `path`."""
+    rows = {}
+    for row_class, of_it in kept.rows.items():
+        names = _carried(row_class)
+        rows[row_class.table.name] = [[encoded(getattr(row, name)) for name in names] for row in of_it]
+    write_whole(path, json.dumps(vars(kept) | {"rows": rows}, separators=(",", ":")).encode())
+
+
+def kept_in(path: Path, tables: Iterable[type[Row]]) -> Kept:
+    """Return what is kept, with the rows of `tables`. Raises RockingError where it is not what this version writes."""
     with undamaged(path):
-        _, rows = read_whole(path, LARGEST, RockingError).split(b"\n", 1)
-        return decoded_rows(json.loads(rows), tables)
-
-
-def kept_conclusion(path: Path) -> str:
-    """Return the sentence that a product comes down to. Raises RockingError where this version has not written it."""
-    with undamaged(path), regular_file(path) as stream:
-        return str(json.loads(stream.readline(LARGEST)))
+        content = json.loads(read_whole(path, LARGEST, RockingError))
+        rows: dict[type[Row], list[Row]] = {}
+        for row_class in tables:
+            kept: Any = row_class
+            columns = _columns_of(kept)
+            rows[row_class] = [
+                row_class(**{name: of(cell) for (name, of), cell in zip(columns, cells, strict=True)})
+                for cells in content["rows"][row_class.table.name]
+            ]
+        return Kept(**content | {"rows": rows})
 
 
 @contextmanager
@@ -46,30 +65,6 @@ def undamaged(path: Path) -> Iterator[None]:
         raise RockingError(
             f"{path}: it is damaged ({error}); remove it and run the study again.", path=path
         ) from None
-
-
-def encoded_rows(rows: Rows) -> dict[str, list[list[Any]]]:
-    """Return what JSON can hold of the rows of tables: by the name of the table what each row carries."""
-    content = {}
-    for row_class, of_it in rows.items():
-        names = _carried(row_class)
-        content[row_class.table.name] = [[encoded(getattr(row, name)) for name in names] for row in of_it]
-    return content
-
-
-def decoded_rows(
-    content: Mapping[str, list[list[Any]]], tables: Iterable[type[Row]]
-) -> dict[type[Row], list[Row]]:
-    """Return the rows of `tables` that `encoded_rows` gave. Raises ValueError, KeyError or TypeError for others."""
-    rows: dict[type[Row], list[Row]] = {}
-    for row_class in tables:
-        kept: Any = row_class
-        columns = _columns_of(kept)
-        rows[row_class] = [
-            row_class(**{name: of(cell) for (name, of), cell in zip(columns, cells, strict=True)})
-            for cells in content[row_class.table.name]
-        ]
-    return rows
 
 
 @cache

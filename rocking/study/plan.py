@@ -37,7 +37,6 @@ from rocking.study.settings import (
     NUMBERS,
     Settings,
     file_settings,
-    folder_sha256,
     layout,
     named_files,
     package_sha256,
@@ -194,14 +193,10 @@ class Plan:
         product = BY_NAME.get(rule)
         chosen = self.settings.values_of(MADE_FROM[rule])
         made_from = {name.replace(".", "_"): _in_print(name, value) for name, value in chosen.items()}
-        draws = product is not None or (self.settings.reports and rule in ("report", "summary"))
-        made_from["package"] = package_sha256(reports=draws)[:16]
+        made_from["package"] = package_sha256()[:16]
         made_from["libraries"] = ", ".join(f"{name} {number}" for name, number in versions().items())
         if rule not in ("read", "pulses"):
             made_from["structures_sha256"] = sha256_of(*structure_hashes(self.scenes).items())[:16]
-        shown_products = [BY_NAME[name] for name in self.products] if rule == "summary" else []
-        for shown_product in [product] if product else shown_products:
-            made_from[f"source_of_{shown_product.name}"] = folder_sha256(shown_product.source)[:16]
         if product and product.pool:
             terms = ((name, scene.terms) for name, scene in self.scenes.items())
             made_from["terms_of_structures"] = sha256_of(*terms)[:16]

@@ -110,12 +110,6 @@ class Product:
     minutes: int = 120
 
     @property
-    def source(self) -> str:
-        """The folder of its source in the package: of its work, with which its rows and documents stand."""
-        _, *folders, _ = self.work.partition(":")[0].split(".")
-        return "/".join(folders)
-
-    @property
     def outputs(self) -> tuple[Output, ...]:
         """All that its job writes: its files, the figures of its documents where they are asked for, and its rows."""
         names = (*(f"{table}.csv" for table in self.tables), *self.files)

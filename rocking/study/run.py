@@ -16,20 +16,20 @@ from rocking.assessment.rows import (
     FailureRow,
     RecordRow,
     RemarkRow,
+    VerdictRow,
     made_records,
 )
 from rocking.errors import ConfigurationError, RockingError
 from rocking.progress import fitting
-from rocking.quantities import counted, shown
+from rocking.quantities import counted
 from rocking.study import close_doors
 from rocking.study.apart import warm_up
 from rocking.study.flow import SNAKEFILE, workflow_folder
-from rocking.study.kept import kept_conclusion, kept_rows
-from rocking.study.outcomes import verdicts_of
-from rocking.study.outputs import STEPS, kept_of
+from rocking.study.kept import kept_in
+from rocking.study.outputs import kept_of
 from rocking.study.plan import Plan, check_config_file, check_files, config_file, make_plan
 from rocking.study.product import Product
-from rocking.study.products import BY_NAME, PRODUCTS
+from rocking.study.products import PRODUCTS
 from rocking.study.terminal import (
     check_any_read,
     closing_lines,
@@ -48,21 +48,17 @@ _ANSWERS = re.compile(
 """Options with which snakemake answers a question instead of running the study: its answer is shown as it is."""
 _PART = ("--until", "-U", "--omit-from", "-O")
 """Options with which snakemake makes a part of the study."""
-_RULE = re.compile(r"(?m)^rule (\w+):")
-_RESEARCH = re.compile(r'(?m)^    "(\w+)": \(')
-"""The declaration of a rule, and of a target of the research."""
 
 
 def run(folder: Path, options: Sequence[str]) -> int:
     """Run the workflow on the study in `folder`, with further options for snakemake, and return the exit status.
 
     The status is 0, or 1 when a record or a job failed. Raises ConfigurationError, before
-    snakemake starts, when the folder holds no study, the study has defects or the target is none; RockingError when
-    another run works in it.
+    snakemake starts, when the folder holds no study or the study has defects; RockingError when another run
+    works in it.
     """
     plan = _plan(folder)
     target = options[0] if options and not options[0].startswith("-") else ""
-    _check_target(target)
     if any(len(option) > 4 and "--trust-io-cache".startswith(option.partition("=")[0]) for option in options):
         raise ConfigurationError("--trust-io-cache would run what .snakemake/iocache holds; leave it out.")
     arguments = [
@@ -110,11 +106,10 @@ def run_product(folder: Path, product: Product) -> int:
 
         results = folder / _plan(folder).results
         work = work_of(product)
-        kept = kept_of(results, product.name)
-        rows = kept_rows(kept, (*work.shown, FailureRow))
+        kept = kept_in(kept_of(results, product.name), (*work.shown, FailureRow))
         documents = [results / product.folder / name for name in product.files if name.endswith(".pdf")]
-        failures = rows_of(FailureRow, rows)
-        lines = [*work.lines(rows), *failing_lines(failures), *conclusion_lines(kept_conclusion(kept))]
+        failures = rows_of(FailureRow, kept.rows)
+        lines = [*work.lines(kept.rows), *failing_lines(failures), *conclusion_lines(kept.conclusion)]
         for line in (*lines, *(f"{'Open':<8}{path}" for path in documents)):
             print(fitting(line, sys.stdout))
         status = int(bool(failures))
@@ -135,14 +130,16 @@ def _print_outcome(folder: Path, plan: Plan) -> int:
     results = folder / plan.results
     made = [product for product in PRODUCTS if product.name in plan.products]
     failures = read_table(FailureRow, results / "summary")
-    verdicts = verdicts_of(folder / path for path in plan.outcomes)
+    # Not by verdicts.csv: a table is print.
+    of_records = (kept_in(folder / path, [VerdictRow]).rows for path in plan.outcomes)
+    verdicts = [row for rows in of_records for row in rows_of(VerdictRow, rows)]
     comparison = read_rows(ComparisonRow, results / "summary" / ComparisonRow.table.file_name)
     falls = read_table(ExpectedFallsRow, results / "summary")
     remarks = read_rows(RemarkRow, results / "summary" / RemarkRow.table.file_name)
     not_recorded = made_records(read_rows(RecordRow, results / "summary" / RecordRow.table.file_name))
     lines = [*closing_lines(verdicts, comparison, failures, falls, remarks, not_recorded)]
     for product in made:
-        lines += conclusion_lines(kept_conclusion(kept_of(results, product.name)))
+        lines += conclusion_lines(kept_in(kept_of(results, product.name), ()).conclusion)
     opened = {
         results / product.folder / name: what for product in made for name, what in product.opened.items()
     }
@@ -150,26 +147,6 @@ def _print_outcome(folder: Path, plan: Plan) -> int:
     for line in (*lines, *paths_to_read(results, verdicts, plan.settings.reports, opened)):
         print(fitting(line, sys.stdout))
     return int(bool(failures))
-
-
-def targets(home: Path) -> list[str]:
-    """Return the names of what may be asked for; home: the folder that holds Snakefile and workflow/."""
-    files = [home / "workflow" / "Snakefile", *(home / "workflow" / "rules").glob("*.smk")]
-    names = {name for file in files for name in _RULE.findall(file.read_text(encoding="utf-8"))} | set(
-        BY_NAME
-    )
-    research = home / "docs" / "research" / "research.smk"
-    if research.is_file():
-        names |= set(_RESEARCH.findall(research.read_text(encoding="utf-8")))
-    return sorted(names - {*STEPS})
-
-
-def _check_target(target: str) -> None:
-    names = targets(workflow_folder())
-    if target and target not in names and "/" not in target:
-        raise ConfigurationError(
-            f"target is {shown(target)}, but must be one of {', '.join(names)}, or the path of a file of the results."
-        )
 
 
 def _plan(folder: Path) -> Plan:

@@ -541,12 +541,6 @@ def _meaning(description: Described) -> str:
 NUMBERS = tuple(Settings.changing_numbers())
 """The settings, and the sections of settings, that change a number of a table."""
 _SOURCE = {".py", ".csv", ".json", ".po", ".typ", ".yaml", ".mplstyle", ".html", ".css", ".js"}
-_SPOKEN = {
-    f"study/{name}.py"
-    for name in ("apart", "cli", "flow", "products", "progress", "run", "terminal", "warm", "workspace")
-}
-"""The files that start a study and its jobs, and talk about it: they change nothing that a job writes. What the table
-of products says of one is the output of its rule and among its params."""
 
 
 def structure_hashes(scenes: Mapping[str, "Scene"]) -> dict[str, str]:
@@ -557,30 +551,11 @@ def structure_hashes(scenes: Mapping[str, "Scene"]) -> dict[str, str]:
 def settings_sha256(settings: Settings, scenes: Mapping[str, "Scene"]) -> str:
     """Return the hash that every row names: of the settings that change a number, the structures and the package."""
     numbers = settings.values_of(NUMBERS)
-    return sha256_of(*numbers.items(), *structure_hashes(scenes).items(), package_sha256(reports=False))
+    return sha256_of(*numbers.items(), *structure_hashes(scenes).items(), package_sha256())
 
 
 @cache
-def package_sha256(reports: bool = True) -> str:
-    """Return one hash for the source of this package that every job depends on: without those of the products.
-
-    reports: with that of the reports, which changes no number.
-    """
+def package_sha256() -> str:
+    """Return one hash for the source of this package, on which every job depends."""
     root = Path(__file__).parents[1]
-    apart = ("products/",) if reports else ("products/", "reports/")
-    return sha256_of_sources(root, _sources(root, apart))
-
-
-@cache
-def folder_sha256(name: str) -> str:
-    """Return one hash for the source in a folder of this package, "products/trade"."""
-    root = Path(__file__).parents[1]
-    return sha256_of_sources(root, _sources(root / name))
-
-
-def _sources(folder: Path, apart: tuple[str, ...] = ()) -> Iterable[Path]:
-    """The source in a folder of this package, but for what stands in the folders `apart`."""
-    for path in folder.rglob("*"):
-        name = path.relative_to(folder).as_posix()
-        if name not in _SPOKEN and not name.startswith(apart) and path.suffix in _SOURCE:
-            yield path
+    return sha256_of_sources(root, (path for path in root.rglob("*") if path.suffix in _SOURCE))

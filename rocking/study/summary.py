@@ -23,7 +23,7 @@ from rocking.reports.printing import write_document
 from rocking.reports.style import svg
 from rocking.study.documents import made_or_failed
 from rocking.study.job import Job, Study
-from rocking.study.kept import Rows, kept_conclusion, kept_rows
+from rocking.study.kept import Rows, kept_in
 from rocking.study.outputs import SUMS, former_files, kept_of, remove, sums_of
 from rocking.study.plan import versions
 from rocking.study.products import BY_NAME
@@ -169,9 +169,9 @@ def _documents(
 
 def _read_product(job: Job, name: str) -> MadeProduct:
     """What another product over all records has kept, and its work."""
-    kept = kept_of(job.results, name)
     work = work_of(BY_NAME[name])
-    return MadeProduct(work, kept_rows(kept, (*work.shown, FailureRow)), kept_conclusion(kept))
+    kept = kept_in(kept_of(job.results, name), (*work.shown, FailureRow))
+    return MadeProduct(work, kept.rows, kept.conclusion)
 
 
 def _report(

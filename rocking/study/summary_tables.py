@@ -32,7 +32,7 @@ from rocking.earthquakes.sample import Sample
 from rocking.errors import RockingError, one_structure
 from rocking.structures import Structure
 from rocking.structures.equivalent_block import Scale
-from rocking.study.outcomes import RecordOutcome
+from rocking.study.kept import Kept
 from rocking.tables import (
     Row,
     rows_of,
@@ -46,7 +46,7 @@ ON_PAGES = (RecordRow, PulseRow, ComparisonRow, SupportRow, VerdictRow, FailureR
 
 
 def write_summary(
-    outcomes: Iterable[RecordOutcome],
+    outcomes: Iterable[Kept],
     structures: Mapping[str, Structure],
     target: Path,
     reports: bool,

@@ -26,7 +26,7 @@ _SCHEDULER = os.getppid()
 for product in PRODUCTS:
     with contextlib.suppress(ImportError):  # the other jobs run without its folder
         work_of(product)
-package_sha256(reports=False)
+package_sha256()
 with contextlib.suppress(RockingError):  # each job would compile by itself
     compile_all()
     load_all()

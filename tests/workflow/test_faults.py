@@ -13,7 +13,7 @@ import pytest
 from rocking.assessment.rows import FailureRow
 from rocking.products.fragility.rows import FragilitySummaryRow
 from rocking.products.trade.rows import TradeRow
-from rocking.study.kept import kept_rows
+from rocking.study.kept import kept_in
 from rocking.study.outputs import kept_of
 from rocking.tables import read_table
 
@@ -92,7 +92,7 @@ def test_a_fault_in_the_trade_or_the_fragility_stops_nothing_and_is_kept_as_a_ro
     study = replace(start.copy_to(tmp_path / "study"), tree=tree)
     study.run("trade", "fragility", "--config", "fragility={members: false}")
     rows = {
-        name: kept_rows(kept_of(study.results, name), [FailureRow])[FailureRow]
+        name: kept_in(kept_of(study.results, name), [FailureRow]).rows[FailureRow]
         for name in ("trade", "fragility")
     }
     told = {(name, row.record, row.structure): row.message for name in rows for row in rows[name]}

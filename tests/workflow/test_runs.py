@@ -10,8 +10,6 @@ import sys
 import time
 from pathlib import Path
 
-import pytest
-
 from rocking.study.outputs import STEPS
 from tests.synthetic import SyntheticRecord, at2_text
 
@@ -36,21 +34,6 @@ def test_every_described_file_stands_and_has_the_described_columns(finished) -> 
     for path, fields in described.items():
         with (folder / path).open(newline="") as stream:
             assert next(csv.reader(stream)) == [field["name"] for field in fields], path
-
-
-@pytest.mark.parametrize(
-    ("edited", "again"),
-    [("motion/nonlinear_kernel.py", [*sorted(STEPS), "summary"]), ("reports/record.py", [])],
-    ids=["numbers", "appearance"],
-)
-def test_an_edit_of_the_package_runs_again_what_depends_on_it(finished, edited, again) -> None:
-    path = finished.tree / "rocking" / edited
-    source = path.read_bytes()
-    try:
-        path.write_bytes(source + b"# edited\n")
-        assert finished.planned() == again
-    finally:
-        path.write_bytes(source)
 
 
 def test_kernels_are_compiled_once_until_their_folder_is_edited(finished) -> None:

@@ -4,11 +4,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from rocking.assessment.rows import FailureRow
+from rocking.assessment.rows import RECORD_TABLES, FailureRow
 from rocking.catalogue import CatalogueRecord
 from rocking.study.job import Job, Study
-from rocking.study.kept import keep_rows
-from rocking.study.outcomes import RecordOutcome, read_outcomes
+from rocking.study.kept import Kept, keep, kept_in
 from rocking.study.outputs import STEPS, kept_of, outcome_of
 from rocking.study.plan import Plan
 from rocking.study.products import BY_NAME
@@ -23,16 +22,16 @@ def made_job(records: Sequence[CatalogueRecord], study: Study, results: Path, ru
     return Job(rule, plan, study, results / "made.log")
 
 
-def outcomes_in(results: Path, records: Sequence[CatalogueRecord]) -> Iterator[RecordOutcome]:
+def outcomes_in(results: Path, records: Sequence[CatalogueRecord]) -> Iterator[Kept]:
     """What the jobs on `records` left, in their order."""
-    yield from read_outcomes(outcome_of(results, record.id) for record in records)
+    return (kept_in(outcome_of(results, record.id), RECORD_TABLES) for record in records)
 
 
 def keep_nothing(results: Path, *products: str) -> None:
     """Keep no rows of products over all records, as if they had been made."""
     for name in products:
         shown = (*work_of(BY_NAME[name]).shown, FailureRow)
-        keep_rows(kept_of(results, name), {row_class: [] for row_class in shown})
+        keep(kept_of(results, name), Kept({row_class: [] for row_class in shown}))
 
 
 def worked(records: Sequence[CatalogueRecord], study: Study, results: Path) -> Job:

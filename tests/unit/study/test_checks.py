@@ -32,7 +32,7 @@ from rocking.reports.summary import summary_data
 from rocking.structures.kinds import StructureKind
 from rocking.structures.structure import AS_DESCRIBED
 from rocking.study.job import Study
-from rocking.study.kept import keep_rows, kept_conclusion
+from rocking.study.kept import Kept, keep, kept_in
 from rocking.study.settings import Settings, read_settings
 from rocking.study.terminal import conclusion_lines
 from rocking.tables import read_table
@@ -287,8 +287,8 @@ def test_the_same_conclusion_stands_in_terminal_summary_workbook_and_page_to_exp
     rows = list(code_check_rows("pier", checked))
     concluded = code_conclusions(rows)
     sentence = code_conclusion_in_words(concluded)
-    keep_rows(tmp_path / "checks.json", {CodeCheckRow: rows}, conclusion=sentence)
-    kept = kept_conclusion(tmp_path / "checks.json")
+    keep(tmp_path / "checks.json", Kept({CodeCheckRow: rows}, sentence))
+    kept = kept_in(tmp_path / "checks.json", ()).conclusion
     assert " ".join(line.strip(" ") for line in conclusion_lines(kept)) == sentence
     work = Checks()
     beside = {CodeCheckRow: rows}

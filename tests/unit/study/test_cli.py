@@ -89,15 +89,6 @@ def test_a_factor_that_takes_the_peak_above_three_g_is_told(record, capsys, scal
     assert (str(told) in capsys.readouterr().out) == warned
 
 
-def test_an_unknown_target_names_those_there_are(study, capsys):
-    """Held against what the workflow declares: each is a rule of a file."""
-    assert main(["run", str(study), "nonsense"]) == 2
-    told = capsys.readouterr().err
-    for name in ("all", "documentation", "fragility", "paper", "trade", "validate"):
-        assert name in told
-    assert "target is 'nonsense', but must be one of" in told and not (study / "results").exists()
-
-
 @pytest.mark.parametrize(
     ("content", "words"), [("[1, 2]", "a list"), ("3", "a number"), ("text", "a text"), ("true", "a truth")]
 )

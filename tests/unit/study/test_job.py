@@ -30,8 +30,7 @@ from rocking.records import Accelerogram
 from rocking.reports.explore import RECORD_SCRIPT
 from rocking.structures import Block
 from rocking.study.job import Study, assess_catalogued, rows_of
-from rocking.study.kept import keep_rows
-from rocking.study.outcomes import read_outcomes
+from rocking.study.kept import Kept, keep, kept_in
 from rocking.study.outputs import STEPS, kept_of, outcome_of, outputs_of, store_of
 from rocking.study.results import Results
 from rocking.study.settings import Settings, StudyTrade
@@ -152,7 +151,7 @@ def test_a_damaged_outcome_is_told_with_its_path(of_four, damaged) -> None:
     path = outcome_of(of_four[0], "one")
     path.write_bytes(damaged)
     with refused(RockingError, "path", path):
-        next(read_outcomes([path]))
+        kept_in(path, RECORD_TABLES)
 
 
 @pytest.mark.parametrize("in_summary", [False, True])
@@ -184,7 +183,7 @@ def test_a_summary_draws_the_trade_where_its_study_measures_it(tmp_path, monkeyp
         cpu_s=1e-3,
     )
     fault = filled(FailureRow, record="", structure="pier", stage="fault", message="a fault.")
-    keep_rows(kept_of(results, "trade"), {TradeRow: [row], FailureRow: [fault]})
+    keep(kept_of(results, "trade"), Kept({TradeRow: [row], FailureRow: [fault]}))
     keep_nothing(results, "map")
     summarise(job)
     assert len(trades[0]) == in_summary

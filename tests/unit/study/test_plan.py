@@ -180,28 +180,6 @@ def test_every_file_that_is_read_counts_and_no_other(tmp_path, cells, content, f
     assert (_hash(record) != before) == counts
 
 
-def test_an_edit_of_the_reports_is_in_the_hash_of_the_package_and_not_in_that_of_its_numbers(
-    tmp_path, monkeypatch
-):
-    for name in ("reports/page.py", "motion/table.py", "study/settings.py"):
-        path = tmp_path / name
-        path.parent.mkdir()
-        path.write_text("1\n")
-    monkeypatch.setattr(settings_module, "__file__", str(tmp_path / "study" / "settings.py"))
-
-    def hashes() -> tuple[str, str]:
-        hash_of = settings_module.package_sha256.__wrapped__
-        return hash_of(), hash_of(reports=False)
-
-    before = hashes()
-    (tmp_path / "reports" / "page.py").write_text("2\n")
-    after = hashes()
-    assert after[0] != before[0] and after[1] == before[1]
-
-    (tmp_path / "motion" / "table.py").write_text("2\n")
-    assert hashes()[0] != after[0] and hashes()[1] != after[1]
-
-
 def test_what_walls_are_taken_for_is_a_remark_of_the_study_that_asks_nothing_before_a_run(
     tmp_path: Path,
 ) -> None:

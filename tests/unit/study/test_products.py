@@ -14,7 +14,7 @@ from rocking.assessment.settings import EnsembleSettings
 from rocking.catalogue import CatalogueRecord
 from rocking.catalogue.catalogue import is_safe_id
 from rocking.study.job import Study
-from rocking.study.kept import keep_rows, kept_conclusion, kept_rows
+from rocking.study.kept import Kept, keep, kept_in
 from rocking.study.outputs import outputs_of
 from rocking.study.product import Product
 from rocking.study.products import PRODUCTS
@@ -111,12 +111,13 @@ def test_its_job_writes_the_files_that_its_rule_declares(product: Product, asses
     job = made_job(records, study, folder / "results", product.name)
     work = work_of(product)
     made = work.make(job)
-    keep_rows(job.kept, {FailureRow: [], **made.rows}, conclusion=made.conclusion)
+    keep(job.kept, Kept({FailureRow: [], **made.rows}, made.conclusion))
     files = set(outputs_of(product.name, job.plan.settings).values())
     assert {path for path in files if path.stat().st_size} == files
-    rows = kept_rows(job.kept, (*work.shown, FailureRow))
+    kept = kept_in(job.kept, (*work.shown, FailureRow))
     assert {*work.shown} <= {*made.rows}
-    assert kept_conclusion(job.kept) == made.conclusion
+    assert kept.conclusion == made.conclusion
+    rows = kept.rows
     panel = work.panel(rows)
     assert panel is None or panel.title
     assert {*work.notes(rows)} <= {*study.structures}

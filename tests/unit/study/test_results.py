@@ -19,7 +19,7 @@ from rocking.assessment.rows import (
 from rocking.errors import RockingError
 from rocking.remarks import Remark, every_kind
 from rocking.study.cli import main
-from rocking.study.outcomes import RecordOutcome, keep_outcome, verdicts_of
+from rocking.study.kept import Kept, keep, kept_in
 from rocking.study.outputs import STEPS, former_files, outcome_of, outputs_of, remove, store_of
 from rocking.study.settings import Settings
 from rocking.tables import read_rows, write_rows
@@ -59,10 +59,8 @@ def test_an_outcome_keeps_the_decision_with_the_values_of_its_remarks(tmp_path: 
     (of_station,) = verdicts([station(case("EW", 0.3, falls=32))])
     row = replace(of_station, decision=decision, reserve=reserve)
     path = outcome_of(tmp_path, "a")
-    keep_outcome(
-        path, RecordOutcome({row_class: [] for row_class in RECORD_TABLES} | {VerdictRow: [row]}, {}, {}, {})
-    )
-    (kept,) = verdicts_of([path])
+    keep(path, Kept({row_class: [] for row_class in RECORD_TABLES} | {VerdictRow: [row]}))
+    (kept,) = kept_in(path, [VerdictRow]).rows[VerdictRow]
     assert kept.decision == decision
     assert repr(kept.reserve) == repr(reserve)
     assert repr(kept) == repr(row)

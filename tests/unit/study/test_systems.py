@@ -42,7 +42,7 @@ def test_without_locks_what_runs_a_study_says_where_it_works_and_all_else_works(
 @pytest.mark.slow
 @pytest.mark.process
 def test_a_python_in_a_folder_with_a_blank_runs_a_study(tmp_path: Path) -> None:
-    """As one in a home folder of two words is, where snakemake ended without a cause."""
+    """As one in a home folder of two words is: no job needs a command line."""
     environment = tmp_path / "two words"
     environment.symlink_to(sys.prefix, target_is_directory=True)
     study = tmp_path / "study"
@@ -54,15 +54,6 @@ def test_a_python_in_a_folder_with_a_blank_runs_a_study(tmp_path: Path) -> None:
     done = subprocess.run(command, capture_output=True, text=True, cwd=ROOT)
     assert done.returncode == 0, done.stderr
     assert (study / "results" / "synthetic_strong_pulse" / "report.pdf").exists()
-
-
-def test_a_program_that_runs_a_study_is_told_of_the_blank(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setattr(sys, "executable", f"{sys.prefix}/two words/python")
-    assert main(["run", str(tmp_path)]) == 2
-    told = capsys.readouterr().err
-    assert "has a blank" in told and told.count("\n") == 1
 
 
 def test_the_package_names_the_systems_that_it_runs_on() -> None:
