@@ -150,9 +150,6 @@ def _parser() -> argparse.ArgumentParser:
             "folder", type=Path, nargs="?", default=Path(), help="folder of the study (default: this one)"
         )
         made.set_defaults(run=_product, product=product)
-    add = verb(_tables, "write the tables of single records of a finished study")
-    add("results", type=Path, help="folder of the results of a study")
-    add("record", nargs="+", help="identifier of a record in the catalogue")
     add = verb(_assess, "assess structures under accelerograms", channels)
     of_list = "list of structures: a file (YAML, CSV, XLSX), - for what comes in, or '{type: block, breadth_m: 1, ...}'"
     add("--structures", required=True, type=_list_of_structures, metavar="LIST", help=of_list)
@@ -260,13 +257,6 @@ def _strengthen(options: argparse.Namespace) -> None:
         lambda line: print(line, file=sys.stderr),
     )
     print(*lines, sep="\n")
-
-
-def _tables(options: argparse.Namespace) -> None:
-    from rocking.study.results import open_results
-
-    for record in options.record:
-        print(open_results(options.results).write_record(record)[0].parent)
 
 
 def _read(options: argparse.Namespace) -> int:

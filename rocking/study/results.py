@@ -1,29 +1,18 @@
 """The results of a study: the tables in its folder, read back."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, TimingRow
+from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES
 from rocking.errors import RockingError
 from rocking.study.product import Product
 from rocking.study.products import PRODUCTS
-from rocking.tables import Row, check_tables, frame, write_whole, written_together
-from rocking.tables.rows import check_columns, readable
+from rocking.tables import Row, frame
 
 if TYPE_CHECKING:
     from pandas import DataFrame
-
-
-def _lines_of(row_class: type[Row], path: Path, record: str) -> Iterator[bytes]:
-    """Yield the lines of one record in a table over all records, behind its head."""
-    with readable(path) as stream:
-        head = stream.readline()
-        check_columns(row_class.table, head.rstrip("\n").split(","), path)
-        yield head.encode()
-        # A row is one line, and begins with the identifier of its record.
-        yield from (line.encode() for line in stream if line.startswith(f"{record},"))
 
 
 _OWN = {row_class.table.name: row_class for row_class in (*RECORD_TABLES, *SUMMARY_TABLES)}
@@ -80,29 +69,6 @@ class Results:
             )
         table = pd.concat([frame(row_class, path, ["record", *names]) for path in paths])
         return table.sort_values("record", kind="stable", ignore_index=True)[names]
-
-    def write_record(self, record: str, folder: Path | str | None = None) -> list[Path]:
-        """Write the tables of one record as CSV into `folder`, else into its folder, and return their paths.
-
-        Raises RockingError where there is no such record, and where the folder holds another file by one of the names.
-        """
-        target = self.folder / record if folder is None else Path(folder)
-        if folder is not None:
-            check_tables(RECORD_TABLES, target)
-        summary = self.folder / "summary"
-        tables = {
-            row_class: list(_lines_of(row_class, summary / row_class.table.file_name, record))
-            for row_class in RECORD_TABLES
-        }
-        if len(tables[TimingRow]) == 1:  # which every record has, also one that could not be read
-            raise RockingError(
-                f"{self.folder} holds no tables of {record!r}; name a record of a study that has been run.",
-                record=record,
-            )
-        with written_together():
-            for row_class, lines in tables.items():
-                write_whole(target / row_class.table.file_name, lines)
-        return [target / row_class.table.file_name for row_class in RECORD_TABLES]
 
     def __getattr__(self, name: str) -> "DataFrame":
         if name not in _names():

@@ -18,7 +18,6 @@ from rocking.assessment.rows import (
 )
 from rocking.errors import RockingError
 from rocking.remarks import Remark, every_kind
-from rocking.study.cli import main
 from rocking.study.kept import Kept, keep, kept_in
 from rocking.study.outputs import STEPS, former_files, outcome_of, outputs_of, remove, store_of
 from rocking.study.settings import Settings
@@ -82,15 +81,6 @@ def test_what_is_not_there_is_said(folder: Path) -> None:
         results.table("sums")
     with refused(RockingError, "folder"):
         rocking.open_results(folder / "nowhere")
-
-
-def test_the_tables_of_a_record_are_written_where_they_are_asked_for(folder: Path, capsys) -> None:
-    assert main(["tables", str(folder), "a"]) == 0
-    assert capsys.readouterr().out == f"{folder / 'a'}\n"
-    assert [row.record for row in read_rows(TimingRow, folder / "a" / "timings.csv")] == ["a"]
-    assert len(rocking.open_results(folder).write_record("b", folder / "elsewhere")) == len(RECORD_TABLES)
-    assert main(["tables", str(folder), "c"]) == 1
-    assert "holds no tables of 'c'" in capsys.readouterr().err
 
 
 def test_the_tables_of_records_assessed_one_by_one_are_gathered(tmp_path: Path) -> None:
