@@ -47,6 +47,11 @@ def targets(rule, record=""):
     return [str(path) for output, path in outputs_of(rule, SETTINGS, record).items() if not output.is_store]
 
 
+def smaller_first(wildcards, input):
+    """The priority of a record, which is larger where its files are smaller."""
+    return 1 / (1 + sum(os.path.getsize(file) for file in input.files if os.path.exists(file)))
+
+
 def cores_of_record(wildcards):
     """The cores over the records that this run makes. A job on another machine has one."""
     if workflow.remote_exec or not workflow.local_exec:
