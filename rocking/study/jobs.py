@@ -2,9 +2,6 @@
 
 import contextlib
 import errno
-import os
-import time
-from collections.abc import Iterable
 from pathlib import Path
 from traceback import print_exception
 
@@ -25,19 +22,12 @@ from rocking.tables import write_whole
 _DRAWN = (".pdf", ".svg", ".xlsx", ".html")
 
 
-def run(rule: str, plan: Plan, log: str, files: Iterable[str], cores: int, folder: str) -> None:
+def run(rule: str, plan: Plan, log: str, cores: int, folder: str) -> None:
     """Do the job of a rule.
 
-    files: of other jobs that it reads, and those that it wrote before: dates of these ahead of the clock, with which
-    snakemake would never be content, become now. folder: in which the files lie that the rule declares, as the study
-    names them; on another machine they are copies.
+    folder: in which the files lie that the rule declares, as the study names them; on another machine they are copies.
     """
-    now = time.time()
     log = str(Path(log).absolute())
-    for file in files:
-        with contextlib.suppress(OSError):
-            if os.stat(file).st_mtime > now:
-                os.utime(file)
     with contextlib.chdir(folder or "."), on_cores(cores):
         match rule:
             case "read" | "pulses" | "predict" | "integrate" | "report":

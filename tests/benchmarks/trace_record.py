@@ -47,7 +47,7 @@ def note(frame, event, _):
 plan = make_plan(check_config_file(Path("config.yaml"))).of(record)
 sys.setprofile(note)
 for step in STEPS:
-    jobs.run(step, plan, "record.log", [], 1, "")
+    jobs.run(step, plan, "record.log", 1, "")
 sys.setprofile(None)
 for file in dict.fromkeys(entered.values()):
     print(file, *(f"    {code.co_qualname}" for code, place in entered.items() if place == file), sep="\\n")

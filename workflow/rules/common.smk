@@ -72,11 +72,10 @@ def memory_of_record(wildcards, input, attempt):
     return attempt * round(500 + 1000 * max((size_of[file] for file in input), default=0))
 
 
-def work(rule, plan, input, output, log, cores=1):
+def work(rule, plan, input, log, cores=1):
     """Do the job of a rule in a process of its own."""
     folder = folder_of(input.listed[0], SETTINGS.catalogue) if ELSEWHERE else ""
-    made = [file for file in (*input, *output) if Path(file).is_relative_to(RESULTS)]
-    run_apart(SETTINGS, log[0], "rocking.study.jobs:run", rule, plan, log[0], made, cores, folder)
+    run_apart(SETTINGS, log[0], "rocking.study.jobs:run", rule, plan, log[0], cores, folder)
 
 
 def research(rule, catalogues, output, log):
