@@ -205,8 +205,13 @@ class Plan:
         }  # snakemake compares values alone
 
     def contents(self, rule: str, record: str = "") -> str:
-        """Return one hash for the rows of the records of a job, the contents of `files` and how tables are read."""
-        rows = [self.of(record).records[record]] if record else [*self.records.values()]
+        """Return one hash for the rows of the records of a job, the contents of `files` and how tables are read.
+
+        What a step of a record takes from the steps before it snakemake itself knows by its date.
+        """
+        rows = [] if record else [*self.records.values()]
+        if rule == "read":
+            rows = [self.of(record).records[record]]
         files = [] if rule == "summary" else self.files(rule, record)
         opens = rule == "read" or (rule in BY_NAME and BY_NAME[rule].opens_records)
         answers = [self.answers_of(row) for row in rows] if opens else []

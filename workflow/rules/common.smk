@@ -49,7 +49,12 @@ def targets(rule, record=""):
 
 def smaller_first(wildcards, input):
     """The priority of a record, which is larger where its files are smaller."""
-    return 1 / (1 + sum(os.path.getsize(file) for file in input.files if os.path.exists(file)))
+    return 1 / (1 + sum(sizes(input.files)))
+
+
+def sizes(files):
+    """MB of each file that lies here."""
+    return [os.path.getsize(file) / 1e6 for file in files if os.path.exists(file)]
 
 
 def cores_of_record(wildcards):
@@ -68,8 +73,7 @@ def memory_of_record(wildcards, input, attempt):
     A pair of 150 s at 100 Hz takes 310 MB, of 600 s, which is 0.9 MB a file as text, 370 MB; packed files hold up to ten
     times as many samples a byte.
     """
-    size_of = dict(zip(input, input.size_files_mb))
-    return attempt * round(500 + 1000 * max((size_of[file] for file in input), default=0))
+    return attempt * round(500 + 1000 * max(sizes(input), default=0))
 
 
 def work(rule, plan, input, log, cores=1):
