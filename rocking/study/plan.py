@@ -197,6 +197,8 @@ class Plan:
         made_from["libraries"] = ", ".join(f"{name} {number}" for name, number in versions().items())
         if rule not in ("read", "pulses"):
             made_from["structures_sha256"] = sha256_of(*structure_hashes(self.scenes).items())[:16]
+        if rule == "summary":
+            made_from["products"] = ", ".join(self.products)
         if product and product.pool:
             terms = ((name, scene.terms) for name, scene in self.scenes.items())
             made_from["terms_of_structures"] = sha256_of(*terms)[:16]
