@@ -10,6 +10,8 @@ import sys
 import time
 from pathlib import Path
 
+import pytest
+
 from rocking.study.outputs import STEPS
 from tests.synthetic import SyntheticRecord, at2_text
 
