@@ -180,8 +180,8 @@ def every_structure():
     yield from HELD
 
 
-def printed(structure, words):
-    """The texts of the page of a structure on which everything is said that there may be to say."""
+def printed(structure, *languages):
+    """The texts of the page of a structure on which everything is said that there may be to say, in some languages."""
     try:
         checked, refusal = check(structure, SPECTRUM), ""
     except RockingError as error:
@@ -200,7 +200,8 @@ def printed(structure, words):
         mechanisms=mechanisms_of(structure),
         remarks=(*structure.described.remarks, *structure.cautions),
     )
-    return texts_of(structures_data([page], SPECTRUM, Settings(language=words).for_pages_to_sign))
+    settings = [Settings(language=language).for_pages_to_sign for language in languages]
+    return [texts_of(structures_data([page], SPECTRUM, of_language)) for of_language in settings]
 
 
 @pytest.mark.process
@@ -217,8 +218,8 @@ def test_the_catalogue_holds_what_every_page_prints(monkeypatch):
     texts = Asked(ITALIAN_TEXTS)
     monkeypatch.setattr(sentences, "catalogue", lambda language: texts if language == "it" else {})
     for structure in every_structure():
-        italian = printed(structure, "it")
-        assert len(italian) == len(printed(structure, "en")), "a page says the same in both languages"
+        italian, english = printed(structure, "it", "en")
+        assert len(italian) == len(english), "a page says the same in both languages"
         assert not any("Error" in text for text in italian)
     for kind in (*StructureKind, *CheckKind, *ReportKind, FloorKind.HEAVY_ON_SUPPORT, *AssessmentKind):
         ITALIAN.of(Remark.of(kind, "A", **dict.fromkeys(kind.value_names, 1.5)))

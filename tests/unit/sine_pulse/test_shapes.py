@@ -44,7 +44,7 @@ def test_every_shape_turns_the_block_as_scipy_integrates_it(shape):
     eta = 0.8
     block = block_of(eta)
     seen = set()
-    for a, omega in ((0.9, 2.1), (1.2, 0.7), (1.2, 4.6), (2.3, 2.1), (2.3, 4.6), (4.0, 2.1), (4.0, 4.6)):
+    for a, omega in ((0.9, 2.1), (1.2, 0.7), (2.3, 2.1), (2.3, 4.6), (4.0, 4.6)):
         pulse = pulse_of(shape, a, omega)
         predicted = predict_maximum(block, pulse)
         expected = largest_rotation(eta, a, omega, *SHAPES[shape])
