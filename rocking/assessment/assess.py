@@ -1,7 +1,7 @@
 """Assess: the door for Python, one record and one structure in, the verdict with its ensemble out."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from math import inf
 from typing import TYPE_CHECKING, Literal
 
@@ -37,10 +37,14 @@ class StructureAssessment(PeriodResult, Drawn):
         The structure, and where it stands.
     cases : mapping of str to CaseResult
         Result of each component, by its name.
-    directions : CaseResult or None, optional
+    directions : CaseResult or None
         Result of the pair over its directions; None of one component.
-    support : MovingSupport or None, optional
+    support : MovingSupport or None
         What carries the structure; None on the ground.
+    decision : Decision
+        What becomes of it.
+    decided_on : str
+        Name of the component that decides, or "both".
 
     Examples
     --------
@@ -234,7 +238,7 @@ def assess(
     for _, failure in result.failures:
         if failure.stage == "directions":
             raise RecordError(failure.message)
-    return StructureAssessment(period_result.scene, period_result.cases, period_result.directions)
+    return StructureAssessment(*(getattr(period_result, field.name) for field in fields(period_result)))
 
 
 def _checked_records(record: object) -> list[Accelerogram]:

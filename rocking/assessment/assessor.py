@@ -353,7 +353,7 @@ class Assessor:
         loss = scene.terms.support_loss
         cases = {name: case.losing_seats(scene.structure, loss) for name, case in cases.items()}
         directions = directions and directions.losing_seats(scene.structure, loss)
-        return PeriodResult(scene, cases, directions, shaking.support)
+        return PeriodResult.of(scene, cases, directions, shaking.support)
 
     def _of_governing(
         self, period_result: PeriodResult, case: CaseResult, component: Component
@@ -492,7 +492,7 @@ def _lost(
     """The result of a scene to whose support the record cannot be taken: why. names: of the components."""
     failure = Failure("responses", str(error))
     cases = {name: CaseResult(structure=scene.name, component=name, failures=(failure,)) for name in names}
-    return PeriodResult(scene, cases, support=support)
+    return PeriodResult.of(scene, cases, support=support)
 
 
 def with_histories(

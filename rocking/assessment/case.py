@@ -265,13 +265,28 @@ class PeriodResult:
     that governs.
 
     cases: by component, those that failed too. directions: the case of the pair; None of one component, or without
-    ensembles. support: of those along the axis of its place; None on the ground.
+    ensembles. support: of those along the axis of its place; None on the ground. decision: what becomes of it.
+    decided_on: name of the component that decides, or `BOTH_COMPONENTS`; "" where none gave a result.
     """
 
     scene: Scene
     cases: Mapping[str, CaseResult]
-    directions: CaseResult | None = None
-    support: MovingSupport | None = None
+    directions: CaseResult | None
+    support: MovingSupport | None
+    decision: Decision
+    decided_on: str
+
+    @classmethod
+    def of(
+        cls,
+        scene: Scene,
+        cases: Mapping[str, CaseResult],
+        directions: CaseResult | None = None,
+        support: MovingSupport | None = None,
+    ) -> "PeriodResult":
+        """Return the result with what is decided on these cases."""
+        deciding, decision = _decided(scene.structure, cases, directions)
+        return cls(scene, cases, directions, support, decision, deciding)
 
     @property
     def structure(self) -> str:
@@ -291,25 +306,6 @@ class PeriodResult:
         answered = [case for case in self.cases.values() if case.response is not None]
         return max(answered, key=lambda case: case.severity, default=None)
 
-    @cached_property
-    def _decided(self) -> tuple[CaseResult | None, Decision]:
-        """The case that decides, None where no component gave a result; and the decision."""
-        if self.directions is not None and self.directions.ensembles is not None:
-            # All directions are one: what a component lacks takes nothing away.
-            return self.directions, self.directions.decision(self.scene.structure)
-        answered = [case for case in self.cases.values() if case.response is not None]
-        if not answered:
-            first = [case.failure.message for case in self.cases.values() if case.failure][:1]
-            return None, decide(Facts(failures=tuple(first)))
-        both = [*self.cases.values(), *([self.directions] if self.directions else [])]
-        missing = tuple(
-            f"the component {case.component or 'not named'} gave no result: {case.failure.message}"
-            for case in both
-            if case.failure
-        )
-        decided = [(case, case.decision(self.scene.structure, missing)) for case in answered]
-        return max(decided, key=lambda pair: (severity(pair[1]), *_rotation_severity(pair[0])))
-
     def check_of(self, candidate: Candidate) -> ModelCheck | None:
         """Return the contacts along the run of one of its mechanisms under the worst component as recorded.
 
@@ -323,21 +319,19 @@ class PeriodResult:
         return case.check if case is not None and candidate.is_own_of(self.scene.structure) else None
 
     @property
-    def decision(self) -> Decision:
-        """What becomes of it."""
-        return self._decided[1]
+    def deciding(self) -> CaseResult | None:
+        """The case that decides; None where no component gave a result."""
+        return self.directions if self.decided_on == BOTH_COMPONENTS else self.cases.get(self.decided_on)
 
     @property
     def decisive(self) -> CaseResult | None:
         """The case whose ensemble decides; None without an ensemble."""
-        case = self._decided[0]
-        return case if case is not None and case.ensembles is not None else None
+        return self.deciding if self.deciding is not None and self.deciding.ensembles is not None else None
 
     @property
     def friction_needed(self) -> float:
         """The friction coefficient that a contact needs, where it has less, of what (probably) stands; else nan."""
-        case = self._decided[0]
-        return case.friction_needed if case is not None else math.nan
+        return self.deciding.friction_needed if self.deciding is not None else math.nan
 
     @property
     def ensemble(self) -> Ensemble:
@@ -469,6 +463,27 @@ class PeriodResult:
         """Side of the largest rotation or of the overturning, 1 or -1; 0 without uplift, None without integration."""
         response = self.worst.response if self.worst else None
         return response.peak_side if response else None
+
+
+def _decided(
+    body: Structure, cases: Mapping[str, CaseResult], directions: CaseResult | None
+) -> tuple[str, Decision]:
+    """The name of the component that decides, "" where none gave a result; and the decision."""
+    if directions is not None and directions.ensembles is not None:
+        # All directions are one: what a component lacks takes nothing away.
+        return BOTH_COMPONENTS, directions.decision(body)
+    answered = {name: case for name, case in cases.items() if case.response is not None}
+    if not answered:
+        first = [case.failure.message for case in cases.values() if case.failure][:1]
+        return "", decide(Facts(failures=tuple(first)))
+    both = [*cases.values(), *([directions] if directions else [])]
+    missing = tuple(
+        f"the component {case.component or 'not named'} gave no result: {case.failure.message}"
+        for case in both
+        if case.failure
+    )
+    decided = [(name, case.decision(body, missing)) for name, case in answered.items()]
+    return max(decided, key=lambda pair: (severity(pair[1]), *_rotation_severity(answered[pair[0]])))
 
 
 @dataclass(frozen=True, eq=False)

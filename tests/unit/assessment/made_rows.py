@@ -100,7 +100,7 @@ def station(*cases: CaseResult, falls_in_directions: int | None = None) -> Perio
             ensembles=of_one_crack(members(falls_in_directions)),
         )
     by_component = {case.component: case for case in cases}
-    return PeriodResult(Scene(cases[0].structure, Block(2.0, 0.2)), by_component, directions)
+    return PeriodResult.of(Scene(cases[0].structure, Block(2.0, 0.2)), by_component, directions)
 
 
 def decided(decision: Decision, reserve: Reserve | None = None, **values: Any) -> VerdictRow:

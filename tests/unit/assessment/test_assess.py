@@ -57,7 +57,7 @@ def assessed(record: Accelerogram, settings: AssessmentSettings = SETTINGS, vert
 
 
 def compared(case: CaseResult) -> ComparisonRow:
-    station = PeriodResult(Scene("block", BLOCK), {case.component: case})
+    station = PeriodResult.of(Scene("block", BLOCK), {case.component: case})
     return ComparisonRow.of(ComparedCase(IDENTITY, station, case))
 
 

@@ -10,6 +10,7 @@ from xml.etree import ElementTree
 
 import pytest
 
+from rocking.assessment.case import PeriodResult
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.decide import Limit, Verdict
 from rocking.assessment.kinds import AssessmentKind
@@ -49,7 +50,7 @@ def with_members(station, falls, limits=()):
         name: replace(case, ensembles=ensembles, limits=limits, reserve=None)
         for name, case in station.cases.items()
     }
-    return replace(station, cases=cases)
+    return PeriodResult.of(station.scene, cases, station.directions, station.support)
 
 
 @pytest.fixture(scope="module")

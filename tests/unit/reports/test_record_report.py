@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from rocking.assessment.case import PeriodResult
 from rocking.assessment.decide import ORDER, Limit
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.methods import Acts, Agreement
@@ -354,7 +355,7 @@ def test_a_reserve_that_may_be_too_high_is_grey(example):
         one_case: replace(case, limits=(Limit.untold(Remark(AssessmentKind.CONTACTS_OPEN)),))
         for one_case, case in station.cases.items()
     }
-    in_doubt = replace(scene, periods=(replace(station, cases=cases),))
+    in_doubt = replace(scene, periods=(PeriodResult.of(station.scene, cases),))
     result = replace(example.result, scenes={**example.result.scenes, name: in_doubt})
     doubtful = replace(example, result=result, tables=rows_of_record(result, "cd" * 32, "CC0-1.0"))
     data = doubtful.page()
