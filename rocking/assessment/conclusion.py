@@ -70,14 +70,10 @@ class Conclusion:
         """What to do about it; where there is nothing to do, what explains the word."""
         decision = self.verdict.decision
         word = decision.word
-        if decision.other_model is not None:
-            return decision.other_model
-        if not math.isnan(self.verdict.friction_needed):
+        if not math.isnan(self.verdict.friction_needed) and decision.other_model is None:
             return self._sliding(self.verdict.friction_needed)
-        if decision.would_settle and not word.is_sure:
-            return decision.would_settle[0]
-        if decision.doubts:
-            return decision.doubts[0]
+        if decision.remark is not None:
+            return decision.remark
         shares = [place.overturning_share for place in self.elsewhere if place.overturning_share >= 0]
         if shares and "–" in (share := percents(*shares)):
             return Remark.of(AssessmentKind.OTHER_PERIODS, share=share)

@@ -367,9 +367,12 @@ class Decision:
 
     @property
     def remark(self) -> Remark | None:
-        """What would tell more of a word that is not sure, else what may make it worse; None without either."""
-        first = () if self.word.is_sure else self.would_settle
-        return next(iter((*first, *self.doubts)), None)
+        """How many fall by the other model, else what would tell more of a word that is not sure, else what may make it
+        worse; None without any.
+        """
+        first = (self.other_model,) if self.other_model else ()
+        would_settle = () if self.word.is_sure else self.would_settle
+        return next(iter((*first, *would_settle, *self.doubts)), None)
 
     @property
     def share_in_words(self) -> str:

@@ -390,10 +390,9 @@ class IncrementalDynamicAnalysis:
     """The largest rotations of a structure under records at levels of an intensity measure.
 
     measure: of the levels. levels: (k,) ascending. rotation_ratios: (r, k, m) of every record, level and member, with
-    the crack that statics chooses where some may form; inf overturns or cannot be followed, nan where a cloud holds no
-    such case. governing_ratios: the same with the crack that governs at each level; None where others were not
-    followed. intensities: (r,) of the records as they are. sample: their stations and earthquakes. falls: of each
-    record (r) at each level (k), with the crack that governs; None where no level was tried.
+    the crack that governs there; inf overturns or cannot be followed, nan where a cloud holds no such case.
+    intensities: (r,) of the records as they are. sample: their stations and earthquakes. falls: of each record (r) at
+    each level (k); None where no level was tried.
     """
 
     measure: IntensityMeasure
@@ -401,7 +400,6 @@ class IncrementalDynamicAnalysis:
     rotation_ratios: np.ndarray
     intensities: np.ndarray
     sample: Sample
-    governing_ratios: np.ndarray | None = None
     falls: Sequence[Sequence[Falls | None]] = ()
 
     def __repr__(self) -> str:
@@ -419,15 +417,14 @@ class IncrementalDynamicAnalysis:
         """The factors (r, k) on the records that take them to the levels."""
         return factors_to(self.levels, self.intensities, self.measure.power)
 
-    def fragility(self, threshold: float = np.inf, *, governing: bool = False) -> Fragility:
-        """Return the curve of exceeding a rotation ratio; inf: of overturning. governing: with the worst crack."""
-        worst = self.governing_ratios if governing else None
-        ratios = self.rotation_ratios if worst is None else worst
+    def fragility(self, threshold: float = np.inf) -> Fragility:
+        """Return the curve of exceeding a rotation ratio; inf: of overturning."""
+        ratios = self.rotation_ratios
         above = np.isinf(ratios) | (ratios > threshold)
         exceedance = np.where(np.isnan(ratios), np.nan, above).mean(axis=2)
         upper = None
         by = "mechanism"
-        if math.isinf(threshold) and self.falls and (governing or self.governing_ratios is None):
+        if math.isinf(threshold) and self.falls:
             ends = np.array(
                 [
                     [(np.nan, np.nan) if one is None else (one.low, one.high) for one in of_record]
@@ -575,22 +572,21 @@ def fragility(
         scaling = _Scaling(intensities, sample.stations, largest_factor, measure.power)
         chosen, ratios = _at_levels(partial(follow, mechanism), mechanism, carried, scaling, levels)
         factors = scaling.factors(chosen)
-    worst = None
     if over_cracks and others:
         left_out = _left_out(counting, carried, factors)
-        worst = np.where(left_out[0, ..., None], 0.0, ratios)
+        ratios = np.where(left_out[0, ..., None], 0.0, ratios)
         for other, is_out in zip(others, left_out[1:], strict=True):
-            worst = follow(other.mechanism, np.where(is_out, np.nan, factors), worst)
+            ratios = follow(other.mechanism, np.where(is_out, np.nan, factors), ratios)
     varied = AssessmentSettings(ensemble=ensemble or EnsembleSettings(), tolerance=tolerance)
     told = partial(falls_along, body, varied, contacts=contacts)
     falls: list[list[Falls | None]] = []
     if over_cracks:
         with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-            found = pool.map(told, carried, factors, ratios if worst is None else worst)
+            found = pool.map(told, carried, factors, ratios)
             falls = list(bar(found, "record", len(carried)))
-    analysis = IncrementalDynamicAnalysis(measure, chosen, ratios, intensities, sample, worst, falls)
+    analysis = IncrementalDynamicAnalysis(measure, chosen, ratios, intensities, sample, falls)
     beyond = () if levels is None else tuple(float(level) for level in levels if level > chosen[-1])
-    return replace(analysis.fragility(threshold, governing=True), unreached=beyond)
+    return replace(analysis.fragility(threshold), unreached=beyond)
 
 
 def checked_sample(sample: Sample) -> Sample:

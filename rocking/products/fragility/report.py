@@ -6,7 +6,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -54,7 +53,6 @@ _GOVERNING = 3
 _HALF = 0.5
 """Share of the members from which on a record overturns a structure."""
 _COLOURS = dict(zip(ROTATION_RATIOS, ("#56B4E9", "#0072B2", "#009E73"), strict=False))
-_WORST = "#D55E00"
 _FIRST = next(iter(INTENSITY_MEASURES))
 _READ = (
     "structure",
@@ -63,7 +61,6 @@ _READ = (
     "station",
     "level",
     "overturning_share",
-    "governing_overturning_share",
 )
 
 
@@ -145,24 +142,16 @@ def fragility_panel(rows: Mapping[type[Row], Iterable[Row]]) -> Panel:
 
 
 def fragility_table(summary: Sequence[FragilitySummaryRow], ida: "DataFrame") -> CaptionedTable:
-    """Return one row per structure: its median, that with the worst crack, and what overturns it first."""
+    """Return one row per structure: its median, and what overturns it first."""
     label = interval_words(max((row.earthquakes for row in summary), default=0))
     falls = [row for row in summary if row.threshold == math.inf]
-    first_rows = _governing_rows(summary)
-    governed = {row.structure for row in falls if row.governing}
-    by_statics = {
-        row.structure: _with_interval(row) for row in falls if row.structure in governed and not row.governing
-    }
     records = governing_records(ida)
     first = "First to overturn it, and at what level"
-    elsewhere = "Median with the crack of statics"
-    of_statics: Column = (elsewhere, "1.0", "l", lambda row: words(by_statics.get(row.structure)))
     rate: Column = (f"Annual rate and its {label} [1/year]", "1.0", "r", _rate_with_interval)
     table = table_of(
-        list(first_rows.values()),
+        falls,
         ("Structure", "1.3", "l", lambda row: row.structure),
         (f"Median and its {label}", "1.3", "l", lambda row: _with_interval(row, row.intensity_measure)),
-        *([of_statics] if by_statics else []),
         ("Disper\u00adsion [-]", "0.6", "r", lambda row: number(row.dispersion, 2)),
         (
             "Sta\u00adtions of earth\u00adquakes",
@@ -177,11 +166,11 @@ def fragility_table(summary: Sequence[FragilitySummaryRow], ida: "DataFrame") ->
     )
     caption = (
         f"Level that half of the stations overturn each structure at, with its {label} by earthquakes (– where "
-        "it is not known), for the crack that governs, the worst of those that may form, and for that of statics; the "
+        "it is not known), for the crack that governs, the worst of those that may form; the "
         "stations that reach this level within the largest factor, and the factor with which nine in ten would; "
         "dispersion of the lognormal curve; "
         "records under which it overturns first, with the level of each: they govern the lower end of its curve; and "
-        f"how many records, scaled up, let it stand again.{_scaled(list(first_rows.values()))}{_untold(falls)}"
+        f"how many records, scaled up, let it stand again.{_scaled(falls)}{_untold(falls)}"
     )
     return CaptionedTable(table, caption)
 
@@ -273,8 +262,7 @@ def _unit(measure: str) -> str:
 
 def governing_records(ida: "DataFrame") -> dict[str, str]:
     """Return for each structure the records that overturn it at the lowest levels, with the level of each."""
-    governing = ida["governing_overturning_share"]
-    falls = ida[governing.where(governing.notna(), ida["overturning_share"]) >= _HALF]
+    falls = ida[ida["overturning_share"] >= _HALF]
     levels = falls.groupby(["structure", "record"], sort=False, observed=True)["level"].min()
     texts: dict[str, list[str]] = {}
     for (structure, record), level in levels.sort_values(kind="stable").items():
@@ -284,11 +272,11 @@ def governing_records(ida: "DataFrame") -> dict[str, str]:
 
 @styled
 def fragility_figure(curves: "DataFrame", summary: Sequence[FragilitySummaryRow] = ()) -> Figure:
-    """Draw the curves of each structure from the table fragility, and that of overturning with the worst crack.
+    """Draw the curves of each structure from the table fragility.
 
     summary: the medians of overturning with their intervals, which are drawn where they are given.
     """
-    medians = _governing_rows(summary)
+    medians = {row.structure: row for row in summary if row.threshold == math.inf}
     names = list(dict.fromkeys(curves["structure"]))
     rows = math.ceil(len(names) / _COLUMNS)
     figure = new_figure(_HEIGHT * rows + 18, margins=(16, 3, 10, 15))
@@ -298,10 +286,9 @@ def fragility_figure(curves: "DataFrame", summary: Sequence[FragilitySummaryRow]
         panel.set_axis_off()
     for panel in panels[:, 0]:
         panel.set_ylabel("probability [-]")
-    visible = curves[~curves["governing"] | np.isinf(curves["threshold"])]
     for name, panel in zip(names, panels.flat, strict=False):
-        of_structure = visible[visible["structure"] == name]
-        for _, curve in of_structure.groupby(["threshold", "governing"]):
+        of_structure = curves[curves["structure"] == name]
+        for _, curve in of_structure.groupby("threshold"):
             _draw_curve(panel, curve)
         if name in medians:
             _draw_median(panel, medians[name])
@@ -311,15 +298,6 @@ def fragility_figure(curves: "DataFrame", summary: Sequence[FragilitySummaryRow]
     handles = {label: handle for legend in legends for handle, label in zip(*legend, strict=True)}
     figure.legend(handles.values(), handles.keys(), loc="upper center", ncols=4)
     return figure
-
-
-def _governing_rows(summary: Sequence[FragilitySummaryRow]) -> dict[str, FragilitySummaryRow]:
-    """The row of overturning of each structure: with the crack that governs, where another one than that of statics."""
-    rows: dict[str, FragilitySummaryRow] = {}
-    for row in summary:
-        if row.threshold == math.inf and (row.governing or row.structure not in rows):
-            rows[row.structure] = row
-    return rows
 
 
 def _draw_median(panel: Axes, row: FragilitySummaryRow) -> None:
@@ -336,12 +314,10 @@ def _draw_median(panel: Axes, row: FragilitySummaryRow) -> None:
 def _draw_curve(panel: Axes, curve: "DataFrame") -> None:
     """Draw one curve, that of overturning with its interval and lognormal curve."""
     threshold = float(curve["threshold"].iloc[0])
-    governing = bool(curve["governing"].iloc[0])
     columns = ["level", "probability", "probability_low", "probability_high", "lognormal"]
     levels, probability, low, high, lognormal = curve[columns].to_numpy(dtype=float).T
     if threshold < math.inf:
         label = f"φ > {threshold:g} φcr"
         draw_probability(panel, CurveBand(levels, probability), label, _COLOURS[threshold])
     else:
-        label, colour = ("overturns, worst crack", _WORST) if governing else ("overturns", "black")
-        draw_probability(panel, CurveBand(levels, probability, (low, high), lognormal), label, colour)
+        draw_probability(panel, CurveBand(levels, probability, (low, high), lognormal), "overturns", "black")

@@ -70,12 +70,6 @@ class ScaledRecord(Placed):
         """The share of the members that overturn."""
         return float(np.isinf(self.rotation_ratios).mean())
 
-    @property
-    def governing_overturning_share(self) -> float:
-        """The share of the members that overturn with the worst crack; nan where no other was followed."""
-        worst = self.analysis.governing_ratios
-        return math.nan if worst is None else float(np.isinf(worst[self.place, self.step]).mean())
-
 
 of_scaled = Columns(ScaledRecord)
 
@@ -101,11 +95,7 @@ class IdaRow(PlacedRow[ScaledRecord]):
         lambda of: of.rotation_ratio_median,
     )
     overturning_share: float = of_scaled(
-        "Share of the members that overturn", lambda of: of.overturning_share
-    )
-    governing_overturning_share: float = of_scaled(
-        "Share of the members that overturn with the worst crack",
-        lambda of: of.governing_overturning_share,
+        "Share of the members that overturn with the crack that governs", lambda of: of.overturning_share
     )
 
 
@@ -132,10 +122,9 @@ def ida_rows(
 
 @dataclass(frozen=True)
 class DrawnCurve(Placed):
-    """The curve of one structure. governing: whether it is that of the worst of the cracks that may form."""
+    """The curve of one structure."""
 
     curve: Fragility
-    governing: bool
 
     def stations_reaching(self, place: int) -> int:
         """Return how many stations have a record that reaches the level at `place` within the largest factor."""
@@ -149,11 +138,8 @@ of_curve = Columns(DrawnCurve)
 
 @row()
 class CurveRow(PlacedRow[D]):
-    """A row about the curve of a structure: for which crack, intensity measure and rotation it holds."""
+    """A row about the curve of a structure: for which intensity measure and rotation it holds."""
 
-    governing: bool = of_curve(
-        "Whether the crack that governs counts, not that of statics", lambda of: of.governing
-    )
     intensity_measure: str = of_curve(_MEASURE, lambda of: of.curve.measure)
     threshold: float = of_curve(
         "Rotation over critical rotation that is exceeded; INF: overturning", lambda of: of.curve.threshold
@@ -197,12 +183,11 @@ class FragilityRow(CurveRow[CurvePoint]):
 
 
 def fragility_rows(
-    structure: str, curve: Fragility, governing: bool, support_period: float | None = None
+    structure: str, curve: Fragility, support_period: float | None = None
 ) -> Iterator[FragilityRow]:
-    """Yield a row for each level. governing: whether it is the curve with the worst of the cracks that may form."""
+    """Yield a row for each level."""
     for place, _ in enumerate(curve.levels):
-        point = CurvePoint(structure, curve, governing, place, support_period=support_period)
-        yield FragilityRow.of(point)
+        yield FragilityRow.of(CurvePoint(structure, curve, place, support_period=support_period))
 
 
 @dataclass(frozen=True)
@@ -364,11 +349,9 @@ def curve_rows(
     """Yield the rows of the responses of a structure, and of its curve for each of ROTATION_RATIOS."""
     yield from ida_rows(structure, records, analysis, support_period)
     for threshold in ROTATION_RATIOS:
-        for governing in (True, False) if analysis.governing_ratios is not None else (False,):
-            curve = analysis.fragility(threshold, governing=governing)
-            summarised = SummarisedCurve(structure, curve, governing, hazard, support_period=support_period)
-            yield from fragility_rows(structure, curve, governing, support_period)
-            yield FragilitySummaryRow.of(summarised)
+        curve = analysis.fragility(threshold)
+        yield from fragility_rows(structure, curve, support_period)
+        yield FragilitySummaryRow.of(SummarisedCurve(structure, curve, hazard, support_period=support_period))
 
 
 @dataclass(frozen=True)

@@ -326,19 +326,6 @@ def test_what_curve_and_hazard_leave_out_is_said():
     assert falling.annual_rate(points).remainder == pytest.approx(0.64, rel=0.02)
 
 
-def test_of_statics_or_of_what_governs_as_it_is_asked():
-    """Of two records the crack of statics overturns under one, and the worst crack under both."""
-    levels = np.array([1.0, 2.0])
-    statics = np.array([[[0.1], [np.inf]], [[0.1], [0.2]]])
-    worst = np.array([[[0.1], [np.inf]], [[np.inf], [np.inf]]])
-    measure = INTENSITY_MEASURES["pga"]
-    analysis = IncrementalDynamicAnalysis(measure, levels, statics, np.ones(2), Sample.scattered("ab"), worst)
-    assert analysis.fragility().probability.tolist() == [0.0, 0.5]
-    assert analysis.fragility(governing=True).probability.tolist() == [0.5, 1.0]
-    alone = replace(analysis, governing_ratios=None)
-    assert alone.fragility(governing=True).probability.tolist() == [0.0, 0.5]
-
-
 def test_a_level_at_the_largest_factor_itself_is_reached():
     """Quotients are rounded: a record that needs the largest factor but for rounding does not leave the level."""
     records = [_record(period, str(k)) for k, period in enumerate((0.7, 0.9, 1.3))]

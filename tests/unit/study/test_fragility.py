@@ -175,12 +175,6 @@ def test_the_tables_tell_the_curves_and_a_bad_record_costs_no_other(tmp_path):
         assert curve.probability == sum(row.overturning_share for row in outcomes) / 2
     assert {row.records for row in rows["fragility_summary"]} == {2}
     assert {row.threshold for row in rows["fragility"]} == {0.1, 0.3, 0.5, math.inf}
-    of_statics, governing = {}, {}
-    for row in rows["fragility"]:
-        of_which = governing if row.governing else of_statics
-        of_which[row.structure, row.threshold, row.level] = row.probability
-    assert {structure for structure, *_ in governing} == {"spire"}
-    assert all(probability >= of_statics[place] for place, probability in governing.items())
     medians = {row.structure: row.median for row in rows["fragility_summary"] if math.isinf(row.threshold)}
     assert medians["slender"] < medians["stout"]
     for structure, body in STRUCTURES.items():
@@ -221,10 +215,9 @@ def test_openquake_gets_a_function_of_each_structure(tmp_path):
     functions = {function.get("id"): function for function in root.findall(".//{*}fragilityFunction")}
     rows = [row for row in read_table(FragilityRow, out) if math.isinf(row.threshold)]
     rows = [row for row in rows if not math.isnan(row.probability)]
-    assert any(row.governing for row in rows if row.structure == "spire")
     assert list(functions) == list(dict.fromkeys(row.structure for row in rows))
     for name, function in functions.items():
-        own = [row for row in rows if row.structure == name and row.governing == (name == "spire")]
+        own = [row for row in rows if row.structure == name]
         levels, shares = (function.findtext(f"{{*}}{tag}").split() for tag in ("imls", "poes"))
         assert np.array(levels, float) == pytest.approx([100 * row.level for row in own])  # cm/s
         assert np.array(shares, float) == pytest.approx([row.probability for row in own])
