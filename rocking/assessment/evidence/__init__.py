@@ -15,8 +15,8 @@ from rocking.assessment.cracks import slides_at
 from rocking.assessment.decide import Limit, Verdict, decide, worse
 from rocking.assessment.evidence.asked import Asked
 from rocking.assessment.evidence.bodies import ContactsOpen, Friction, Thrown
-from rocking.assessment.evidence.runs import Anchored, Stacks, Stones, StonesMissing
-from rocking.assessment.evidence.walls import Anchors, Held, NotFollowed, Ties
+from rocking.assessment.evidence.runs import Anchored, AsStones, Stacks, StonesMissing
+from rocking.assessment.evidence.walls import Anchors, NotFollowed, TiesGive, TurnsFar
 
 
 class Evidence(Protocol):
@@ -33,10 +33,10 @@ UNTOLD: tuple[Evidence, ...] = (NotFollowed(), Thrown(), ContactsOpen())
 """Those in which nothing can be told of what does not fall."""
 EVIDENCE = (
     *UNTOLD,
-    Held(),
-    Stones(),
+    TurnsFar(),
+    AsStones(),
     StonesMissing(),
-    Ties(),
+    TiesGive(),
     Anchors(),
     Friction(),
     Anchored(),

@@ -80,7 +80,7 @@ def why_open(
     sign, at the largest amplitude; what cannot be followed there is in doubt, too. Where the balance of momentum keeps
     less than LEAST_KEPT of the velocity, the impact itself opens contacts. What rests has no contact to open; a single
     body on the ground lands too slowly below a fall of more than a radian; and the bulge of a wall that is held is left
-    to `Held` and `Ties`: what they let stand did not fall as a stack (docs, validation).
+    to `TurnsFar` and `TiesGive`: what they let stand did not fall as a stack (docs, validation).
     """
     if structure.joints.courses_taper or not rotation_ratio > NEGLIGIBLE:
         return None

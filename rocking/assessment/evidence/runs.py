@@ -7,7 +7,7 @@ from rocking.assessment.kinds import AssessmentKind
 from rocking.remarks import Remark
 
 
-class Stones:
+class AsStones:
     """An arch or a portal that does not stand as a mechanism, or that only its stones may say to stand: no better than
     its runs as stones; with `fidelity: contact` always, unless it rests or overturns as a mechanism.
     """

@@ -37,7 +37,7 @@ class NotFollowed:
         return Limit.untold(Remark(AssessmentKind.NOT_FOLLOWED))
 
 
-class Held:
+class TurnsFar:
     """A held wall some member of which goes beyond 0.4 of its critical rotation, so that its mechanism may predict too
     little: at best *probably stands*, until 64 stacks say otherwise.
     """
@@ -76,7 +76,7 @@ def anchors_slide(structure: Structure, motions: GroundMotions) -> bool:
     return math.isfinite(level) and motions.excitation > level
 
 
-class Ties:
+class TiesGive:
     """Ties that stretch so far that, under the motion that they let through, the wall between them turns beyond 0.4 of
     its critical rotation, also where the ground lifts nothing: at best *probably stands*, until 64 stacks say
     otherwise.
