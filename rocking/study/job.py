@@ -39,7 +39,7 @@ from rocking.structures import Structure
 from rocking.study.apart import tell
 from rocking.study.kept import Kept, keep, kept_in
 from rocking.study.outputs import STEPS, TABLES, kept_of, outcome_of, sums_of
-from rocking.study.plan import Plan, scenes_of, study_remarks
+from rocking.study.plan import MADE_FROM, Plan, scenes_of, study_remarks
 from rocking.study.products import BY_NAME
 from rocking.study.settings import Settings, settings_sha256
 from rocking.study.terminal import record_line
@@ -67,8 +67,9 @@ class Study:
 
     @classmethod
     def of_step(cls, plan: Plan, step: str) -> "Study":
-        """Return that of a step of a record, with the settings from which the step is made."""
-        settings, scenes = plan.of_step(step)
+        """Return that of a step of a record, with the settings and the structures from which the step is made."""
+        settings = plan.settings.only((*MADE_FROM[step], "results", "mirror"))
+        scenes = {} if step in ("read", "pulses") else plan.scenes
         return cls(scenes, settings, settings_sha256(settings, scenes))
 
     def __post_init__(self) -> None:
@@ -279,9 +280,7 @@ def write_report(result: RecordResult, rows: RecordRows, study: Study, folder: P
     write_document(folder / "report.pdf", page, study.settings.figures)
 
 
-def assess_catalogued(
-    record: CatalogueRecord, study: Study, opened: Opened | None = None, store: Store | None = None
-) -> RecordResult:
+def assess_catalogued(record: CatalogueRecord, study: Study, opened: Opened | None = None) -> RecordResult:
     """Read and assess `record`; one that cannot be read has a failure instead. opened: its components, if they were
     read."""
     clock = Clock()
@@ -291,7 +290,7 @@ def assess_catalogued(
     except RockingError as error:
         unread = Failure("read", error.without_place(record.id))
         return RecordResult(record=record.id, failures=(("", unread),), durations=dict(clock.durations))
-    return study.assessor(store, clock).assess(record.id, horizontal, study.scenes, vertical)
+    return study.assessor(None, clock).assess(record.id, horizontal, study.scenes, vertical)
 
 
 def rows_of(result: RecordResult, record: CatalogueRecord, study: Study) -> RecordRows:

@@ -139,11 +139,6 @@ class Plan:
             )
         return replace(self, records={record: self.records[record]})
 
-    def of_step(self, step: str) -> tuple[Settings, Mapping[str, Scene]]:
-        """Return the settings and the structures from which a step of a record is made."""
-        settings = self.settings.only((*MADE_FROM[step], "results", "mirror"))
-        return settings, {} if step in ("read", "pulses") else self.scenes
-
     # What a job reads ------------------------------------------------------------------------------------
 
     @property
