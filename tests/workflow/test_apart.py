@@ -21,59 +21,53 @@ def python(code: str) -> subprocess.CompletedProcess[str]:
     )
 
 
-@pytest.mark.parametrize(
-    ("work", "argument", "words"),
-    [
-        ("os:_exit", 3, "its process ended with status 3"),
-        ("sys:exit", 4, "its process ended with status 1"),
+def test_an_end_that_is_none_is_an_error_which_names_the_cause(tmp_path: Path) -> None:
+    """All are forked from one process, as starting that takes seconds."""
+    ends = {
+        ("os:_exit", 3): "its process ended with status 3",
+        ("sys:exit", 4): "its process ended with status 1",
         (
             "signal:raise_signal",
-            signal.SIGKILL,
-            "its process was ended by SIGKILL, as a system does that",
-        ),
-        ("signal:raise_signal", signal.SIGTERM, "its process ended with status 1"),
-        ("math:sqrt", -1, "its process ended with status 1"),
-    ],
-)
-def test_an_end_that_is_none_is_an_error_which_names_the_cause(work, argument, words, tmp_path) -> None:
-    done = python(f"{RUN}run_apart(Settings(), {str(tmp_path / 'log')!r}, {work!r}, {int(argument)})")
-    assert done.returncode == 1 and words in done.stderr.splitlines()[-1]
-    assert ("math domain error" in done.stderr) == (work == "math:sqrt")
-    assert ("KeyboardInterrupt" in done.stderr) == (argument == signal.SIGTERM), "it ends as by Ctrl-C"
-
-
-def test_a_job_has_imported_what_it_needs_and_prints_into_its_log(tmp_path: Path) -> None:
-    log = str(tmp_path / "log")
-    code = "import os, sys; print('rocking.study.summary' in sys.modules, os.environ['OMP_NUM_THREADS'], os.getppid())"
+            int(signal.SIGKILL),
+        ): "its process was ended by SIGKILL, as a system does that",
+        ("signal:raise_signal", int(signal.SIGTERM)): "its process ended with status 1",
+        ("math:sqrt", -1): "its process ended with status 1",
+    }
     done = python(
-        f"{WARM}import os\nrun_apart(Settings(), {log!r}, 'builtins:exec', {code!r})\nprint(os.getpid())"
+        f"{RUN}for work in {list(ends)}:\n"
+        f"    try: run_apart(Settings(), {str(tmp_path / 'log')!r}, *work)\n"
+        "    except RuntimeError as error: print(error)"
     )
-    warm, threads, parent, scheduler = (tmp_path / "log").read_text().split() + done.stdout.split()
-    assert warm == "True" and threads == "1"
-    assert parent != scheduler, "it is the child of the process that has imported"
+    assert all(words in said for words, said in zip(ends.values(), done.stdout.splitlines(), strict=True))
+    told = [line.partition(":")[0] for line in done.stderr.splitlines()]
+    assert told == ["SystemExit", "KeyboardInterrupt", "ValueError"], "a request to end is as Ctrl-C"
 
 
-def test_jobs_run_side_by_side(tmp_path: Path) -> None:
-    """Each waits for the other."""
+def test_jobs_run_side_by_side_with_all_imported_and_print_into_their_logs(tmp_path: Path) -> None:
+    """Each waits for the other, and is the child of the process that has imported."""
     job = (
-        "import sys, time; from pathlib import Path; own, other = map(Path, {names!r}); own.touch()\n"
-        "while not other.exists(): time.sleep(.01)"
+        "import os, sys, time; from pathlib import Path; own, other = map(Path, {names!r}); own.touch()\n"
+        "while not other.exists(): time.sleep(.01)\n"
+        "print('rocking.study.summary' in sys.modules, os.environ['OMP_NUM_THREADS'], os.getppid())"
     )
     names = str(tmp_path / "1"), str(tmp_path / "2")
     jobs = [job.format(names=names), job.format(names=names[::-1])]
     logs = [str(tmp_path / name) for name in ("1.log", "2.log")]
     done = python(
-        f"{RUN}from threading import Thread\n"
+        f"{WARM}import os\nfrom threading import Thread\n"
         f"starts = [(Settings(), log, 'builtins:exec', job) for log, job in zip({logs!r}, {jobs!r})]\n"
         "threads = [Thread(target=run_apart, args=start) for start in starts]\n"
         "for thread in threads: thread.start()\n"
         "for thread in threads: thread.join()\n"
-        "print('both')"
+        "print(os.getpid())"
     )
-    assert done.stdout == "both\n" and not done.stderr
+    assert not done.stderr
+    for log in logs:
+        warm, threads, parent = Path(log).read_text().split()
+        assert warm == "True" and threads == "1" and parent != done.stdout.strip()
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
+@pytest.mark.parametrize("number", [pytest.param(signal.SIGTERM, marks=pytest.mark.slow), signal.SIGKILL])
 def test_the_process_that_jobs_are_forked_from_ends_with_its_scheduler(number: int) -> None:
     code = f"{WARM}import time\nprint(flush=True)\ntime.sleep(60)"
     with subprocess.Popen(
