@@ -150,7 +150,7 @@ class CatalogueRecord:
 
     @property
     def station_place(self) -> Coordinates | Remark | None:
-        """Where the station stands, or what is wrong with its coordinates; None without them."""
+        """Where the station is, or what is wrong with its coordinates; None without them."""
         return place_of(latitude=self.station_latitude, longitude=self.station_longitude)
 
     @property
@@ -261,7 +261,7 @@ def load_catalogue(path: str | Path) -> tuple[CatalogueRecord, ...]:
     defects = [f"{listed(places, NAMED)}: {defect}" for defect, places in lines_of.items()]
     counts = Counter(row["id"].strip().lower() for _, row in rows if row["id"].strip())
     twice = [(name, n) for name, n in counts.items() if n > 1]
-    defects += [f"id {shown(name)} stands {n} times (upper and lower case count as one)" for name, n in twice]
+    defects += [f"id {shown(name)} occurs {n} times (upper and lower case count as one)" for name, n in twice]
     if defects:
         number = "a defect" if len(defects) == 1 else f"{len(defects)} defects"
         rest = len(defects) - _MOST_NAMED
@@ -306,7 +306,7 @@ def record_of_row(row: Mapping[str, str], folder: Path) -> CatalogueRecord:
 def catalogue_text(
     rows: Iterable[Mapping[str, str]], columns: Sequence[str] = COLUMNS, like: Path | None = None
 ) -> str:
-    """Return `rows` as the text of a catalogue, parted as the one at `like` is, if that stands there."""
+    """Return `rows` as the text of a catalogue, parted as the one at `like` is, if there is one."""
     return edited_text(rows, columns, like, _NUMBERS)
 
 

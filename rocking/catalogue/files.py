@@ -4,9 +4,8 @@ import time
 import urllib.request
 from contextlib import suppress
 from dataclasses import replace
-from http.client import HTTPMessage
 from pathlib import Path, PurePosixPath
-from typing import IO
+from typing import Any
 from urllib.parse import quote
 
 from rocking.catalogue.catalogue import CatalogueRecord, RecordFile
@@ -77,7 +76,7 @@ def files_by_name(record: CatalogueRecord) -> dict[str, str]:
     """Return the files from which `record` is read as the catalogue names them, with the sha256 that it states.
 
     Nothing is looked at: the files may lie on another machine. Those that obspy brings or that are downloaded are left
-    out. A member of an archive stands for the archive.
+    out. A member of an archive is counted as the archive.
     """
     if record.example_name or record.is_remote:
         return {}
@@ -153,18 +152,11 @@ def download(file: str, repository: str, commit: str, path: str, *, sha256: str 
 class _Direct(urllib.request.HTTPRedirectHandler):
     """Follow a redirect to https only: what comes over http may have been changed on the way."""
 
-    def redirect_request(
-        self,
-        req: urllib.request.Request,
-        fp: IO[bytes],
-        code: int,
-        msg: str,
-        headers: HTTPMessage,
-        newurl: str,
-    ) -> urllib.request.Request | None:
-        if not newurl.startswith("https://"):
-            raise RecordError(f"the server redirects to {newurl[:100]}, which is not https", newurl=newurl)
-        return super().redirect_request(req, fp, code, msg, headers, newurl)
+    def redirect_request(self, *request: Any) -> urllib.request.Request | None:
+        address = str(request[-1])
+        if not address.startswith("https://"):
+            raise RecordError(f"the server redirects to {address[:100]}, which is not https", newurl=address)
+        return super().redirect_request(*request)
 
 
 class _Downloader:

@@ -67,7 +67,7 @@ def catalogue_of_folder(
 
     Files of one event, station and start share a row, the vertical component among them. declared: unit and time_step
     [s], used only where neither a file nor its row declares them. keeps_readings: whether what was read of each file is
-    kept in the folder for the next time. answers: the folder of layouts.csv, by default this one. watched: gives the
+    cached in the folder for the next time. answers: the folder of layouts.csv, by default this one. watched: gives the
     files again, to who waits for them. Catalogues, and files whose name starts with a dot, are passed over. Raises
     RecordError when there is no folder.
     """
@@ -183,7 +183,7 @@ def _mark_repeats(listed: Iterable[ListedFile]) -> None:
 
 
 def _rows_to_join(listed: Sequence[ListedFile]) -> Iterator[Remark]:
-    """Yield a remark on each station of which a component stands in a row of its own: a person may make them one."""
+    """Yield a remark on each station of which a component has a separate row: a person may make them one."""
     sizes = Counter(file.record for file in listed)
     single = [
         copy(file) for file in listed if not file.refusal and (not file.record or sizes[file.record] == 1)
@@ -212,7 +212,7 @@ def _clear_filled(row: Row, answer: str) -> None:
 
 
 def rows_of_files(listed: Sequence[ListedFile], taken: Iterable[str] = ()) -> list[Row]:
-    """Return the rows of the files that stand in none yet, and note in each file which row it got, or why none."""
+    """Return the rows of the files that have none yet, and note in each file which row it got, or why none."""
     ids = set(taken)
     rows = []
     for group in stations([file for file in listed if not (file.refusal or file.record)]):
@@ -234,20 +234,15 @@ def files_in(folder: Path) -> Iterator[Path]:
     """Yield the files under `folder`, in the order of names, those of archives too; no hidden ones and catalogues."""
     for path in sorted(path for path in folder.rglob("*") if path.is_file()):
         if is_archive(path) and not path.name.startswith("."):
-            yield from _in_archive(path)
+            try:
+                yield from (path / name for name in members(path))
+            except RecordError:
+                yield path  # reading it says why
             continue
         head = read_start(path, 11).removeprefix(b"\xef\xbb\xbf")
         is_catalogue = path.suffix.lower() == ".csv" and head.startswith((b"id,file", b"id;file"))
         if not (path.name.startswith(".") or is_catalogue or path.name == NAME):
             yield path
-
-
-def _in_archive(path: Path) -> Iterator[Path]:
-    """Yield the files in an archive, or the archive itself where it cannot be read: reading it says why."""
-    try:
-        yield from (path / name for name in members(path))
-    except RecordError:
-        yield path
 
 
 def _row(group: Sequence[ListedFile], level: Sequence[ListedChannel], ids: set[str]) -> Row:
@@ -335,7 +330,7 @@ def unlisted(catalogue: Path) -> tuple[Remark, ...]:
 
 
 def _was_refused(path: Path, folder: Path, readings: Readings) -> bool:
-    """Whether the file was read for a catalogue as it stands, and can get no row there whatever is answered."""
+    """Whether the file was read for a catalogue as it is, and can get no row there whatever is answered."""
     listed = [listed_file(reading, path, folder, NOTHING_DECLARED) for reading in readings.kept_of(path)]
     return bool(listed) and all(
         not file.question and (file.refusal or not any(channel.is_horizontal for channel in file.channels))

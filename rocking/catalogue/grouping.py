@@ -79,7 +79,7 @@ def _station_key(file: ListedFile) -> object:
 
 
 def without_direction(file: ListedFile) -> str:
-    """Return the file's name before the direction that stands at its end, "" where none stands there."""
+    """Return the file's name before the direction at its end, "" where there is none."""
     name = file.file.rpartition("/")[2]
     component = file.channels[0].component
     if names_no_direction(component):

@@ -119,7 +119,7 @@ def _to_the_shortest(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
     cut = []
     is_far = longest - size > LONGEST_TAIL * longest
     apart = (longest - size) * channels[0].time_step
-    told = [Remark.of(RecordKind.LENGTHS_UNLIKE, least=size, most=longest, apart_s=apart)] if is_far else []
+    doubts = [Remark.of(RecordKind.LENGTHS_UNLIKE, least=size, most=longest, apart_s=apart)] if is_far else []
     for channel in channels:
         surplus = channel.acceleration.size - size
         sentence = (
@@ -127,7 +127,7 @@ def _to_the_shortest(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
             "begin together."
         )
         samples = channel.acceleration[:size]
-        cut.append((channel.processed_by(samples, sentence) if surplus else channel).warned(*told))
+        cut.append((channel.processed_by(samples, sentence) if surplus else channel).warned(*doubts))
     return cut
 
 

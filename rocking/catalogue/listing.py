@@ -98,7 +98,7 @@ class Reading:
 
 @dataclass
 class ListedFile:
-    """One file of a folder as it was read, and the id of the catalogue row it stands in, "" if it cannot be used.
+    """One file of a folder as it was read, and the id of its catalogue row, "" if it cannot be used.
 
     doubts: what is plausibly wrong. refusal: why it gets no row, or "". separation: why it does not share the row of
     other files of its station; None where it does, or there are none. blanks: the cells that its row leaves blank and
@@ -129,6 +129,8 @@ class ListedFile:
         )
 
 
+# Whole on purpose: a file is read, asked what it leaves open, and read again with that.
+@through("catalogue")
 def read_for_listing(
     raw: bytes, sha256: str, path: Path, declared: Mapping[str, Any], layouts: Layouts
 ) -> Reading:
@@ -136,14 +138,6 @@ def read_for_listing(
 
     declared: unit and time_step [s], None where the caller knows none; each is used only where the file is silent.
     """
-    with through("catalogue"):
-        return _read_for_listing(raw, sha256, path, declared, layouts)
-
-
-# Whole on purpose: a file is read, asked what it leaves open, and read again with that.
-def _read_for_listing(
-    raw: bytes, sha256: str, path: Path, declared: Mapping[str, Any], layouts: Layouts
-) -> Reading:
     missing: tuple[str, ...] = ()
     question: Question | None = None
     asked: UndeclaredError | None = None
@@ -285,7 +279,7 @@ _FALLBACK = 100
 def listing_text(listed: Sequence[ListedFile], width: int | None = None) -> str:
     """Return a table with a line for each channel that was read, no wider than `width`, and below it what to know.
 
-    width: characters, None: of the terminal. Below stand the cells to fill in, what was joined, doubts and refusals.
+    width: characters, None: of the terminal. Below are the cells to fill in, what was joined, doubts and refusals.
     """
     width = width or shutil.get_terminal_size((_FALLBACK, 24)).columns
     return "".join(f"{line}\n" for line in (*_table(listed, width), *_sentences(listed)))

@@ -1,4 +1,4 @@
-"""Readings: what the files of a folder gave when they were read, kept by their content from one time to the next."""
+"""Readings: what the files of a folder gave when they were read, cached by their content."""
 
 import json
 from collections.abc import Mapping
@@ -31,7 +31,7 @@ _LARGEST = 2**27  # bytes: a hundred thousand readings
 class Readings:
     """The readings of the files under `folder`, each made once for its content, its name and what is declared.
 
-    layouts: the answers next to the catalogue. is_kept: whether readings are looked for, and kept, in a store in that
+    layouts: the answers next to the catalogue. is_kept: whether readings are looked for, and cached, in a store in that
     folder. remark: where a store lies there that cannot be used, else None.
     """
 
@@ -83,21 +83,24 @@ class Readings:
         return reading
 
     def kept_of(self, path: Path) -> list[Reading]:
-        """Return what is kept of the file at `path` as it stands and is answered, by whatever was declared of it."""
+        """Return what is cached of the file at `path` as it is now answered, by whatever was declared of it."""
         sha256 = sha256_of_bytes(bytes_of(path))
         own = (printable(path.name), self._inventory_hash(path.parent))
         layouts = self._layouts.at(path.parent.relative_to(self._folder).as_posix())
-        kept = []
+        found = []
         for key, reading in self._before.items():
             if reading.sha256 == sha256 and reading.answer == layouts.text_of(reading.signature):
                 _, name, _, _, metadata = json.loads(key)
-                kept += [reading] if (name, metadata) == own else []
-        return kept
+                found += [reading] if (name, metadata) == own else []
+        return found
 
     def _inventory_hash(self, folder: Path) -> str:
         """Return a hash of the StationXML files of a folder, by which counts of the other files are read."""
         if folder not in self._inventory_hashes:
-            hashes = [_hash_of(path).encode() for path in sorted(folder.glob("*.xml"))]
+            hashes = []
+            for path in sorted(folder.glob("*.xml")):
+                with suppress(RecordError):  # of one that cannot be read
+                    hashes.append(sha256_of_bytes(bytes_of(path, _LARGEST)).encode())
             self._inventory_hashes[folder] = sha256_of_bytes(*hashes)
         return self._inventory_hashes[folder]
 
@@ -109,14 +112,6 @@ class Readings:
         store = {"version": _version(), "sha256": sha256_of_bytes(content.encode()), "readings": content}
         with suppress(RockingError):
             write_whole(self._store, json.dumps(store).encode())
-
-
-def _hash_of(path: Path) -> str:
-    """Return the hash of a file, "" of one that cannot be read."""
-    try:
-        return sha256_of_bytes(bytes_of(path, _LARGEST))
-    except RecordError:
-        return ""
 
 
 class _UnusableStoreError(RecordError):

@@ -127,8 +127,10 @@ def _named_by_row(channels: Sequence[Accelerogram], record: CatalogueRecord) -> 
 
 def _called_now(channel: Accelerogram, name: str) -> Accelerogram:
     """Return a channel with another name, and with what is in doubt of the direction that this one says."""
-    kept = tuple(warning for warning in channel.warnings if warning.kind is not RecordKind.DIRECTION_UNKNOWN)
-    named = replace(channel, **directed({"component": name}), warnings=kept)
+    others = tuple(
+        warning for warning in channel.warnings if warning.kind is not RecordKind.DIRECTION_UNKNOWN
+    )
+    named = replace(channel, **directed({"component": name}), warnings=others)
     return named.warned(*doubts_of_channel(named))
 
 
@@ -176,9 +178,9 @@ def _counted_once(
         if place is None:
             distinct.append(channel)
         else:
-            kept = distinct[place]
-            distinct[place] = kept.warned(
-                Remark.of(RecordKind.SAME_MOTION, channel.component, other=kept.component)
+            first = distinct[place]
+            distinct[place] = first.warned(
+                Remark.of(RecordKind.SAME_MOTION, channel.component, other=first.component)
             )
     if is_apart and distinct[-1] is vertical:
         return distinct[:-1], vertical

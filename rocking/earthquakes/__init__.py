@@ -1,1 +1,1 @@
-"""Earthquakes: which stations and earthquakes stand behind a result, and what interval they allow."""
+"""Earthquakes: which stations and earthquakes a result is of, and what interval they allow."""

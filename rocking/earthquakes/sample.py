@@ -163,16 +163,15 @@ def stations_of(
             named.append(rows[place] if rows is not None else f"record {place}")
             continue
         earlier = known.setdefault(earthquake, [])
-        alike = (name for of_station, name in earlier if _begin_alike(of_station, words))
+        alike = (
+            name
+            for of_station, name in earlier
+            if all(one == other for one, other in zip(of_station, words, strict=False))
+        )
         name = next(alike, f"{record.event}; {record.station}")
         earlier.append((words, name))
         named.append(name)
     return named
-
-
-def _begin_alike(one: Sequence[str], other: Sequence[str]) -> bool:
-    """Whether the longer list of words begins with the shorter one."""
-    return all(first == second for first, second in zip(one, other, strict=False))
 
 
 @dataclass(frozen=True)

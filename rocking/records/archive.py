@@ -151,7 +151,7 @@ def _place_in(archive: Path, name: str) -> tuple[str, str]:
 class _Packed:
     """An opened archive: the names of its files, those of systems left out, and what reads the start of one of them.
 
-    passed_over: those that are read only where they are named: raw motion that stands in the archive processed as well.
+    passed_over: those that are read only where they are named: raw motion that is in the archive processed as well.
     """
 
     names: frozenset[str]

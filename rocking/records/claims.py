@@ -89,7 +89,7 @@ class AnswerContradictedError(RecordError):
 def agreed(what: What, claims: Collection[Claim]) -> Any:
     """Return the value of `what` on which claims agree, None where none speaks of it.
 
-    What a person says settles what a file says twice, and may not stand against all that it says, nor against another
+    What a person says settles what a file says twice, and may not contradict all that it says, nor against another
     person. So do the name or the numbers of a column where a header says several things, one of them the same. The name
     of a file is held against what a person says alone: of two words of one file that inside it counts. Raises
     RecordError where a person contradicts the file, UndeclaredError where it contradicts itself.
@@ -321,7 +321,7 @@ _IN_NAME = (
 )
 """A direction at the end of a file's name: a word, a bearing or three digits, or one to three after a sign.
 
-Three digits may stand behind the two of a station, as in "H-E12140"; a longer number is a date or counts files.
+Three digits may follow the two of a station, as in "H-E12140"; a longer number is a date or counts files.
 """
 _GLUED = re.compile(r"^(.*[A-Z])(DWN)$|^(RSN\d+_.*[A-Z\d])(UP|DWN|DN|VER|VRT)$")
 """A vertical behind the letters of a station, as NGA writes it."""

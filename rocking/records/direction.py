@@ -51,7 +51,7 @@ _NUMBERED_VERTICAL = re.compile(r"(V|Z|UP|DN|DWN|DOWN|VERT|VERTICAL)[ _.-]?(\d|0
 _VERTICAL_WORD = re.compile(r"VERT\w*|VRT\w*|UPW\w*|DOWNW\w*|DWNW?|UPP?|DOWN|DN|Z|UD|UPDOWN")
 """Words of which a name of a vertical consists, apart from numbers and signs: "Vertical (up)", "UP 1", "-Z"."""
 _SURELY_VERTICAL = re.compile(r"\b(VERT(ICAL(E|LY)?)?|VERTIKAL|[BCEHS]NZ)\b")
-"""A word that makes a vertical of any name in which it stands: "Roof vertical", "Ch. 3 - HNZ"."""
+"""A word that makes a vertical of any name that holds it: "Roof vertical", "Ch. 3 - HNZ"."""
 _SAYS_WHICH = re.compile(
     r"H?[123XYLTR]\d?|[A-Z][HNGL][RT]|L?N|TR|LN|FN|FP|(LONG|TRAN|RAD)\w*|(COMP|CHAN)\w*[ _-]?\d+", re.I
 )

@@ -1,7 +1,7 @@
 """Plausibility: what a record's samples tell against its header, against any ground, or of damage; and its instrument.
 
 A peak that contradicts its own header, or that no ground has, does not pass unseen. Each test of damage (a struck
-sample, gaps, a row that is repeated) asks whether what stands there could be chance, in so long a record; none of the
+sample, gaps, a row that is repeated) asks whether it could be chance, in so long a record; none of the
 real files is accused. Where the instrument stood, and what it measured, names and headers say.
 """
 
@@ -65,7 +65,7 @@ def agree_with_header(
     """Return `record` after comparing its peak with the one that its header states, within 1 % or half a digit.
 
     A peak that is more than 0.1 % off, or out of its place, is a warning; without a stated peak nothing is checked.
-    samples: (n,) m/s² as the file holds them, where the record's are resampled; times: (n,) s at which those stand,
+    samples: (n,) m/s² as the file holds them, where the record's are resampled; times: (n,) s of those,
     where they are not evenly spaced. Raises RecordError with the factor that would explain the difference.
     """
     peak, unit, half_digit, at = header
@@ -244,7 +244,7 @@ def agree_with_velocity(record: Accelerogram, stated: np.ndarray) -> Accelerogra
 
 
 _ODDS = 100.0
-"""The odds of damage against chance that a warning asks, over all places of a record at which it could stand."""
+"""The odds of damage against chance that a warning asks, over all samples of a record at which it could be."""
 
 
 def damage_warnings(record: Accelerogram) -> tuple[Remark, ...]:
@@ -351,7 +351,7 @@ _STILL = 1 / 200
 
 
 def repeated_rows(records: Sequence[Accelerogram]) -> tuple[Remark, ...]:
-    """Return a warning where a row of numbers, one of each of several channels, stands twice in succession.
+    """Return a warning where a row of numbers, one of each of several channels, occurs twice in succession.
 
     By chance no channel changes in the product of the shares in which each does not, from the steps next to it.
     """
@@ -392,7 +392,7 @@ _NO_MOTION = {"J": "rotational sensor", "D": "pressure sensor", "F": "magnetomet
 
 
 BURIED = 5.0
-"""m below the surface from which on an instrument stands in a borehole; vaults are shallower."""
+"""m below the surface from which on an instrument is in a borehole; vaults are shallower."""
 _DEPTH = re.compile(r"(?i)(\d+(?:\.\d+)?)\s*(m|ft|feet)\b")
 
 

@@ -258,7 +258,7 @@ _OTHER_KINDS = tuple((re.compile(pattern, re.I), sentence) for pattern, sentence
     (rb"\s*\S{1,6} +\S{1,8} +\d{9,10}\.\d+ +-?\d+ +-?\d+ +[\d-]+ +\d{9,10}\.\d+ +\d+ +[\d.]+ +[\d.-]+ ",
      "a CSS table (wfdisc) holds no samples, but names the files that do; read them together: "
      "rocking.from_obspy(obspy.read(path, format='CSS'), inventory=...)."),
-    (rb"BEGIN (GSE|IMS)|DATA_TYPE WAVEFORM", "this is a message of GSE or IMS; cut off what stands above its line "
+    (rb"BEGIN (GSE|IMS)|DATA_TYPE WAVEFORM", "this is a message of GSE or IMS; cut off the lines above its line "
      "WID2, and it is read."),
     (SACPZ, "this is a SAC file of poles and zeros, which holds a response and no motion: read the file "
      "of the samples, with the StationXML of its station as the inventory, which the same data centre serves."),
@@ -287,7 +287,7 @@ def recognise(content: bytes) -> Format:
     for pattern, sentence in _OTHER_KINDS if not forms else ():
         if pattern.match(content[:400]):
             raise UnknownFormatError(sentence, format=content[:8])
-    # Bare numbers last: what stands above them, and how, takes longer than all the other first lines together.
+    # Bare numbers last: the text above them takes longer than all the other first lines together.
     forms = forms or [form for form in FORMATS if form.yields and form.recognise(content)]
     if len(forms) == 1:
         return forms[0]
@@ -384,7 +384,7 @@ def distinct_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
     """Return the channels of a file, each with a component of its own and what is doubtful of it as warnings.
 
     One without a name is called after its place, "channel 1"; those that share a name get their place as well.
-    Raises RecordError when one channel stands in the file twice: it was appended to itself.
+    Raises RecordError when one channel is in the file twice: it was appended to itself.
     """
     copies: dict[int, Remark] = {}
     for (i, a), (k, b) in combinations(enumerate(records, 1), 2):

@@ -42,8 +42,8 @@ def _table(rows: Iterator[Sequence[Any]]) -> bytes:
             labels = [ColumnLabel(name) for name in names if name]
             if any(label.is_time for label in labels) and any(label.unit for label in labels):
                 first = next(place for place, name in enumerate(names) if name)
-                beside = next((place for place in range(first, len(names)) if not names[place]), len(names))
-                places = list(range(first, beside))  # what stands behind an empty column is another table
+                end = next((place for place in range(first, len(names)) if not names[place]), len(names))
+                places = list(range(first, end))  # what follows an empty column is another table
                 numbers = _written(names, places, [row, *rows])
                 if names is above:
                     text.append(" ".join(filter(None, over)))

@@ -91,7 +91,7 @@ class Accelerogram(Drawn):
     vertical : bool, default False
         Whether it is a vertical component.
     borehole : bool, default False
-        Whether the instrument stands down-hole.
+        Whether the instrument is down-hole.
     magnitude : float or None, optional
         Magnitude of the earthquake, as the file prints it.
     magnitude_type : str, default ''
@@ -213,19 +213,19 @@ class Accelerogram(Drawn):
         >>> round(record.measures.peak_velocity, 2)
         1.02
         """
-        from rocking import record_measures  # which stands above this
+        from rocking import record_measures  # which imports this
 
         return record_measures(self)
 
     def spectrum(self, periods: np.ndarray | None = None, damping: float = 0.05) -> "ResponseSpectrum":
         """Return the response spectrum at undamped `periods`, s, as response_spectrum does; None: at its own."""
-        from rocking import response_spectrum  # which stands above this
+        from rocking import response_spectrum  # which imports this
 
         return response_spectrum(self, periods, damping)
 
     @cached_property
     def sha256(self) -> str:
-        """Hash of the time step and the samples as they stand here (not of the file)."""
+        """Hash of the time step and the samples (not of the file)."""
         return sha256_of_bytes(np.float64(self.time_step).tobytes(), self.acceleration.tobytes())
 
     def scaled(self, factor: float) -> "Accelerogram":
@@ -258,14 +258,14 @@ class Accelerogram(Drawn):
         >>> rocking.Accelerogram.from_obspy(Trace(np.sin(np.arange(9.0)), {"channel": "HNE"}), unit="m/s2")[0].azimuth
         90.0
         """
-        from rocking import from_obspy  # which stands above this
+        from rocking import from_obspy  # which imports this
 
         return from_obspy(trace_or_stream, inventory, unit, response, calibration)
 
     def to_obspy(self) -> Any:
         """Return an obspy Trace of the acceleration, m/s², from which from_obspy makes this accelerogram again.
 
-        What obspy has no place for stands in `stats.rocking`.
+        What obspy has no field for is in `stats.rocking`.
         """
         from obspy import Trace, UTCDateTime  # which takes a second to import
 

@@ -17,9 +17,9 @@ _LOW_PASS_SHARE = 0.8
 
 @dataclass(frozen=True)
 class Processing:
-    """Settings, applied in the order they stand here; a step that is None, 0 or "none" is left out.
+    """Settings, applied in this order; a step that is None, 0 or "none" is left out.
 
-    order: of each Butterworth filter, before it is run both ways. While it is filtered, a record stands between zeros
+    order: of each Butterworth filter, before it is run both ways. While it is filtered, a record is padded with zeros
     of 1.5 order/corner seconds (Boore 2005). Raises RecordError when a setting is out of range.
     """
 

@@ -125,7 +125,7 @@ _SMC_INTEGERS = 6  # lines below the text at which the integers of the header en
 _SMC_REALS = 16  # and the reals
 _COMMENTS = 15
 _SAMPLES = 16
-_RATE = 1  # places in the real header; the time of an extreme stands before its value
+_RATE = 1  # places in the real header; the time of an extreme precedes its value
 _LARGEST = 29
 _SMALLEST = 31
 _CORNER = 32
@@ -179,7 +179,7 @@ def _smc_facts(head: str, reals: np.ndarray) -> dict[str, Any]:
     place = (real if abs(real) < _MISSING else None for real in reals[_PLACE].tolist())
     facts |= site(*place)
 
-    # The time of an extreme stands before it.
+    # The time of an extreme precedes it.
     extremes = [(abs(reals[at]), reals[at - 1]) for at in (_LARGEST, _SMALLEST) if abs(reals[at]) < _MISSING]
     peak, peak_time = max(extremes, default=(None, 0.0))
     facts["peak"] = peak
@@ -191,7 +191,7 @@ def _smc_facts(head: str, reals: np.ndarray) -> dict[str, Any]:
 
 
 _SMC_TAIL = 8
-"""Numbers of a line of four points that stands behind the last one in most files of film, of another trace."""
+"""Numbers of a line of four points that follows the last one in most files of film, of another trace."""
 
 
 def _smc_points(

@@ -17,7 +17,6 @@ import numpy as np
 
 from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import positive
-from rocking.records.claims import Claim, Where, agreed
 from rocking.records.formats import text
 from rocking.records.formats.format import Format, Layout, Options, required
 from rocking.records.formats.text import LARGEST_SERIES
@@ -141,9 +140,9 @@ def _read_knet(content: bytes, options: Options) -> list[Accelerogram]:
 
 _SAC_HEADER = 632
 _VERSION = 304
-"""Byte at which the header's version stands (SAC manual, word 76)."""
+"""Byte of the header's version (SAC manual, word 76)."""
 _SAMPLES = 316
-"""Byte at which its number of samples stands (word 79)."""
+"""Byte of its number of samples (word 79)."""
 
 
 def _is_sac(content: bytes) -> bool:
@@ -242,7 +241,7 @@ def _check_frames(content: bytes) -> None:
         at += _TAG.size + head + body
     if content[at:].strip(b"\0"):
         raise RecordError(
-            f"what stands at byte {at} is no frame; the file is damaged, fetch it again.", frame=at
+            f"the bytes from {at} on are no frame; the file is damaged, fetch it again.", frame=at
         )
 
 
@@ -263,7 +262,8 @@ def _read_counts(form: str, content: bytes, options: Options) -> list[Accelerogr
                 f"{trace.stats.sampling_rate:g} Hz: seconds of it are missing; fetch the file again.",
                 samples=trace.stats.npts,
             )
-    unit = _stated_unit(traces, options)
+    heads = (str(trace.stats.ascii.unit) for trace in traces if "ascii" in trace.stats)
+    unit = options.unit_in(heads, "the file")
     inventory = None if unit else inventory_for(traces[0].stats, options)
     unit = options.unit_of(unit) if inventory is None else None
     return _taken(traces, inventory, unit, options, warnings)
@@ -308,21 +308,10 @@ def _check_lists(content: bytes, is_of_pairs: bool) -> None:
         found = len(numbers.split())
         if found != declared:
             raise RecordError(
-                f"a head declares {declared} samples, but {found} stand below it: the file is cut or damaged; fetch "
+                f"a head declares {declared} samples, but {found} follow: the file is cut or damaged; fetch "
                 "the whole file.",
                 samples=found,
             )
-
-
-def _stated_unit(traces: Any, options: Options) -> str | None:
-    """Return the unit that the heads of a list of samples state, None of counts and of other formats.
-
-    Raises RecordError for velocity or displacement, and UndeclaredError for two that differ.
-    """
-    heads = (str(trace.stats.ascii.unit) for trace in traces if "ascii" in trace.stats)
-    units = dict.fromkeys(options.unit_in(unit, "the file") for unit in heads)
-    unit: str | None = agreed("unit", [Claim("unit", unit, Where.HEAD) for unit in units if unit])
-    return unit
 
 
 def may_be_counts(head: bytes) -> bool:
@@ -334,7 +323,7 @@ def may_be_counts(head: bytes) -> bool:
 
 
 def _is_win(content: bytes) -> bool:
-    """Whether blocks of a second stand one behind another, each with its length and a time in packed decimals."""
+    """Whether blocks of a second follow one another, each with its length and a time in packed decimals."""
     at = 0
     for block in range(2):
         if block and at + _WIN_HEAD > len(content):

@@ -18,7 +18,7 @@ _WITH_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")
 def plain(content: bytes) -> bytes | None:
     """Return a table with its numbers as Python writes them, and times of day as seconds after the first one.
 
-    Cells may stand in quotes, as a spreadsheet writes them, and exponents begin with D, as Fortran's do. None where a
+    Cells may be in quotes, as a spreadsheet writes them, and exponents begin with D, as Fortran's do. None where a
     comma may be either of two things.
     """
     head = content[:_SAMPLE_SIZE]
@@ -71,7 +71,7 @@ _STAMP = re.compile(
     rb"(\d{1,2}):(\d{2}):(\d{2}(?:\.\d*)?)(?:Z|[+-]\d{2}:?\d{2})?\"?(?=[ \t,;])"
 )
 _STAMPS_IN = 8_000
-"""Bytes at the beginning of a table in which rows with times of day stand, if it has any."""
+"""Bytes at the beginning of a table in which rows begin with times of day, if any do."""
 _FEWEST_STAMPS = 12
 """Stamped rows from which on they are rows of a table, and no dates of a header."""
 _DAY = 86_400.0

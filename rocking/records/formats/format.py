@@ -1,11 +1,11 @@
 """Format: how one kind of file is recognised and read, and the options a caller may declare.
 
-A format says where in its header each fact stands, as a Layout; one reader finds the facts and checks them.
+A format says where in its header each fact is, as a Layout; one reader finds the facts and checks them.
 """
 
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime, timedelta
 from pathlib import Path
@@ -44,7 +44,7 @@ Response = Literal["sensitivity", "full"]
 
 _STEPS = (1e-6, 10.0)  # s; a step outside is a misplaced number, not a recorder
 _NO_UNIT = "", "COUNTS", "COUNT", "RAW COUNTS", "INTEGER", "FLOAT"
-"""Words in the place of a unit that are none: of counts, or of a list of samples whose type stands there."""
+"""Words in place of a unit: of counts, or the type of a list of samples."""
 _UNDECLARED = "{} is not declared, neither in the file nor by the caller; {}."
 
 
@@ -57,7 +57,7 @@ class Options:
     its name, whose ending may speak of another quantity. layouts: the answers to what tables hold; None: those in the
     folder. described: files of StationXML that are looked into before those of the folder. scale_factor: by which the
     caller will multiply the samples, which one below 1 may bring within the limits of a ground motion. is_stand_in:
-    whether unit or time step only stand in for what nobody declares, so that a name that says otherwise is right.
+    whether unit or time step only replace what nobody declares, so that a name that says otherwise is right.
     Raises RecordError for an unknown unit or response, or a time step that is not positive.
     """
 
@@ -88,21 +88,23 @@ class Options:
         claims = [Claim(what, value, where) for value, where in places if value is not None and value != ""]
         return claims if self.is_stand_in else [*claims, *claims_of_name(self.file)]
 
-    def unit_in(self, word: str, place: str) -> str | None:
-        """Return the unit of acceleration that a word in the file is, None of counts and of none.
+    def unit_in(self, words: Iterable[str], place: str) -> str | None:
+        """Return the unit of acceleration that words in the file are, None of counts and of none.
 
-        Raises RecordError for one of velocity or displacement, UndeclaredError for another that no caller settles.
+        Raises RecordError for one of velocity or displacement, UndeclaredError for another that no caller settles, and
+        for two that differ.
         """
-        if word.upper() in _NO_UNIT:
-            return None
-        refuse_other_quantity("", word)
-        unit = acceleration_unit(word)
-        if unit is None and self.unit is None:
-            raise UndeclaredError(
-                f"unit is {word!r} in {place}, which is none of acceleration; {advice('unit')} if it is one.",
-                unit=word,
-            )
-        return unit
+        units = []
+        for word in dict.fromkeys(word for word in words if word.upper() not in _NO_UNIT):
+            refuse_other_quantity("", word)
+            units.append(acceleration_unit(word))
+            if units[-1] is None and self.unit is None:
+                raise UndeclaredError(
+                    f"unit is {word!r} in {place}, which is none of acceleration; {advice('unit')} if it is one.",
+                    unit=word,
+                )
+        found: str | None = agreed("unit", [Claim("unit", unit, Where.HEAD) for unit in units if unit])
+        return found
 
     def unit_of(self, in_file: str | None) -> str:
         """Return the unit the file declares, however spelt, else the caller's.
@@ -371,7 +373,7 @@ class Layout:
     ) -> Accelerogram:
         """Return channel() of `values` (n,) at `times` (n,) s; points of film, which are uneven, are joined by lines.
 
-        They stand where the trace bends, a dozen to a hundred a second.
+        They lie where the trace bends, a dozen to a hundred a second.
         """
         step = even_step(times)
         if step is None:
@@ -504,7 +506,7 @@ _TYPED = re.compile(r"(?i)\b(M[wslb]?)(?![a-z])\W{0,3}(\d\d?(?:\.\d+)?)|(\d\d?(?
 def typed_magnitude(text: str) -> dict[str, Any]:
     """Return magnitude and magnitude_type of a text like "6.5 Mw", "4.0(Ms)" or "/mb=6.1/Mw=7.1", by preference.
 
-    A number without a scale counts where none has one; 0 and below stand for none.
+    A number without a scale counts where none has one; 0 and below mean none.
     """
     spaced = " ".join(text.split())
     values = {}

@@ -92,7 +92,7 @@ class ColumnLabel:
 
     @property
     def is_known(self) -> bool:
-        """Whether it stands in the closed lists: times, a count, another quantity, or acceleration.
+        """Whether it is in the closed lists: times, a count, another quantity, or acceleration.
 
         Acceleration it is by its unit, by its direction, or by the word for it alone: not with a strange unit.
         """
@@ -135,7 +135,7 @@ class ColumnLabel:
         return _only_direction(name) or name
 
     def _is_direction(self, brackets: re.Match[str]) -> bool:
-        """Whether what stands in brackets is a direction, as in "Acc (N)": no other name stands before it."""
+        """Whether the text in brackets is a direction, as in "Acc (N)": no other name precedes it."""
         before = self.text[: brackets.start()].strip()
         if len(brackets[1]) == 1 and before:  # V may be of volts
             return (
@@ -146,7 +146,7 @@ class ColumnLabel:
 
 
 def with_units(names: Sequence[str], units: Sequence[str]) -> tuple[str, ...]:
-    """Return names of columns with the units in brackets that stand in the row below them.
+    """Return names of columns with the units in brackets, which the row below them holds.
 
     () where that row holds anything else than units, or none of acceleration.
     """

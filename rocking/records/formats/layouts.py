@@ -67,7 +67,7 @@ class TableLayout:
     """How the numbers of a table are to be read.
 
     columns: in their order; of a series the one that it is. is_series: whether it runs along the rows. per_line:
-    numbers on a line, 0 where nobody says it; more than there are columns: so many rows stand on a line. width:
+    numbers on a line, 0 where nobody says it; more than there are columns: so many rows are on a line. width:
     characters of each, 0 where blanks part them. skip: lines that are passed over. above: numbers before the first of a
     series. time_step: s, where no column holds times. is_answer: whether a person gave it.
     """
@@ -154,7 +154,7 @@ def _with_item(layout: TableLayout, item: str) -> TableLayout:
         return replace(layout, columns=(_acceleration("a", rest.partition(" ")[2]),))
     if layout.is_series:
         raise RecordError(
-            f"{item!r} stands in no answer of one series; answer like {_EXAMPLES}.", answer=item
+            f"{item!r} is no part of an answer of one series; answer like {_EXAMPLES}.", answer=item
         )
     if item == "-":
         return replace(layout, columns=(*layout.columns, Column("other")))
@@ -324,8 +324,8 @@ def _counts(group: Sequence[tuple[str, Question]], others: Sequence[Sequence[tup
     how_many = counted(count, "file") if not others else f"{len(group)} of {count} files"
     if peaks := _range_of(group):
         how_many += f" with peaks {peaks.replace('..', '–')}"
-    kept = [f"{len(other)} of {peaks.replace('..', '–')}" for other in others if (peaks := _range_of(other))]
-    return how_many + (f" (the others: {', '.join(kept)})" if kept else "")
+    rest = [f"{len(other)} of {peaks.replace('..', '–')}" for other in others if (peaks := _range_of(other))]
+    return how_many + (f" (the others: {', '.join(rest)})" if rest else "")
 
 
 class AskedError(UndeclaredError):
@@ -338,7 +338,7 @@ class AskedError(UndeclaredError):
 
 @dataclass(frozen=True, kw_only=True)
 class LayoutAnswer:
-    """One answer: its text, who gave it, the line it stands on and the file that it was drawn from."""
+    """One answer: its text, who gave it, its line and the file that it was drawn from."""
 
     text: str
     whose: str

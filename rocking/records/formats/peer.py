@@ -41,7 +41,7 @@ _LAYOUT = Layout(
 _FILTER_POINTS = re.compile(r"HP\s*=\s*([0-9.]+)\s*HZ", re.I)
 _POLES = re.compile(r"(-?\d+)\s+POLE\s+@\s*([0-9.]+)", re.I)
 _DATE_AT_END = re.compile(r"\s*\b\d{1,2}/\d{1,2}/\d{2,4}(?:,? +\d{1,2}:?\d\d)?$")
-"""In a title like "DUZCE 11/12/99": the date stands in a fact of its own."""
+"""In a title like "DUZCE 11/12/99": the date is a separate fact."""
 _IN_BRACKETS = re.compile(r"\([^()]*(?:\)|$)")
 """The sense of a direction, or a network of its own part, as in "CHI-CHI 09/20/99, CHY101, E, (CWB)".
 
@@ -56,7 +56,7 @@ _FIRST = re.compile(
 
 
 def _read(content: bytes, options: Options) -> list[Accelerogram]:
-    content = content.lstrip(b"\n")  # or a blank line above stands in the place of the title
+    content = content.lstrip(b"\n")  # or a blank line above is taken for the title
     head = lines(content, _HEADER_LINES)
     steps = ((place, pattern.search(line[:200])) for place, line in enumerate(head) for pattern in _STEPS)
     found = next(((place, match) for place, match in steps if match), None)

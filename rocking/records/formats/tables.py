@@ -81,7 +81,7 @@ LONGEST_STEP = 1.0
 
 @dataclass(frozen=True)
 class NumberTable:
-    """Numbers in columns, and what stands above them.
+    """Numbers in columns, and the text above them.
 
     labels: of the columns, none where no line names them. width: number of columns. start: lines above the numbers.
     comments: what lines with a mark say, without it; words: what the other lines above the names say. counts: the line
@@ -118,9 +118,9 @@ class NumberTable:
         above = [(at, _bare(line)) for at, line in enumerate(lines[:start]) if _bare(line)]
         above = [(at, line) for at, line in above if not (at == above[0][0] and _EXCEL.fullmatch(line))]
         counts = next(((at, order) for at, line in reversed(above) if (order := _counts(line))), None)
-        kept = [line for at, line in above if counts is None or at != counts[0]]
+        others = [line for at, line in above if counts is None or at != counts[0]]
         width = len(below)
-        labels, rest = _named(kept, width)
+        labels, rest = _named(others, width)
         return cls(
             labels,
             width,
@@ -348,7 +348,7 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     if begins_by_step or (layout and (layout.skip or layout.above or layout.width)):
         seen = seen.below(start, layout, options.time_step)
     if seen.values is None or seen.drawn is None:
-        raise seen.fault or RecordError("its numbers cannot be told apart.")
+        raise seen.fault or RecordError("its numbers cannot be separated.")
     table, body, values, drawn = seen.table, seen.body, seen.values, seen.drawn
 
     has_step = bool(above or options.time_step or table.said.time_step)
@@ -410,7 +410,7 @@ def _above(table: NumberTable, layout: TableLayout | None, content: bytes) -> tu
     if len(found) != len(roles) or not all(map(is_number, found)):
         named = ", ".join(roles)
         raise RecordError(
-            f"above its samples stand {' '.join(found)[:40]!r}, and not the numbers {named}.",
+            f"above its samples are {' '.join(found)[:40]!r}, and not the numbers {named}.",
             above=" ".join(found),
         )
     return dict(zip(roles, map(float, found), strict=True)), max(at, table.start if table.counts else at)
@@ -418,11 +418,11 @@ def _above(table: NumberTable, layout: TableLayout | None, content: bytes) -> tu
 
 _NO_VALUE = re.compile(r"(?i)[\s,;]*(?:(?:nan|inf|na|null|none|n/a|#n/a)[\s,;]*)+")
 _LONGEST_TAIL = 20
-"""Lines of text that may stand below the numbers."""
+"""Lines of text that may follow below the numbers."""
 
 
 def _parted(below: bytes, width: int) -> tuple[bytes, tuple[str, ...]]:
-    """Return the rows of `width` numbers, and the lines of text that stand below the last of them.
+    """Return the rows of `width` numbers, and the lines of text below the last of them.
 
     A line of text begins with no number, and is no row of missing values: those are damage.
     """
@@ -647,14 +647,14 @@ def _claims(
     """Return all that is said of the unit and the step of one column, step: of its times or above it."""
     said = table.said
     is_answer = layout.is_answer
-    told: tuple[tuple[What, Any, Where, str], ...] = (
+    said_of: tuple[tuple[What, Any, Where, str], ...] = (
         ("unit", column.unit if is_answer else None, Where.ANSWER, ""),
         ("unit", label.unit, Where.COLUMN, label.text),
         ("time_step", layout.time_step if is_answer else None, Where.ANSWER, ""),
         ("time_step", step, Where.SAMPLES, ""),
         *(("time_step", rate, Where.SPOKEN, "") for rate in said.stated_steps if is_answer),
     )
-    own = (Claim(*words) for words in told if words[1])
+    own = (Claim(*words) for words in said_of if words[1])
     return (*own, *said.of_numbers(), *options.said("unit"), *options.said("time_step"))
 
 
@@ -692,7 +692,7 @@ def _values(body: bytes, table: NumberTable, layout: TableLayout | None) -> np.n
         _check_rows(spaced, table.width, may_end_short=not table.labels)
     if values.size < 2:
         raise RecordError(
-            f"{values.size} numbers stand below what is passed over, but at least 2 are needed.",
+            f"{values.size} numbers follow what is passed over, but at least 2 are needed.",
             samples=int(values.size),
         )
     return values
@@ -723,7 +723,7 @@ def _channels(
 ) -> list[Accelerogram]:
     """Return the channels of a table: each column of acceleration, with the times left of it, else the first ones.
 
-    A series along the rows is one column. above: the numbers that stand there of it, where they are no rows.
+    A series along the rows is one column. above: its numbers in the lines above, where they are no rows.
     """
     columns = layout.columns
     notes: tuple[Remark, ...] = ()

@@ -75,7 +75,7 @@ def numbers(text: bytes | str) -> np.ndarray:
             return values
     check_plain(text)
     raise RecordError(
-        "the samples cannot be told apart; every sample must be a plain decimal number.", samples=None
+        "the samples cannot be separated; every sample must be a plain decimal number.", samples=None
     )
 
 
@@ -131,7 +131,7 @@ def column_width(row: str) -> int:
 def whole(values: np.ndarray, declared: int, per_line: int) -> tuple[np.ndarray, tuple[Remark, ...]]:
     """Return `values`, with a warning if there are up to a line more than `declared`.
 
-    Raises RecordError when there are fewer (the file is cut) or many more (something else stands in it).
+    Raises RecordError when there are fewer (the file is cut) or many more (it holds something else).
     """
     if declared < 2:
         raise RecordError(
@@ -160,7 +160,7 @@ def filled(rows: list[str], declared: int, per_line: int, width: int, margin: in
     rows = [row for row in rows if row.strip()]
     if len(rows) < line_count or (len(rows) > line_count and declared > 1):
         state = "truncated" if len(rows) < line_count else "damaged"
-        stated = f"the header declares {declared} samples, or {line_count} lines, but {len(rows)} stand there"
+        stated = f"the header declares {declared} samples, or {line_count} lines, but holds {len(rows)}"
         raise RecordError(
             f"{stated}: lines are missing or repeated, the file is {state}; fetch it again.", samples=declared
         )
@@ -245,7 +245,7 @@ _LONGEST_LINE = 0.25
 def through_points(times: np.ndarray) -> tuple[float, np.ndarray, Remark]:
     """Return (step, even times, the remark that says so) for points of film, a dozen to a hundred a second.
 
-    They stand where the trace bends and are joined by lines. Raises RecordError at a gap.
+    They lie where the trace bends and are joined by lines. Raises RecordError at a gap.
     """
     check_no_gap(times, _LONGEST_LINE)
     even = np.arange(round(times[0] / _APART), int(times[-1] / _APART + 1e-6) + 1) * _APART
@@ -296,7 +296,7 @@ _CENTURY = 30
 def iso_date(text: str) -> str:
     """Return the date, and the time as far as it is given, of `text` in ISO 8601; `text` where it is no date.
 
-    The zone is the one that the text names, and none where it names none. Of "2/9/1971" the month stands first, as in
+    The zone is the one that the text names, and none where it names none. Of "2/9/1971" the month is first, as in
     the files of American agencies, unless only the second number can be one.
 
     >>> iso_date("Mon Feb 13, 2012 13:06:45.0 PST"), iso_date("1/17/94, 12:31")

@@ -19,7 +19,7 @@ _LARGEST_XML = 32 * 2**20
 DATALESS = rb"\d{6}V "
 RESP = rb"(#.*\n)*B05\dF\d\d\b|#\s*<+\s*IRIS SEED Reader"
 SACPZ = rb"(\*.*\n)*\s*(ZEROS|POLES|CONSTANT)\s+-?\d"
-"""The first characters of what describes instruments beside StationXML."""
+"""The first characters of what describes instruments other than StationXML."""
 
 
 def inventory_for(stats: Any, options: Options) -> Any:

@@ -1,7 +1,7 @@
 """Workspaces of gmprocess: ASDF files (HDF5) of many stations, of which each is read as a file of an archive.
 
 A member is called after the tag and the station, `us1000778i_default/NZ.HSES`; the tag is the earthquake and the label
-of the processing. Its content is one station as it stands in the workspace: samples, StationXML, and what gmprocess
+of the processing. Its content is one station as it is in the workspace: samples, StationXML, and what gmprocess
 noted of them.
 """
 
@@ -21,7 +21,6 @@ import numpy as np
 
 from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import acceleration_unit
-from rocking.records.claims import Claim, Where, agreed
 from rocking.records.doors import advice
 from rocking.records.formats.format import Options
 from rocking.records.kinds import RecordKind
@@ -68,7 +67,7 @@ def opened(source: str | BytesIO) -> Any:
 
 
 def stations(file: Any) -> tuple[frozenset[str], frozenset[str]]:
-    """Return the names of the members of a workspace, and of those whose raw motion stands there processed as well."""
+    """Return the names of the members of a workspace, and of those whose raw motion is there processed as well."""
     names = set()
     for station in _group(file, "Waveforms"):
         for series in _group(file, "Waveforms", station):
@@ -132,7 +131,7 @@ def _event_of(tag: str) -> str:
 
 
 def _member(file: Any, *names: str) -> Any:
-    """Return what stands at a place of the file itself, None where nothing does: a link may lead to any other file."""
+    """Return what lies at a path in the file itself, None where nothing does: a link may lead to any other file."""
     import h5py
 
     found = file
@@ -301,10 +300,9 @@ def _unit_of(noted: dict[str, Any], own: Any, trace: Any, is_raw: bool, options:
     UndeclaredError where neither says it, or both say unlike units.
     """
     of_channel = "" if is_raw else _calibration_unit(own, trace)
-    units = [options.unit_in(noted["unit"] or of_channel, "the workspace"), acceleration_unit(of_channel)]
-    if is_raw and not any(units):
-        return options.unit
-    return options.unit_of(agreed("unit", [Claim("unit", unit, Where.HEAD) for unit in units if unit]))
+    units = [noted["unit"] or of_channel, of_channel if acceleration_unit(of_channel) else ""]
+    unit = options.unit_in(units, "the workspace")
+    return options.unit if is_raw and unit is None else options.unit_of(unit)
 
 
 def _are_counts(noted: dict[str, Any], inventory: Any, trace: Any) -> bool:

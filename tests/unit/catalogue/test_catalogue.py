@@ -98,7 +98,7 @@ def test_all_defects_stand_in_one_message(folder: Path) -> None:
     with pytest.raises(CatalogueError) as caught:
         load_catalogue(write(folder, *bad))
     said = str(caught.value)
-    for part in ("'a/b'", "x" * 81, "'con'", "'same' stands 2 times", "'1_0'", "'furlong'", "time_step_s is 0.0 s",
+    for part in ("'a/b'", "x" * 81, "'con'", "'same' occurs 2 times", "'1_0'", "'furlong'", "time_step_s is 0.0 s",
                  "scale_factor is 0", "'nan'", "'ABC'", "'../table.csv'", "'/etc/passwd'", "'c:", "file is missing",
                  "source_repository is 'x'", "source_path is '../y'", "source_commit is 'main'", "magnitude is 11",
                  "epicentral_distance_km is -3", "magnitude is 'big'", "sha256 holds 1 hashes for 2 files",

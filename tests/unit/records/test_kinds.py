@@ -123,7 +123,7 @@ def test_the_disc_of_1999_is_read_as_its_later_files_are(tmp_path):
             "Raw acceleration counts   (Format v01.20 with 13 text lines)\n" * 3,
             "COSMOS V0 file of raw counts",
         ),
-        ("BEGIN GSE2.0\nMSG_TYPE DATA\n" * 3, "message of GSE or IMS; cut off what stands above"),
+        ("BEGIN GSE2.0\nMSG_TYPE DATA\n" * 3, "message of GSE or IMS; cut off the lines above"),
         ("* **********\n* NETWORK\nZEROS 3\nPOLES 5\n", "poles and zeros, which holds a response"),
         ("<!DOCTYPE html><html><body>Not found\n", "web page, and no record"),
         ("%PDF-1.5\nxx", "PDF or an archive"),

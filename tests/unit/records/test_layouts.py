@@ -326,8 +326,8 @@ def test_a_signature_is_not_asked_again_and_another_folder_of_bare_columns_is(tm
 @pytest.mark.parametrize(("answer", "words"), [
     ("t, a cm/s", "'cm/s' is no unit of acceleration"), ("t, -", "no column of 't, -' is of acceleration"),
     ("t, NS, EW g", "3 numbers a line, but this file has 2"), ("t fortnights, a g", "'fortnights', but must be in s"),
-    ("one series g, a", "'a' stands in no answer of one series"), ("t, 7% g", "'7%' names no component"),
-    ("one series g, dt 0.02, skip 4, n", "'n' stands in no answer"),
+    ("one series g, a", "'a' is no part of an answer of one series"), ("t, 7% g", "'7%' names no component"),
+    ("one series g, dt 0.02, skip 4, n", "'n' is no part of an answer"),
 ])  # fmt: skip
 def test_a_wrong_line_names_the_column_and_the_file_it_was_drawn_from(
     tmp_path: Path, answer: str, words: str
