@@ -166,7 +166,8 @@ def _read_sac(content: bytes, options: Options) -> list[Accelerogram]:
         try:
             inventory = None if options.unit else inventory_for(trace.stats, options)
         except UndeclaredError as error:
-            raise UndeclaredError(_SAC_SILENT.format(error), unit=None) from None
+            silent = "unit is not declared, for a SAC file declares none, and"
+            raise UndeclaredError(f"{silent} {error}", unit=None) from None
         unit = None if inventory else options.unit_of(None)
         records += _taken([trace], inventory, unit, options, warnings)
     return records
@@ -181,9 +182,6 @@ def _taken(
         step = options.time_step_of(record.time_step)
         records.append(replace(record, time_step=step, warnings=(*warnings, *record.warnings)))
     return records
-
-
-_SAC_SILENT = "unit is not declared, for a SAC file declares none, and {}"
 
 
 def _check_sac(header: dict[str, float], data: np.ndarray, step: float) -> None:

@@ -630,10 +630,7 @@ def _fitted(answer: LayoutAnswer, layout: TableLayout, table: NumberTable, drawn
         component = label.component if label.is_direction else said.component if len(labels) < 3 else ""
         if point_apart(component, column.name):
             raise answer.wrong(f"column {place} of this file is {component!r} by its own words.")
-    layout = replace(layout, is_answer=True)
-    if not layout.is_series and layout.per_line == len(layout.columns):
-        return replace(layout, per_line=0)
-    return layout
+    return replace(layout, is_answer=True)
 
 
 def _claims(
