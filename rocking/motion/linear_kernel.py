@@ -56,7 +56,7 @@ class LinearState(NamedTuple):
     side: int
 
 
-class IntervalEnd(NamedTuple):
+class Sample(NamedTuple):
     """A sample in which something may happen: x'' + 1 − x at its begin and end, and x and x'/p at its end if not."""
 
     drive: float
@@ -276,7 +276,7 @@ def _glide(ground, bound, time_step, p, scale, limit, full, motion, span, log):
         # |x''| is largest at an end of the sample, so a velocity beyond y |x''| has no zero within it.
         same = force * later >= 0 or abs(w) > width * max(abs(force), abs(later))
         if not (new > 0 and w * pull > 0 and same):
-            return LinearState(i, tau, x, w, side), IntervalEnd(drive, final, new, pull), False, passed
+            return LinearState(i, tau, x, w, side), Sample(drive, final, new, pull), False, passed
         i, tau, x, w, drive = i + 1, 0.0, new, pull, final
         growth, decay, up, up_end, down, down_end = full
         width = p * time_step
@@ -284,7 +284,7 @@ def _glide(ground, bound, time_step, p, scale, limit, full, motion, span, log):
         runs.write(log, i * time_step, span * x, span * w * p)
         fallen = q - 1 > limit * bound[i]
         if fallen or i == ground.size - 1:
-            return LinearState(i, tau, x, w, side), IntervalEnd(drive, final, new, pull), fallen, passed
+            return LinearState(i, tau, x, w, side), Sample(drive, final, new, pull), fallen, passed
 
 
 @part
