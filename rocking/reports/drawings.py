@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -18,7 +18,8 @@ from rocking.reports.pages import Picture
 from rocking.reports.style import PULSE
 from rocking.signal.measures import record_measures
 from rocking.structures import Structure
-from rocking.structures.drawing import Bay, Mark
+from rocking.structures.drawing import Mark, plane, rectangle
+from rocking.structures.tied import Tied
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -300,6 +301,50 @@ def draw_dimensions(
         if values and dimension.line.shape[0] > 2:
             va = "top"  # within the arc, clear of the radius
         axes.text(place[0], place[1], f" {text} ", ha=ha, va=va, zorder=4, bbox=_PAPER)
+
+
+_ASIDE = 0.5
+"""Distance of the front of a bay from the section, in heights of the wall: what stands between is the dimensions."""
+_BESIDE_A_BAY = 0.08
+"""What is drawn of the bays beside it, in spacings."""
+
+
+@dataclass(frozen=True, eq=False)
+class Bay:
+    """A wall between two ties of a row as it is seen from the front, next to its section, in m.
+
+    outline: (k, 2) of the bay and a little of those beside it. falls: outlines (j, 2) of what may fall between the
+    ties. ties: (m, 2) where they hold it.
+    """
+
+    outline: np.ndarray = field(repr=False)
+    falls: tuple[np.ndarray, ...] = field(repr=False)
+    ties: np.ndarray = field(repr=False)
+
+
+def bay_of(structure: Structure) -> Bay | None:
+    """Return the front between two ties of a row, of a wall that may fall there; else None."""
+    if not isinstance(structure, Tied) or not structure.ties_apart or structure.tie_spacing is None:
+        return None
+    spacing, top = structure.tie_spacing, structure.height
+    left = max(float(outline[:, 0].max()) for outline in structure.outline()) + _ASIDE * top
+    ends = left + _BESIDE_A_BAY * spacing + np.array([0.0, spacing])
+    right = float(ends[1]) + _BESIDE_A_BAY * spacing
+    openings = [structure.opening]
+    if structure.opening is None:
+        openings = [candidate.opening for candidate in structure.mechanisms() if not candidate.part]
+    falls = []
+    for opening in openings:
+        if opening is None or not opening.between:
+            continue
+        # Not a triangle: all of the bay above its foot, as if no tie held it.
+        hold = opening.hold if opening.is_triangle and opening.hold is not None else opening.foot
+        heights = [opening.foot, hold, top, top, hold]
+        falls.append(np.stack([[ends.mean(), ends[1], ends[1], ends[0], ends[0]], heights], axis=1))
+    if not falls:
+        return None
+    ties = np.array([[end, height] for end in ends for height in structure.tie_heights])
+    return Bay(plane(rectangle(left, right, 0.0, top)), tuple(falls), ties)
 
 
 def draw_bay(axes: Axes, bay: Bay) -> None:

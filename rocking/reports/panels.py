@@ -14,7 +14,7 @@ import numpy as np
 from rocking.earthquakes.sample import interval_words
 from rocking.errors import MotionError, RockingError
 from rocking.quantities import percent, shown
-from rocking.reports.drawings import MOST_POINTS, draw_bay, draw_dimensions, draw_structure, thinned
+from rocking.reports.drawings import MOST_POINTS, bay_of, draw_bay, draw_dimensions, draw_structure, thinned
 from rocking.reports.style import (
     PULSE,
     RECORD,
@@ -338,8 +338,9 @@ def _plot_structure(
     draw_structure(axes, structure, rotation, values=not dimensions)
     if dimensions:
         draw_dimensions(axes, structure)
-        if structure.bay is not None:
-            draw_bay(axes, structure.bay)
+        bay = bay_of(structure)
+        if bay is not None:
+            draw_bay(axes, bay)
     if not rotation and len(structure.thrust_line()):
         axes.plot(*structure.thrust_line().T, color="C3", linewidth=1.0, label="thrust line at uplift")
         # above the axes: an arch reaches into every corner of them

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 from itertools import pairwise
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
 
@@ -78,26 +78,13 @@ class Block(Crushable):
         height: Annotated[float, length("Height", 4.0, (0.1, 100), "h")],
         restitution: Restitution = None,
         one_sided: bool = False,
-        *,
-        restitution_range: float | None = None,
-        compressive_strength: float | None = None,
-        unit_weight: float | None = None,
-        lean: float = 0.0,
-    ) -> "Block":
+        **options: Any,
+    ) -> Self:
         """Return the block of that breadth and height [m]; the others as for the class."""
         form_made_by(cls, "of_size").check(breadth=breadth, height=height)
         half = np.hypot(breadth, height) / 2
         slenderness = np.arctan2(breadth, height)
-        return cls(
-            half,
-            slenderness,
-            restitution,
-            one_sided,
-            restitution_range=restitution_range,
-            compressive_strength=compressive_strength,
-            unit_weight=unit_weight,
-            lean=lean,
-        )
+        return cls(half, slenderness, restitution, one_sided, **options)
 
     @property
     def symmetric(self) -> bool:

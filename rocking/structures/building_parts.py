@@ -5,7 +5,7 @@ Each is a height and the thickness over which it rocks; its breadth across shows
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal, Self
+from typing import Any, Literal
 
 import numpy as np
 
@@ -16,7 +16,6 @@ from rocking.structures.drawing import Path
 from rocking.structures.facade import Facade, behind_leaf
 from rocking.structures.fields import Field, Form, constructor, field_of, length
 from rocking.structures.leaves import Leaf, Leaved
-from rocking.structures.linkage import Restitution
 from rocking.structures.structure import Structure
 
 Sizes = Mapping[str, Any]
@@ -31,19 +30,6 @@ class FreeWall(Block, Leaved):
     def __post_init__(self) -> None:
         super().__post_init__()
         self._check_leaves()
-
-    @classmethod
-    def of_size(
-        cls,
-        breadth: float,
-        height: float,
-        restitution: Restitution = None,
-        one_sided: bool = False,
-        **options: Any,
-    ) -> Self:
-        """Return the wall of that thickness and height [m]; options as for a block and for leaves."""
-        size = Block.of_size(breadth, height)
-        return cls(size.semi_diagonal, size.slenderness, restitution, one_sided, **options)
 
     @property
     def _sections(self) -> tuple[tuple[float, float, float, float], ...]:

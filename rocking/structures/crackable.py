@@ -107,13 +107,18 @@ class Crackable(Crushable):
                     # one object, so that it is integrated once
                     candidate.structure.__dict__["_mechanism"] = self.mechanism()
             return others
-        own = Candidate(self.crack_in_words, self.crack_position, self)
+        own = Candidate(self.crack_in_words, self.crack_position, self, limit=self._limit)
         not_counting = (
             replace(candidate, counts=False)
             for candidate in others
             if candidate.description != own.description
         )
         return (own, *not_counting)
+
+    @property
+    def _limit(self) -> float | None:
+        """Its λ by limit analysis, in which ties pull with the force at which they yield; None without ties."""
+        return None
 
     @abstractmethod
     def _may_form(self, count: int) -> tuple[Candidate, ...]:
@@ -221,7 +226,7 @@ class CrackedAtHeight(Crackable):
             if wrong.field == "restitution":
                 raise  # it opens there, and only how it meets its foot again is not known
             return None
-        return Candidate(self._in_words(height), height, structure)
+        return Candidate(self._in_words(height), height, structure, limit=structure._limit)
 
     def cracked_by_statics(self) -> Self:
         """Return this structure cracked where statics chooses."""

@@ -35,19 +35,6 @@ class Mark:
     line: np.ndarray = field(repr=False)
 
 
-@dataclass(frozen=True, eq=False)
-class Bay:
-    """A wall between two ties of a row as it is seen from the front, beside its section, in m.
-
-    outline: (k, 2) of the bay and a little of those beside it. falls: outlines (j, 2) of what may fall between the
-    ties. ties: (m, 2) where they hold it.
-    """
-
-    outline: np.ndarray = field(repr=False)
-    falls: tuple[np.ndarray, ...] = field(repr=False)
-    ties: np.ndarray = field(repr=False)
-
-
 Path = tuple[np.ndarray, np.ndarray]
 """The line and the feet of a dimension."""
 

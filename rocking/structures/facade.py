@@ -21,7 +21,7 @@ from rocking.structures.fields import Lean, Value, restitution_value, stated
 from rocking.structures.held_wall import Hold, Load, Opening, Storey
 from rocking.structures.kinds import StructureKind
 from rocking.structures.leaves import Leaf
-from rocking.structures.linkage import Restitution, inset
+from rocking.structures.linkage import Restitution
 from rocking.structures.stack import (
     MOST_COURSES,
     Course,
@@ -271,7 +271,7 @@ class Facade(Tied):
         for storey, load in enumerate(self.floor_loads):
             middle = -self.thicknesses[storey] / 2
             if storey == last and self.top_slab == "flat":
-                edge = self._slab_edge(storey, load)
+                edge = self._slab_edge(self.thicknesses[storey], load)
                 loads.append(Load(middle, levels[storey + 1], load, rides, edge, rides))
             elif load:
                 loads.append(Load(middle - self.eccentricity, levels[storey + 1], load, rides, moves=rides))
@@ -300,11 +300,6 @@ class Facade(Tied):
     @property
     def _aside(self) -> float:
         return float(np.tan(self.lean))
-
-    def _slab_edge(self, storey: int, load: float) -> float:
-        """Distance of the edge on which a slab lies from the middle of its wall, m."""
-        thickness = self.thicknesses[storey]
-        return thickness / 2 - inset(pressing=load, strength=self.compressive_strength, breadth=thickness)
 
     def opened(self, opening: Opening) -> "Facade":
         cracked = self._cracked_there_only.cracked_at(opening.foot)
@@ -361,12 +356,7 @@ class Facade(Tied):
 
     def _flat_slab(self, thickness: float, load: float) -> Course:
         """The uppermost floor as a body that stays flat and moves along."""
-        if self.loads_held:
-            raise StructureError(
-                "loads_held is true under a flat slab, but contact dynamics needs the mass of a slab; leave loads_held "
-                "out, or choose another fidelity than contact.",
-                loads_held=True,
-            )
+        self._check_slab("loads_held")
         aside = self._aside * self.height
         return slab(aside - thickness, aside, self.height, load, upright=True)
 

@@ -81,22 +81,11 @@ class Frame(Crushable):
         columns: Columns,
         beam_mass_ratio: BeamMassRatio,
         restitution: Restitution = None,
-        *,
-        restitution_range: float | None = None,
-        compressive_strength: float | None = None,
-        unit_weight: float | None = None,
+        **options: Any,
     ) -> "Frame":
         """Return the frame whose columns have that breadth and height [m]; the others as for the class."""
         column = Block.of_size(column_breadth, column_height)
-        return cls(
-            column,
-            columns,
-            beam_mass_ratio,
-            restitution,
-            restitution_range=restitution_range,
-            compressive_strength=compressive_strength,
-            unit_weight=unit_weight,
-        )
+        return cls(column, columns, beam_mass_ratio, restitution, **options)
 
     @property
     def _leaves_out(self) -> Remark:

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -293,34 +294,25 @@ class PointMass:
 
 def loaded(course: Course, masses: Sequence[PointMass]) -> Course:
     """Return the course with point masses fixed to it."""
-    weights = np.array([course.mass, *(mass.mass for mass in masses)])
-    places = np.array([course.centre, *(mass.point for mass in masses)])
-    mass = weights.sum()
-    centre = weights @ places / mass
-    squared_distances = ((places - centre) ** 2).sum(axis=1)
-    inertia = course.inertia + weights @ squared_distances
-    return replace(course, mass=float(mass), centre=tuple(centre.tolist()), inertia=float(inertia))
+    points = [(mass.mass, mass.point, 0.0) for mass in masses]
+    return replace(course, **_together([(course.mass, course.centre, course.inertia), *points]))
+
+
+def _together(bodies: Sequence[tuple[float, tuple[float, float], float]]) -> dict[str, Any]:
+    """Mass, centre and inertia about it of bodies that move as one, from those of each, as a course takes them."""
+    masses, places, inertias = (np.array(values) for values in zip(*bodies, strict=True))
+    centre = masses @ places / masses.sum()
+    inertia = inertias.sum() + masses @ ((places - centre) ** 2).sum(axis=1)
+    return {"mass": float(masses.sum()), "centre": tuple(centre.tolist()), "inertia": float(inertia)}
 
 
 def joined(courses: Sequence[Course]) -> Course:
     """Return courses that stay together as one body."""
     first = courses[0]
     last = courses[-1]
-    masses = np.array([course.mass for course in courses])
-    places = np.array([course.centre for course in courses])
-    centre = masses @ places / masses.sum()
-    inertias = np.array([course.inertia for course in courses])
-    inertia = inertias.sum() + masses @ ((places - centre) ** 2).sum(axis=1)
     height = last.base + last.height - first.base
-    return Course(
-        bottom=first.bottom,
-        top=last.top,
-        base=first.base,
-        height=height,
-        mass=float(masses.sum()),
-        centre=tuple(centre.tolist()),
-        inertia=float(inertia),
-    )
+    moments = _together([(course.mass, course.centre, course.inertia) for course in courses])
+    return Course(bottom=first.bottom, top=last.top, base=first.base, height=height, **moments)
 
 
 def slab(left: float, right: float, base: float, load: float, **how: bool) -> Course:

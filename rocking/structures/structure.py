@@ -18,7 +18,7 @@ from rocking.quantities import GRAVITY, within
 from rocking.remarks import Phrase, Remark
 from rocking.structures.capacity import StaticCapacity, StaticCurve
 from rocking.structures.description import Description
-from rocking.structures.drawing import Bay, Dimension, Mark, Path, plane
+from rocking.structures.drawing import Dimension, Mark, Path, plane
 from rocking.structures.fields import PlainSignature, Value, constructor
 from rocking.structures.joints import USUAL, Joints
 from rocking.structures.kinds import StructureKind
@@ -188,15 +188,7 @@ class Structure(ABC):
         """Return what keeps it from moving outwards above its foot, with the forces that this needs and gives."""
         return ()
 
-    def reactions(
-        self,
-        rotation: ArrayLike = 0.0,
-        angular_velocity: ArrayLike = 0.0,
-        angular_acceleration: ArrayLike | None = None,
-        ground: ArrayLike | None = None,
-        vertical: ArrayLike = 0.0,
-        largest: ArrayLike | None = None,
-    ) -> tuple[Reaction, ...]:
+    def reactions(self, *_: Any, **__: Any) -> tuple[Reaction, ...]:
         """Return the force of everything that holds it sideways above its foot, over k states as of `contact_forces`.
 
         None of what nothing holds, or of which only the share of its weight is known.
@@ -437,11 +429,6 @@ class Structure(ABC):
     def marks(self, rotation: float = 0.0) -> tuple[Mark, ...]:
         """Return the loads, thrusts, ties and supports on it at a signed `rotation` [rad]."""
         return ()
-
-    @property
-    def bay(self) -> Bay | None:
-        """The front between two ties of a row, of a wall that may fall there; else None."""
-        return None
 
     def beside(self, leaf: str) -> list[np.ndarray]:
         """Return the outlines (k, 2) of its other leaves at rest, m, as a leaf of that name sees them alone."""

@@ -16,7 +16,7 @@ from rocking.errors import DoesNotStandError, StructureError, StructureWarning
 from rocking.quantities import GRAVITY
 from rocking.remarks import Phrase, Remark
 from rocking.structures.crackable import CrackedAtHeight
-from rocking.structures.drawing import Bay, Mark, plane, rectangle
+from rocking.structures.drawing import Mark, plane
 from rocking.structures.fields import Value
 from rocking.structures.held_wall import LEAST_STIFFNESS, Chain, HeldWall, Hold, Load, Opening, Storey, TieRow
 from rocking.structures.kinds import StructureKind
@@ -29,6 +29,7 @@ from rocking.structures.linkage import (
     Reaction,
     Restraint,
     UnknownContacts,
+    inset,
 )
 from rocking.structures.mechanism import Tie
 from rocking.structures.stack import Course, Held, Stop, course_at, courses_between, joints_between
@@ -58,27 +59,12 @@ FAR_APART = 3.0
 the least λ is that of a wall held all along up to there, and goes down to that of the triangle beyond."""
 
 
-_ASIDE = 0.5
-"""Distance of the front of a bay from the section, in heights of the wall: what stands between is the dimensions."""
-_BESIDE_A_BAY = 0.08
-"""What is drawn of the bays beside it, in spacings."""
-
-
 @dataclass(frozen=True, repr=False)
 class Tied(CrackedAtHeight, Leaved):
-    """A structure with a row of equal ties.
+    """A structure with a row of equal ties, in SI and per metre of wall, each of which pulls inwards only.
 
-    tie_heights: of ties above the ground, m; tie_stiffness: of each, N/m per m; tie_pretension, N/m; tie_strength,
-    N/m, None for elastic ties, and tie_plastic_elongation, m, by which they yield before they break. A tie pulls
-    inwards only; one that is tightened needs a structure that cannot rock inwards.
-    tie_spacing: of the ties of a row along the wall, m, with the unit_length of the masonry, m, or held_between:
-    "floor" where a stiff floor or a ring beam holds all along; without a spacing they are taken to. rod_diameter,
-    rod_length, m, rod_yield_stress and rod_modulus, Pa, rod_pretension, N: of each rod, in place of the stiffness
-    E A/(L s), the strength f_y A/s and the pretension T/s. anchor_height, anchor_width: of the masonry that the anchor
-    of each tie grips, m.
-    compressive_strength: of the masonry, Pa; None: the edges of its joints do not crush.
-    loaded_leaf: of its leaves the one on which loads and thrusts bear. Ties hold each leaf without bonders as they hold
-    the wall; a leaf that goes inwards alone is held by none.
+    Rods have the stiffness E A/(L s), the strength f_y A/s and the pretension T/s. Ties hold each leaf without bonders
+    as they hold the wall; a leaf that goes inwards alone is held by none.
     opening: of one of its `mechanisms()`, in which alone it moves; held_at: the heights at which the rest of a wall
     holds this leaf of it to both sides, m; files give neither.
     """
@@ -272,6 +258,15 @@ class Tied(CrackedAtHeight, Leaved):
             return self
         return replace(self, held_between="floor", anchor_width=self.anchor_width or self.unit_length)
 
+    def _slab_edge(self, thickness: float, load: float) -> float:
+        """Distance of the edge on which a slab of that `load` [N/m] lies from the middle of its wall, m."""
+        return thickness / 2 - inset(pressing=load, strength=self.compressive_strength, breadth=thickness)
+
+    def _check_slab(self, name: str) -> None:
+        """Refuse a stack below a flat slab whose mass, as its field of that name says, something else holds."""
+        said = " under a flat slab, but contact dynamics needs the mass of a slab; leave it out, or choose another "
+        self._demand(not getattr(self, name), name, said + "fidelity than contact.")
+
     def _check_plane(self) -> None:
         """Refuse a stack, which is plane, of a wall that may fall between its ties."""
         if self.ties_apart:
@@ -401,12 +396,8 @@ class Tied(CrackedAtHeight, Leaved):
         within = [place for place in super()._places(count) if not (np.abs(stops - place) < near).any()]
         return [*within, *stops.tolist()]
 
-    def _candidate(self, height: float) -> Candidate | None:
-        candidate = super()._candidate(height)
-        return candidate and self._limited(candidate)
-
     def _cracked(self, count: int) -> tuple[Candidate, ...]:
-        cracked = tuple(map(self._limited, super()._cracked(count)))
+        cracked = super()._cracked(count)
         self._check_restitution()
         return cracked
 
@@ -421,16 +412,14 @@ class Tied(CrackedAtHeight, Leaved):
         """The least λ of its mechanisms by limit analysis, g; ties pull with the force at which they yield."""
         return self.mechanisms()[0].uplift_multiplier
 
-    def _limited(self, candidate: Candidate) -> Candidate:
-        """A crack with its λ by limit analysis, in which each tie pulls with the force at which it yields."""
-        wall = candidate.structure
-        if not (self.tie_heights or self.held_at) or not isinstance(wall, Tied):
-            return candidate
-        if self.held_wall.is_bonded(wall._opens):
-            return replace(candidate, limit=math.inf)
-        outwards = wall.held_wall.multiplier(wall._opens)
-        inwards = [side.uplift_multiplier for side in wall.mechanism().sides[1:]]
-        return replace(candidate, limit=min([outwards, *inwards]))
+    @property
+    def _limit(self) -> float | None:
+        if not (self.tie_heights or self.held_at):
+            return None
+        if self.held_wall.is_bonded(self._opens):
+            return math.inf
+        inwards = [side.uplift_multiplier for side in self.mechanism().sides[1:]]
+        return min([self.held_wall.multiplier(self._opens), *inwards])
 
     @cached_property
     def _family(self) -> tuple[Candidate, ...]:
@@ -662,29 +651,6 @@ class Tied(CrackedAtHeight, Leaved):
             for height in self.held_at
         ]
         return (*super().marks(rotation), *marks)
-
-    @property
-    def bay(self) -> Bay | None:
-        if not self.ties_apart or self.tie_spacing is None:
-            return None
-        left = max(float(outline[:, 0].max()) for outline in self.outline()) + _ASIDE * self.height
-        ends = left + _BESIDE_A_BAY * self.tie_spacing + np.array([0.0, self.tie_spacing])
-        right = float(ends[1]) + _BESIDE_A_BAY * self.tie_spacing
-        top = self.height
-        own = [candidate.opening for candidate in self.mechanisms() if not candidate.part]
-        openings = own if self.opening is None else [self.opening]
-        falls = []
-        for opening in openings:
-            if opening is None or not opening.between:
-                continue
-            # Not a triangle: all of the bay above its foot, as if no tie held it.
-            hold = opening.hold if opening.is_triangle and opening.hold is not None else opening.foot
-            heights = [opening.foot, hold, top, top, hold]
-            falls.append(np.stack([[ends.mean(), ends[1], ends[1], ends[0], ends[0]], heights], axis=1))
-        if not falls:
-            return None
-        ties = np.array([[end, height] for end in ends for height in self.tie_heights])
-        return Bay(plane(rectangle(left, right, 0.0, top)), tuple(falls), ties)
 
     @cached_property
     def _tie_levels(self) -> tuple[float, ...]:

@@ -27,7 +27,6 @@ from rocking.structures.leaves import Leaf
 from rocking.structures.linkage import (
     HIGHEST_SHARE,
     Restitution,
-    inset,
 )
 from rocking.structures.stack import (
     ROUGH,
@@ -199,15 +198,11 @@ class Wall(Tied):
         hinge_height: float,
         thickness: float,
         unit_weight: float | None = None,
-        *,
-        crack: KnownCrack = None,
         **options: Any,
     ) -> Self:
         """Return the wall of that total height whose hinge lies at `hinge_height` [m] above the base."""
         hinge = finite(StructureError, "hinge_height", hinge_height, "m")
-        return cls.of_size(
-            height, thickness, hinge_height=hinge, unit_weight=unit_weight, crack=crack, **options
-        )
+        return cls.of_size(height, thickness, hinge_height=hinge, unit_weight=unit_weight, **options)
 
     @property
     def height(self) -> float:
@@ -263,13 +258,15 @@ class Wall(Tied):
 
     @property
     def _storeys(self) -> tuple[Storey]:
-        return (Storey(0.0, self.height, -self.thickness / 2, self.thickness / 2, self._weight),)
+        # One whose weight is not known counts as if it weighed 1 N per metre.
+        weight = 1 / self.height if self.unit_weight is None else self.unit_weight * self.thickness
+        return (Storey(0.0, self.height, -self.thickness / 2, self.thickness / 2, weight),)
 
     @property
     def _loads(self) -> tuple[Load, ...]:
         is_flat = self.top_slab == "flat"
         across = 0.0 if is_flat else -self.eccentricity
-        edge = self._slab_edge * is_flat
+        edge = self._slab_edge(self.thickness, self.top_load) if is_flat else 0.0
         load = Load(across, self.height, self.top_load, rides=False, slab=edge, moves=not self.load_held)
         return (load,) if self.top_load else ()
 
@@ -279,7 +276,8 @@ class Wall(Tied):
         ties = Counter(self._tie_levels)
         # A tie at the top holds what friction does not; a top without a load is held by what the type says.
         at_top = sum([pull] * ties.pop(self.height, 0))
-        friction = self._friction if self.slips else np.inf
+        coefficient = self.joints.friction if self.top_friction is None else self.top_friction
+        friction = coefficient * self.top_load if self.slips else np.inf
         holds = [Hold(height, "tie", number * pull, 0.0) for height, number in sorted(ties.items())]
         return [*holds, Hold(self.height, "top", friction + at_top, friction)]
 
@@ -287,28 +285,6 @@ class Wall(Tied):
     def slips(self) -> bool:
         """Whether it is friction that holds its top."""
         return self.top_load > 0
-
-    @property
-    def _top_friction(self) -> float:
-        """The friction coefficient of what lies on it: its own, or that of all its joints."""
-        return self.joints.friction if self.top_friction is None else self.top_friction
-
-    @property
-    def _friction(self) -> float:
-        """The force by which friction holds its top, N per metre."""
-        return self._top_friction * self.top_load
-
-    @property
-    def _slab_edge(self) -> float:
-        """Distance of the edge on which a slab lies from the middle of the wall, m."""
-        return self.thickness / 2 - inset(
-            pressing=self.top_load, strength=self.compressive_strength, breadth=self.thickness
-        )
-
-    @property
-    def _weight(self) -> float:
-        """The weight per height, N/m²; of a wall whose own is not known as if it weighed 1 N per metre."""
-        return 1 / self.height if self.unit_weight is None else self.unit_weight * self.thickness
 
     @property
     def _described_opening(self) -> Opening:
@@ -330,12 +306,8 @@ class Wall(Tied):
         held = tuple(self._held_in(wall))
         if not self.top_load:
             return Stack(wall, held, top_held_at=(0.0, self.height))
-        if self.load_held and self.top_slab == "flat":
-            raise StructureError(
-                "load_held is true under a flat slab, but contact dynamics needs the mass of a slab; leave load_held "
-                "out, or choose another fidelity than contact.",
-                load_held=True,
-            )
+        if self.top_slab == "flat":
+            self._check_slab("load_held")
         if self.load_held:
             weight = Held(len(wall) - 1, top, force=(0.0, -self.top_load))
             return Stack(wall, (*held, weight), top_held_at=(0.0, self.height))

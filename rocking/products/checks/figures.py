@@ -12,7 +12,7 @@ from rocking.codes.check import Check, DynamicCheck, StructureCheck
 from rocking.codes.code_capacity import LIMIT_STATES, CodeCapacity
 from rocking.codes.selection import Selection
 from rocking.products.checks.rows import KINDS
-from rocking.reports.drawings import draw_bay, draw_dimensions, draw_structure
+from rocking.reports.drawings import bay_of, draw_bay, draw_dimensions, draw_structure
 from rocking.reports.panels import ZERO, plot
 from rocking.reports.printing import unit_of
 from rocking.reports.sentences import Sentences
@@ -50,7 +50,7 @@ def bars_figure(
     figure = new_figure(_HEIGHT)
     mechanism = checked.governing
     body = mechanism.candidate.structure
-    bay = body.bay if mechanism.candidate.bulges else None
+    bay = bay_of(body) if mechanism.candidate.bulges else None
     foot = 6 if bay is None else 6 + _HEIGHT / 3
     drawn = panel_at(figure, 2, foot, 58, _HEIGHT - 4 - foot)
     rotation = mechanism.candidate.sign * _TURNED * mechanism.static.side.critical_rotation
@@ -168,7 +168,7 @@ def _write_beside(axes: Axes, place: float, text: str, **look: Any) -> None:
 def basis_figure(structure: Structure, checked: StructureCheck, words: Sentences) -> Figure:
     """Draw the structure with its sizes and loads, and the capacity curve of the mechanism that governs."""
     figure = new_figure(_BASIS_HEIGHT)
-    bay = structure.bay
+    bay = bay_of(structure)
     drawn = panel_at(figure, 2, 4, 70 if bay is None else 36, _BASIS_HEIGHT - 10)
     draw_structure(drawn, structure, values=words.language == "en")
     draw_dimensions(drawn, structure, values=True, written=words.decimal)

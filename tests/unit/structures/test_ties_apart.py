@@ -16,6 +16,7 @@ from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import AssessmentSettings
 from rocking.codes.static_check import kinematic_check
 from rocking.errors import RockingError, SizeError, StructureError
+from rocking.reports.drawings import bay_of
 from rocking.structures import Facade, Joints, LoadedWall
 from rocking.structures.kinds import StructureKind
 from tests.refusals import refused
@@ -164,7 +165,7 @@ def test_triangle_joins_where_ties_stand_farther_apart_than_three_units():
 def test_the_front_between_two_ties_shows_the_triangle_and_what_stands_above_it():
     """From the foot at mid-span to each tie at 2.9 m, and all above; none where a floor holds the wall all along."""
     wall = replace(FRONT, tie_heights=(2.9,))
-    bay = wall.bay
+    bay = bay_of(wall)
     (falls,) = bay.falls
     left, right = bay.ties[:, 0]
     assert right - left == pytest.approx(6.0)
@@ -172,8 +173,8 @@ def test_the_front_between_two_ties_shows_the_triangle_and_what_stands_above_it(
     assert falls == pytest.approx(np.array(corners))
     assert bay.ties[:, 1].tolist() == [2.9, 2.9]
     assert bay.outline[:, 0].min() > max(path[:, 0].max() for path in wall.outline())
-    assert triangle(wall).structure.bay.falls[0] == pytest.approx(falls)
-    assert replace(wall, held_between="floor").bay is None
+    assert bay_of(triangle(wall).structure).falls[0] == pytest.approx(falls)
+    assert bay_of(replace(wall, held_between="floor")) is None
 
 
 def test_wall_between_supports_falls_between_its_ties_as_without_them():
