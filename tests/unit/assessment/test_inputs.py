@@ -6,7 +6,14 @@ import numpy as np
 import pytest
 
 from rocking.assessment.contacts import ContactShare
-from rocking.assessment.inputs import CaseInputs, Inputs, PairInputs, PulseInputs, ReserveInputs
+from rocking.assessment.inputs import (
+    CaseInputs,
+    Inputs,
+    PairInputs,
+    PredictionInputs,
+    PulseInputs,
+    ReserveInputs,
+)
 from rocking.assessment.motions import Motion
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings, PredictingPulse
 from rocking.hashes import sha256_of_content
@@ -36,6 +43,11 @@ OTHERS = {
         "place": 1,
         "settings": PredictingPulse(choice="demand"),
         "measured": False,
+    },
+    PredictionInputs(structure=BLOCK, candidates=(), acceleration_scale="mean"): {
+        "structure": Block(2.0, 0.21),
+        "candidates": (Pulse(amplitude=1.0, circular_frequency=2.0, start_time=3.0),),
+        "acceleration_scale": "uplift",
     },
     PairInputs(pair=PAIR, processing=True): {"pair": MOTION, "processing": False},
     ReserveInputs(motion=MOTION, structure=BLOCK, crack="", settings=AssessmentSettings()): {
