@@ -214,7 +214,7 @@ def _acting(stack: Stack | Stones) -> kernel.Acting:
 
 def _beginning(
     stack: Stack | Stones, bodies: kernel.Bodies, initial_velocity: np.ndarray | None
-) -> tuple[kernel.State, kernel.Joints]:
+) -> tuple[kernel.State, kernel.JointArrays]:
     """The state in which a stack begins, and its joints, closed."""
     count, ties = len(bodies.centres), sum(hold.tie is not None for hold in stack.held)
     place, velocity = np.zeros((count, 3)), np.zeros((count, 3))
@@ -235,7 +235,7 @@ def _beginning(
         still=np.zeros((count, 3)),
         pushed=np.zeros((count, 3)),
     )
-    joints = kernel.Joints(
+    joints = kernel.JointArrays(
         gap=np.full((count, 2), np.inf),
         rows=np.zeros((count, 3, 6)),
         pushes=np.zeros((count, 3, 6)),

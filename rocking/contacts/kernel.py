@@ -106,7 +106,7 @@ class Limits(NamedTuple):
     every: int
 
 
-class Joints(NamedTuple):
+class JointArrays(NamedTuple):
     """The terms of the equations of the impulses, by joint: the last is that of the pin.
 
     gap: (j, 2) at the left and right end, inf where nothing faces. rows: (j, 3, 6) velocity of the upper body from the

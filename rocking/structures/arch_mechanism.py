@@ -218,7 +218,7 @@ def onset_at(ring: Ring, hinges: np.ndarray) -> Onset:
 
 
 def other_hinges(ring: Ring, onset: Onset, count: int) -> list[np.ndarray]:
-    """Return the hinges of up to `count` mechanisms besides that of a static `onset`, of the least multiplier first.
+    """Return the hinges of up to `count` mechanisms other than that of a static `onset`, of the least multiplier first.
 
     Hinges open at voussoir joints, or in a continuous ring at _MOST_SECTIONS sections; of two mechanisms some
     hinge is at least one of these apart. λ is the dual of the linear programme: by virtual work.

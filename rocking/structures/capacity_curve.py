@@ -171,14 +171,14 @@ class CapacityCurve(Structure):
     @property
     def description(self) -> str:
         """The curve in a few words, as a page has no room for its points."""
-        kept = [
+        others = [
             given.field.phrased(given.text)
             for given in self.described.values
             if given.field.name not in ("displacements", "multipliers") and given.value is not False
         ]
         points = len(self.displacements)
         curve = f"curve of {points} points from α {self.multipliers[0]:.4g} to 0 at {self._reach:.4g} m"
-        return ", ".join([curve, *kept])
+        return ", ".join([curve, *others])
 
     @cached_property
     def described(self) -> Description:

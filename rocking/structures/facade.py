@@ -204,9 +204,9 @@ class Facade(Tied):
                 thickness for thickness, load in zip(self.thicknesses, self.floor_loads, strict=False) if load
             ]
             loads["eccentricity"] = self._eccentricity_on(leaf, bearing, self.eccentricity)
-            kept = ["floor_loads", "loads_held", "top_slab"]
-            kept += ["thrust", "thrust_height"] if leaf.moves != "inwards" else []
-            loads |= {name: getattr(self, name) for name in kept}
+            taken = ["floor_loads", "loads_held", "top_slab"]
+            taken += ["thrust", "thrust_height"] if leaf.moves != "inwards" else []
+            loads |= {name: getattr(self, name) for name in taken}
         # Its cracks are those of the wall, but that bonders leave it others.
         cracked = {"crack": None, "crack_storey": None, "crack_height": None} if held_at else {}
         return replace(

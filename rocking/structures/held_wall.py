@@ -813,7 +813,7 @@ class HeldWall:
         return complex(stands if outwards else -stands, z)
 
     def hung(self, way: Opening, cut: Opening) -> list[Hung]:
-        """Return what hangs on the pieces of `cut` as they move in `way`, seen from the side to which that falls.
+        """Return what acts on the pieces of `cut` as they move in `way`, seen from the side to which that falls.
 
         Inwards a tie goes slack, and a hold does not move.
         """
@@ -855,7 +855,7 @@ class HeldWall:
     def linkage(self, opening: Opening, cut: Opening, hung: Sequence[Hung]) -> Linkage:
         """Return the pieces of `cut` as they move in `opening`, seen from the side to which that falls.
 
-        hung: what hangs on it, as seen from there.
+        hung: what acts on it, as seen from there.
         """
         moving = [piece for piece in self.pieces(cut) if piece.low >= cut.foot]
         if opening.is_triangle:

@@ -25,7 +25,7 @@ class Leaf(NamedTuple):
     """One leaf of a wall.
 
     thickness: m. is_inner: whether it is the innermost one, behind which stands what stands behind the wall. moves: to
-    both sides, or only away from the leaf beside it.
+    both sides, or only away from its neighbour.
     """
 
     name: str

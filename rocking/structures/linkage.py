@@ -1,4 +1,4 @@
-"""Rigid parts that move with one rotation φ ≥ 0 to one side, and what hangs on them: all of a side follows from these.
+"""Rigid parts that move with one rotation φ ≥ 0 to one side, and what acts on them: all of a side follows from these.
 
 Points are complex, x + iy, x towards the side of rocking; the negative side is seen in the mirror. A constant force and
 an elastic tie have a potential, so they add to G(φ); a mass that moves along adds to I, G and B. Masses and forces are
@@ -130,7 +130,7 @@ that far above the lower support."""
 
 
 class Hung(NamedTuple):
-    """A thing that hangs on a part at a point: a constant force, a tie, or a mass that moves along.
+    """What acts on a part at a point: a constant force, a tie, or a mass that moves along.
 
     start: the point at rest. part: its number, or STILL. force: towards the side of rocking and upwards, growing and
     falling with g + ü_v. tie: None where it does not act on this side; friction pulls as one that yields at once.
@@ -342,7 +342,7 @@ class Linkage(ABC):
         return critical
 
     def dalembert(self, state: MotionState) -> tuple[np.ndarray, np.ndarray]:
-        """Return weight, inertia and what hangs on each part in motion: forces (k, n), complex, and couples (k, n)."""
+        """Return weight, inertia and what acts on each part in motion: forces (k, n), complex, and couples (k, n)."""
         motion = self.motion(state.rotation)
         furthest = self.motion(state.largest)
         centre = motion.accelerations * state.velocity**2 + motion.velocities * state.acceleration

@@ -437,7 +437,7 @@ class Mechanism(Drawn):
         scale: "exact_at_rest", exact as it lifts and in the place of its unstable equilibrium (theory: section 9);
         or the paper's, linearised about φ_cr (Eqs. 9–13), with the acceleration scale "linearised", "uplift" or
         "mean" (Eq. 13).
-        The same object at every call, as what it computes of itself is kept.
+        The same object at every call, as it caches what it computes of itself.
         Raises StructureError for another scale.
         """
         known: dict[str, EquivalentBlock] = self.__dict__.setdefault("_blocks", {})

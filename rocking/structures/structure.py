@@ -147,8 +147,8 @@ class Structure(ABC):
 
     def __getstate__(self) -> dict[str, Any]:
         """The fields and its description as typed: the rest is computed again after a copy or in another process."""
-        kept = [*(field.name for field in fields(self)), "_described"]
-        return {name: self.__dict__[name] for name in kept if name in self.__dict__}
+        saved = [*(field.name for field in fields(self)), "_described"]
+        return {name: self.__dict__[name] for name in saved if name in self.__dict__}
 
     @property
     def one_sided(self) -> bool:
@@ -450,7 +450,7 @@ class Structure(ABC):
 
         The first is the one that statics chooses, of least λ; where the crack is known that one, and the others do not
         count. One, the structure as described, of what does not crack. A wall that is held above its foot may bulge
-        wherever it is cracked: its bulge of least λ counts besides, and comes first where it is weaker. The same
+        wherever it is cracked: its bulge of least λ counts as well, and comes first where it is weaker. The same
         objects at every call, as they keep what they compute.
         """
         known: dict[int, tuple[Candidate, ...]] = self.__dict__.setdefault("_candidates", {})
@@ -778,7 +778,7 @@ def by_multiplier(cracked: Sequence[Candidate]) -> list[Candidate]:
 def ranked(
     cracked: Iterable[Candidate], bulges: Sequence[Candidate], *, is_known: bool
 ) -> tuple[Candidate, ...]:
-    """Return the cracks of one body in their order, with what a held wall does besides wherever it is cracked.
+    """Return the cracks of one body in their order, with what a held wall also does wherever it is cracked.
 
     That is its bulge of least λ whose motion can be followed, what falls as its top slips (theory: section 12.6), and
     what falls between ties. Each comes first where limit analysis, in which ties pull with the force at which they

@@ -321,7 +321,7 @@ class Tied(CrackedAtHeight, Leaved):
     @property
     @abstractmethod
     def _holds(self) -> list[Hold]:
-        """What holds it besides bonders."""
+        """What holds it other than bonders."""
 
     @property
     def _thrusts(self) -> tuple[tuple[float, float], ...]:
@@ -464,7 +464,7 @@ class Tied(CrackedAtHeight, Leaved):
         ground None: that at which it starts to fall outwards; without arguments they are those at rest under λ
         (theory: section 12.4). Positive where it holds the wall back. What stretches pulls as its tie does; what the
         mechanism takes for rigid gives what the balance of the bodies asks for. A floor that rests on the top and is
-        held sideways asks for its own inertia besides.
+        held sideways asks for its own inertia as well.
         Raises UnknownContacts where the bodies do not determine them.
 
         >>> wall = rocking.LoadedWall.hinged_at(3.6, 2.4, 0.35, 18e3, top_load=40e3, top_slab="flat", restitution=0.5)
@@ -669,7 +669,7 @@ class Tied(CrackedAtHeight, Leaved):
         return abs(level - height) < _SAME * self.height
 
     def _with_bonders(self, holds: Iterable[Hold]) -> list[Hold]:
-        """What holds a leaf besides the rest of its wall, which gives to neither side where it does."""
+        """What holds a leaf in addition to the rest of its wall, which gives to neither side where it does."""
         others = [
             hold for hold in holds if not any(self._is_at(hold.height, height) for height in self.held_at)
         ]

@@ -9,6 +9,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.optimize import linprog
 
+_ACCURATELY = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
+
 
 @dataclass
 class Courses:
@@ -36,8 +38,6 @@ class Courses:
     def multiplier(self, direction: int) -> float:
         """The largest λ with the ground's inertia forces to `direction`, 1 outwards; inf where none is too large."""
         n = len(self.weight)
-        rows = np.zeros((3 * n, 0))
-        fixed = np.zeros(3 * n)
         bounds, columns = [], []
 
         def column(low, high):
@@ -102,7 +102,15 @@ class Courses:
         rows = np.array(columns).T
         cost = np.zeros(len(columns))
         cost[0] = -1
-        solved = linprog(cost, A_eq=rows, b_eq=-fixed, bounds=bounds, method="highs")
+        scale = np.abs(fixed).max()
+        solved = linprog(
+            cost,
+            A_eq=rows / scale,
+            b_eq=-fixed / scale,
+            bounds=bounds,
+            method="highs-ds",
+            options=_ACCURATELY,
+        )
         if solved.status == 2:
             return -np.inf  # it does not stand at rest
         if solved.status == 3:

@@ -130,7 +130,6 @@ def masonry(joints, levels, thicknesses, unit_weight, strength):
 
 @pytest.mark.process
 def test_least_multiplier_is_that_of_limit_analysis_over_courses():
-    """To 1e-7: the linear programme meets its constraints to that (primal feasibility of HiGHS)."""
     draw = np.random.default_rng(52)
     least_by_name = {}
     compared = walls = 0
@@ -148,7 +147,7 @@ def test_least_multiplier_is_that_of_limit_analysis_over_courses():
             own = [one_member for one_member in family if one_member[0].outwards == (direction > 0)]
             expected = courses.multiplier(direction)
             found = min((member[1] for member in own), default=np.inf)
-            assert found == pytest.approx(expected, rel=1e-7), (walls, direction)
+            assert found == pytest.approx(expected, rel=1e-9), (walls, direction)
             if own:
                 name = wall.held_wall.name(min(own, key=lambda item: item[1])[0])
                 least_by_name[name] = least_by_name.get(name, 0) + 1
