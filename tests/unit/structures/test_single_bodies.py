@@ -47,7 +47,9 @@ def test_spire_mass_properties_by_quadrature(plan, wall, crack):
             total += sign * dblquad(column, *within, epsabs=1e-11, epsrel=1e-11)[0]
         return total
 
-    body = Spire(width, height, wall, plan, crack).linkages[0]
+    spire = Spire(width, height, wall, plan, crack)
+    assert np.ptp(spire.outline()[0][:, 0]) == pytest.approx(width)  # at its base, whether that moves or not
+    body = spire.linkages[0]
     mass = integral(lambda x, z: 1.0, 0)
     centre = integral(lambda x, z: z - crack, 0) / mass
     inertia = integral(lambda x, z: x**2 + (z - crack - centre) ** 2, 0) / mass
