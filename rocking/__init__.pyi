@@ -43,7 +43,6 @@ from .pulses import PulseSettings as PulseSettings
 from .pulses import extract_pulses as extract_pulses
 from .records import read as read
 from .records.obspy.stream import from_obspy as from_obspy
-from .remarks import Remark as Remark
 from .reports.panels import plot as plot
 from .signal import Accelerogram as Accelerogram
 from .signal import RotD as RotD
@@ -81,3 +80,4 @@ from .structures import Wall as Wall
 from .structures import structure_from_config as structure_from_config
 from .study.results import Results as Results
 from .study.results import open_results as open_results
+from .warnings import RockingWarning as RockingWarning

@@ -10,7 +10,7 @@ from enum import auto
 from pathlib import Path
 from typing import Self
 
-from rocking.remarks import Kind, Remark
+from rocking.warnings import Kind, RockingWarning
 
 
 class ErrorKind(Kind):
@@ -31,7 +31,7 @@ class RockingError(Exception):
     """Root of every error this package raises on purpose.
 
     places: the record and the file that it is about, the outer one first, where those who raised it did not know them.
-    remark: the sentence as a remark, which has it in every language; None of one that no page to sign repeats.
+    warning: the sentence as a warning, which has it in every language; None of one that no page to sign repeats.
     field, value: the parameter, key or column that was refused, and what it was; "" and None where it is not about one.
 
     >>> try:
@@ -42,7 +42,7 @@ class RockingError(Exception):
     """
 
     places: tuple[str, ...] = ()
-    remark: Remark | None = None
+    warning: RockingWarning | None = None
     field: str = ""
     value: object = None
 
@@ -53,10 +53,10 @@ class RockingError(Exception):
             ((self.field, self.value),) = refused.items()
 
     @classmethod
-    def saying(cls, remark: Remark) -> Self:
-        """Return the error whose sentence is a remark."""
-        error = cls(str(remark))
-        error.remark = remark
+    def saying(cls, warning: RockingWarning) -> Self:
+        """Return the error whose sentence is a warning."""
+        error = cls(str(warning))
+        error.warning = warning
         return error
 
     def __str__(self) -> str:
@@ -165,8 +165,8 @@ def one_structure(name: str) -> Iterator[None]:
             log_fault(fault, log)
         said = " ".join(f"{type(fault).__name__}: {fault}".split())
         where = str(LOGS[0]) if LOGS else "its traceback"
-        remark = Remark.of(ErrorKind.FAULT, name, said=said, log=where)
-        raise FaultError.saying(remark) from fault
+        warning = RockingWarning.of(ErrorKind.FAULT, name, said=said, log=where)
+        raise FaultError.saying(warning) from fault
 
 
 def fault_in_words(fault: Exception, log: Path | str, where: str = "this file") -> str:

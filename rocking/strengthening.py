@@ -340,8 +340,8 @@ class Strengthening(Drawn):
             )
         if not math.isnan(self.static_tie):
             sentences.append(f"The linear check of the code asks for {self.as_typed(self.static_tie)}")
-        remarks = "".join(f" {remark}" for remark in self.sample.remarks)
-        return ". ".join(sentences) + f".{remarks}"
+        warnings = "".join(f" {warning}" for warning in self.sample.warnings)
+        return ". ".join(sentences) + f".{warnings}"
 
     def __repr__(self) -> str:
         return f"<{self.words}>"
@@ -517,7 +517,7 @@ def strengthen_scene(
     outcomes = following.outcomes()
     # A station at which no value lets it lift says nothing of what stronger shaking would do.
     moves = np.flatnonzero(sample.by_station(_lifting(records, scenes.values(), settings).astype(float)) > 0)
-    counting = replace(sample.part(moves), remarks=sample.remarks)
+    counting = replace(sample.part(moves), warnings=sample.warnings)
 
     def tried(value: float, name: str) -> Tried:
         if name not in scenes:
@@ -661,12 +661,12 @@ class _Following:
             else:
                 worst = of_scene.worst
                 decision = worst.decision
-                undecided = decision.word is Verdict.CANNOT_BE_TOLD
+                undecided = decision.verdict is Verdict.CANNOT_BE_TOLD
                 kept[name] = _Outcome(
                     share=decision.share,
                     governing=worst.ensembles.governing.description if worst.ensembles else "",
                     slides=undecided
-                    and any(remark.kind is AssessmentKind.FRICTION for remark in decision.would_settle),
+                    and any(warning.kind is AssessmentKind.FRICTION for warning in decision.would_settle),
                 )
             if self.store is not None:
                 self.store.keep(keys[name], kept[name], {})

@@ -45,9 +45,9 @@ from rocking.assessment.motions import GroundMotions
 from rocking.contacts.dynamics import follow_stack
 from rocking.errors import StructureWarning
 from rocking.quantities import GRAVITY
-from rocking.remarks import Remark
 from rocking.structures.stack import Course, Stack
 from rocking.tables import column, row
+from rocking.warnings import RockingWarning
 
 COURSES = (6, 12, 20)
 CHANCES = (0.7, 0.2, 0.1)
@@ -259,7 +259,7 @@ def crack_row(component: SiteRecord, place: int, checked: bool) -> CrackRow:
         static_joint=static,
         static_share=shares[static],
         largest_share=max(shares.values()),
-        verdict=decision.word,
+        verdict=decision.verdict,
     )
 
 
@@ -275,7 +275,7 @@ def ruled(
     statics_first = sorted(of_each, key=lambda joint: joint != static)
     followed = (FollowedCrack(f"joint {joint}", joint, of_each[joint]) for joint in statics_first)
     lifts = any(np.any(ensemble.rotation_ratios > 0) for ensemble in of_each.values())
-    thrown = [Limit.untold(Remark(AssessmentKind.COURSES_THROWN))] if tapers and lifts else []
+    thrown = [Limit.untold(RockingWarning(AssessmentKind.COURSES_THROWN))] if tapers and lifts else []
     decision = decide(CrackEnsembles(tuple(followed)).facts, thrown)
     return decision, {joint: ensemble.overturning_share for joint, ensemble in of_each.items()}
 

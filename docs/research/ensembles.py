@@ -210,7 +210,7 @@ def screening_trials(
             )
         )
         fresh = np.nan
-        exhaustive = decide(in_full.facts).word
+        exhaustive = decide(in_full.facts).verdict
         if exhaustive is Verdict.STANDS:
             severities = [crack.facts.severity(EnsembleSettings().risk) for crack in in_full.followed]
             worst = sorted(range(len(forms)), key=severities.__getitem__)[-WORST:]
@@ -221,7 +221,7 @@ def screening_trials(
             **component.named,
             structure=structure_name,
             scale_factor=factor,
-            verdict=decide(in_study.facts).word,
+            verdict=decide(in_study.facts).verdict,
             exhaustive=exhaustive,
             share=in_study.governing.ensemble.overturning_share,
             largest_share=in_full.governing.ensemble.overturning_share,

@@ -74,7 +74,7 @@ class HeldTrial(Trial):
     friction: float = column("Friction coefficient")
     restitution: float = column("Restitution of the mechanism")
     mechanism: Verdict = column("Verdict by mechanisms alone")
-    doubts: str = column("Kinds of doubt, parted by ;")
+    warnings: str = column("Kinds of doubt, parted by ;")
     verdict: Verdict = column("Verdict of the package, contact dynamics asked where it cannot be told else")
     farthest: float = column("Largest rotation over critical rotation of its members; INF: one overturns")
     stack_falls: int | None = column("Stacks that fall in contact dynamics; empty: not asked")
@@ -198,8 +198,8 @@ def held_trial(component: SiteRecord, kind: str, place: int) -> HeldTrial:
         slenderness=float(np.diff(free).max() / thickness_of(wall)),
         friction=friction or np.nan,
         restitution=wall.mechanism().restitution,
-        mechanism=decide(replace(case.facts(wall), stacks=None), told).word,
-        doubts=";".join(str(doubt.kind) for doubt in station.decision.doubts),
+        mechanism=decide(replace(case.facts(wall), stacks=None), told).verdict,
+        warnings=";".join(str(warning.kind) for warning in station.decision.warnings),
         verdict=station.verdict,
         farthest=case.largest_rotation_ratio,
         stack_falls=case.contact.falls if case.contact else None,

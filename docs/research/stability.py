@@ -142,7 +142,7 @@ def stability_trials(
             if told.verdict is not Verdict.CANNOT_BE_TOLD:
                 motions = ground_motions(Motion(components, vertical, told.support), processing=True)
                 true = very_many(structure, motions)
-                true_verdict = decide(true.facts).word
+                true_verdict = decide(true.facts).verdict
                 true_share = true.governing.ensemble.overturning_share
             followed = told.ensembles.followed if told.ensembles else ()
             yield StabilityTrial(
@@ -153,7 +153,7 @@ def stability_trials(
                 scale_factor=factor,
                 kind=kind,
                 verdict=told.verdict,
-                of_members=decide(told.ensembles.facts).word if told.ensembles else told.verdict,
+                of_members=decide(told.ensembles.facts).verdict if told.ensembles else told.verdict,
                 true_verdict=true_verdict,
                 members=sum(crack.ensemble.members for crack in followed),
                 share=told.decision.share,

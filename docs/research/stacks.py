@@ -105,8 +105,8 @@ def words_of(facts: Facts, limits: Sequence[Limit] = ()) -> tuple[Verdict, Verdi
     """Return the word by mechanisms alone whatever their contacts do, that without contact dynamics, and that with."""
     without = replace(facts, stacks=None)
     of_contacts = AssessmentKind.FRICTION_SHORT
-    alone = [limit for limit in limits if not limit.is_untold and limit.doubt.kind is not of_contacts]
-    return decide(without, alone).word, decide(without, limits).word, decide(facts, limits).word
+    alone = [limit for limit in limits if not limit.is_untold and limit.warning.kind is not of_contacts]
+    return decide(without, alone).verdict, decide(without, limits).verdict, decide(facts, limits).verdict
 
 
 def laid(structure: Structure) -> Case:
@@ -221,7 +221,7 @@ class StackRow(Trial):
     courses: int = column("Number of courses of the true stack")
     velocity_ratio_s: float = column("PGV/PGA of the motion, s")
     mechanism: Verdict = column("Verdict by mechanisms alone")
-    doubt: str = column("Why that is not enough; empty where it is")
+    warning: str = column("Why that is not enough; empty where it is")
     without: Verdict = column("Verdict without contact dynamics")
     verdict: Verdict = column("Verdict with contact dynamics, where there is a doubt")
     stack_falls: int | None = column("Stacks that fall in contact dynamics; empty: not asked")
@@ -279,7 +279,7 @@ def stack_row(component: SiteRecord, kind: str, place: int) -> StackRow:
         courses=courses,
         velocity_ratio_s=peak_velocity(motion) / motion.peak_acceleration,
         mechanism=mechanism,
-        doubt="; ".join(str(limit.doubt) for limit in limits if limit.is_untold),
+        warning="; ".join(str(limit.warning) for limit in limits if limit.is_untold),
         without=without,
         verdict=verdict,
         stack_falls=stack_falls,

@@ -245,7 +245,7 @@ def stones_trial(component: SiteRecord, kind: str, place: int) -> StonesTrial:
     assessed, spent = timed(lambda: assess(motion, structure, settings=settings))
     (case,) = assessed.cases.values()
     facts = case.facts(structure)
-    mechanism = decide(replace(facts, stacks=None, stackable=False)).word
+    mechanism = decide(replace(facts, stacks=None, stackable=False)).verdict
     falls: list[bool] = []
     turns = [0.0]
     if assessed.verdict in STANDING or mechanism in STANDING:
@@ -340,12 +340,12 @@ def disagreement_trial(
         members = ensemble(structure.mechanism(), motions, settings.ensemble, verdict_only=True, grows=False)
         return Facts(cracks=(members.facts(),), as_stones=structure.joints.as_stones)
 
-    levels = (level for level in LIMITS.tolist() if decide(facts_at(level)).word not in STANDING)
+    levels = (level for level in LIMITS.tolist() if decide(facts_at(level)).verdict not in STANDING)
     limit = next(levels, None)
     if limit is None:
         return None
     facts = facts_at(beyond * limit)
-    mechanism = decide(facts).word
+    mechanism = decide(facts).verdict
     if mechanism in STANDING:
         return None
     motion = unit.scaled(beyond * limit)
@@ -363,7 +363,7 @@ def disagreement_trial(
         multiplier=multiplier,
         mechanism=mechanism,
         member_falls=facts.cracks[0].falls,
-        verdict=decide(replace(facts, stacks=(share.falls, share.runs))).word,
+        verdict=decide(replace(facts, stacks=(share.falls, share.runs))).verdict,
         stack_falls=share.falls,
         stack_runs=share.runs,
         true_falls=sum(falls),

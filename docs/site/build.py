@@ -22,7 +22,7 @@ TOPICS = {
     "pulses": ("pulses", "sine_pulse"),
     "motion": ("motion", "contacts"),
     "assessment": ("assessment", "codes", "fragility", "strengthening"),
-    "studies": ("study", "products", "reports", "remarks", "errors"),
+    "studies": ("study", "products", "reports", "warnings", "errors"),
 }
 """Page of the Python names: the parts of the package from which they come."""
 _LINK = re.compile(r"\]\(\.\./\.\./([^)#]+)")

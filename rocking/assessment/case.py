@@ -29,10 +29,10 @@ from rocking.motion.response import UNKNOWN, ModelCheck, Response
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
-from rocking.remarks import Remark
 from rocking.sine_pulse import AsPrinted, Maximum
 from rocking.structures import EquivalentBlock, Outcome, Structure
 from rocking.structures.structure import Candidate
+from rocking.warnings import RockingWarning
 
 DECISIVE = ("responses", "directions")
 """Stages whose failure leaves a structure without a result; the others only leave out a comparison."""
@@ -102,7 +102,7 @@ class CaseResult:
     responses: by method. check: whether the model held along the response of the mechanism to the record. ensembles: of
     the cracks that were followed; None where none ran. reserve: of the crack that governs; None where it was not
     computed; a store keeps it apart, as only what is printed has one. slides_at: acceleration [g] at which its joints
-    slide before they lift, where the motion reaches it; else nan. limits: what evidence sets against the word of its
+    slide before they lift, where the motion reaches it; else nan. limits: what evidence sets against the verdict of its
     mechanisms. crack: to which prediction, responses and check belong; "" where it is that of the structure. statics:
     the case of that one, where another crack governs. variations: other cracks, then other processings. seat_lost:
     whether a member, or the run, moves so far below a floor, beam or vault that this loses its bearing, and counts as
@@ -214,12 +214,12 @@ class CaseResult:
             run_ratio=math.inf if self.seat_lost else max(runs, default=math.nan),
             never_overturns_because="" if self.seat_lost else never_overturns_because(body),
             slides_at=own.slides_at if math.isnan(self.slides_at) else self.slides_at,
-            top=next((top.remark for top in tops), None),
+            top=next((top.warning for top in tops), None),
             stacks=(self.contact.falls, self.contact.runs) if self.contact and self.contact.runs else None,
             as_stones=body.joints.as_stones,
             stackable=self.contact is None and stackable(body),
-            remarks=(
-                *([Remark(AssessmentKind.SEATS)] if self.seat_lost else []),
+            settling=(
+                *([RockingWarning(AssessmentKind.SEATS)] if self.seat_lost else []),
                 *(worth_measuring(self.ensembles, restitution_is_typed=typed) if self.ensembles else ()),
             ),
             failures=failures,
@@ -236,7 +236,7 @@ class CaseResult:
         Of what was followed as stones nan: these stand or slide on what they have.
         """
         runs = self.contact.runs if self.contact else 0
-        short = (limit for limit in self.limits if limit.doubt.kind is AssessmentKind.FRICTION_SHORT)
+        short = (limit for limit in self.limits if limit.warning.kind is AssessmentKind.FRICTION_SHORT)
         return next((limit.value for limit in short if not (runs and limit.lifted_by == 1)), math.nan)
 
     @property
@@ -366,19 +366,19 @@ class PeriodResult:
         return replace(self, cases={**self.cases, case.component: with_it})
 
     @property
-    def reserve_doubts(self) -> tuple[Remark, ...]:
-        """The doubts for which the reserve may be too high: what neither members nor contact dynamics could follow."""
+    def reserve_warnings(self) -> tuple[RockingWarning, ...]:
+        """Why the reserve may be too high: what neither members nor contact dynamics could follow."""
         failed = (AssessmentKind.MEMBERS_FAILED, AssessmentKind.COMPONENT_MISSING)
-        doubts = [doubt for doubt in self.decision.doubts if doubt.kind in failed]
+        warnings = [warning for warning in self.decision.warnings if warning.kind in failed]
         body = self.scene.structure
         if not stackable(body):
             both = [*self.cases.values(), *([self.directions] if self.directions else [])]
-            doubts += [limit.doubt for case in both for limit in case.limits if limit.is_untold]
+            warnings += [limit.warning for case in both for limit in case.limits if limit.is_untold]
             opens = any(case.check.bounces for case in both)
-            doubts += [Remark(AssessmentKind.CONTACTS_OPEN)] if opens else []
-            doubts += [Remark(AssessmentKind.COURSES_THROWN)] if body.joints.courses_taper else []
-            doubts += [Remark(AssessmentKind.STONES_TELL)] if body.joints.need_stones else []
-        return tuple(sorted(set(doubts), key=lambda remark: remark.kind))
+            warnings += [RockingWarning(AssessmentKind.CONTACTS_OPEN)] if opens else []
+            warnings += [RockingWarning(AssessmentKind.COURSES_THROWN)] if body.joints.courses_taper else []
+            warnings += [RockingWarning(AssessmentKind.STONES_TELL)] if body.joints.need_stones else []
+        return tuple(sorted(set(warnings), key=lambda warning: warning.kind))
 
     @property
     def reserve_in_words(self) -> str:
@@ -386,8 +386,8 @@ class PeriodResult:
         if self.reserve is None:
             return ""
         words = str(self.reserve)
-        if self.reserve_doubts:
-            reasons = " and ".join(map(str, self.reserve_doubts))
+        if self.reserve_warnings:
+            reasons = " and ".join(map(str, self.reserve_warnings))
             words = f"{words}; this is the reserve of the mechanism alone, and too high where {reasons}"
         return words
 
@@ -415,7 +415,7 @@ class PeriodResult:
     @property
     def decided_by(self) -> str:
         """The input that decides whether it overturns, in words with its share; "" where the members agree."""
-        if self.ensembles is None or self.decision.word.is_sure:
+        if self.ensembles is None or self.decision.verdict.is_sure:
             return ""
         return decided_by(self.ensembles)
 
@@ -431,7 +431,7 @@ class PeriodResult:
     @property
     def verdict(self) -> Verdict:
         """The verdict on the structure."""
-        return self.decision.word
+        return self.decision.verdict
 
     @property
     def severity(self) -> Severity:
@@ -517,7 +517,7 @@ class SceneResult:
         verdicts = dict(
             zip(
                 self.first_periods,
-                (period_result.decision.word for period_result in self.periods),
+                (period_result.decision.verdict for period_result in self.periods),
                 strict=True,
             )
         )

@@ -11,31 +11,31 @@ from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.rows import (
     ComparisonRow,
     ExpectedFallsRow,
-    RemarkRow,
     VerdictRow,
+    WarningRow,
     hardly_spread,
     worst_period_each,
 )
 from rocking.earthquakes.sample import interval_words
 from rocking.quantities import counted, listed, percents
-from rocking.remarks import Remark
 from rocking.structures.kinds import StructureKind
+from rocking.warnings import RockingWarning
 
 CLASS = 20
 """Structures from which on a list is a class: how many of them fall is of interest, not which ones."""
 UNSAID = (AssessmentKind.NOTHING_TO_DO, AssessmentKind.NOTHING_DECIDES)
-"""Remarks of which a row of a report says nothing."""
+"""Warnings of which a row of a report says nothing."""
 TO_CHECK = (
     StructureKind.SIZE_UNUSUAL,
     StructureKind.LEVELS_TYPED,
     StructureKind.BROADER_THAN_TALL,
     AssessmentKind.VERTICAL_MISSING,
 )
-"""Kinds of remarks for which somebody has to check what was typed before anything else is read."""
+"""Kinds of warnings for which somebody has to check what was typed before anything else is read."""
 _MOVES = 0.01
 """Distance below a floor from which on it is said, m."""
 _MOST_TO_CHECK = 3
-"""Remarks of these kinds that are printed with a conclusion; remarks.csv holds all."""
+"""Warnings of these kinds that are printed with a conclusion; warnings.csv holds all."""
 _MOST_NAMED = 20
 FALLING = (Verdict.OVERTURNS, Verdict.PROBABLY_OVERTURNS)
 
@@ -44,11 +44,11 @@ FALLING = (Verdict.OVERTURNS, Verdict.PROBABLY_OVERTURNS)
 class Conclusion:
     """What becomes of a structure under a record; of one on a support, at the period that is worst.
 
-    verdict: its row of that period. case: the row of the component that turns it farthest there; None where no
+    row: its row of that period. case: the row of the component that turns it farthest there; None where no
     component gave a result. elsewhere: its rows at the other periods of the support, without the ground below it.
     """
 
-    verdict: VerdictRow
+    row: VerdictRow
     case: ComparisonRow | None
     elsewhere: Sequence[VerdictRow] = ()
 
@@ -63,45 +63,45 @@ class Conclusion:
     @property
     def severity(self) -> Severity:
         """Key by which the worst comes last: that of its verdict."""
-        return self.verdict.severity
+        return self.row.severity
 
     @property
-    def remark(self) -> Remark:
-        """What to do about it; where there is nothing to do, what explains the word."""
-        decision = self.verdict.decision
-        word = decision.word
-        if not math.isnan(self.verdict.friction_needed) and decision.other_model is None:
-            return self._sliding(self.verdict.friction_needed)
-        if decision.remark is not None:
-            return decision.remark
+    def warning(self) -> RockingWarning:
+        """What to do about it; where there is nothing to do, what explains the verdict."""
+        decision = self.row.decision
+        verdict = decision.verdict
+        if not math.isnan(self.row.friction_needed) and decision.other_model is None:
+            return self._sliding(self.row.friction_needed)
+        if decision.warning is not None:
+            return decision.warning
         shares = [place.overturning_share for place in self.elsewhere if place.overturning_share >= 0]
         if shares and "–" in (share := percents(*shares)):
-            return Remark.of(AssessmentKind.OTHER_PERIODS, share=share)
+            return RockingWarning.of(AssessmentKind.OTHER_PERIODS, share=share)
         # Runs of contact dynamics are on the friction that it has.
-        if self.case is not None and self.case.slides and not self.verdict.stack_runs:
+        if self.case is not None and self.case.slides and not self.row.stack_runs:
             return self._sliding(self.case.required_friction)
         falls = self.ratios[-1] == math.inf
-        if word is Verdict.PROBABLY_OVERTURNS and not falls:
-            return Remark(AssessmentKind.STANDS_AS_RECORDED)
-        if word in FALLING:
-            return Remark(AssessmentKind.STRENGTHEN)
-        if self.case is not None and word.stays_up and self.case.bearing_displacement_m >= _MOVES:
-            return Remark.of(AssessmentKind.FLOORS_MOVE, moved_m=self.case.bearing_displacement_m)
-        if word.stays_up:
-            return Remark(AssessmentKind.NOTHING_TO_DO)
-        if falls and word is Verdict.PROBABLY_STANDS:
-            return Remark(AssessmentKind.FALLS_AS_RECORDED)
-        return Remark(AssessmentKind.NOTHING_DECIDES)
+        if verdict is Verdict.PROBABLY_OVERTURNS and not falls:
+            return RockingWarning(AssessmentKind.STANDS_AS_RECORDED)
+        if verdict in FALLING:
+            return RockingWarning(AssessmentKind.STRENGTHEN)
+        if self.case is not None and verdict.stays_up and self.case.bearing_displacement_m >= _MOVES:
+            return RockingWarning.of(AssessmentKind.FLOORS_MOVE, moved_m=self.case.bearing_displacement_m)
+        if verdict.stays_up:
+            return RockingWarning(AssessmentKind.NOTHING_TO_DO)
+        if falls and verdict is Verdict.PROBABLY_STANDS:
+            return RockingWarning(AssessmentKind.FALLS_AS_RECORDED)
+        return RockingWarning(AssessmentKind.NOTHING_DECIDES)
 
-    def _sliding(self, largest: float) -> Remark:
+    def _sliding(self, largest: float) -> RockingWarning:
         """The friction that a contact needs as it lifts, and the `largest`: inf where nothing presses it."""
         if largest == math.inf:
-            return Remark(AssessmentKind.CONTACTS_OPEN)
+            return RockingWarning(AssessmentKind.CONTACTS_OPEN)
         # The largest alone is of an instant, and would call a slender pier one that slides.
         lifting = self.case.lifting_friction if self.case else math.nan
         if math.isnan(lifting):
-            return Remark(AssessmentKind.FRICTION_SHORT)
-        return Remark.of(AssessmentKind.CONTACT_SLIDES, lifting=lifting, largest=largest)
+            return RockingWarning(AssessmentKind.FRICTION_SHORT)
+        return RockingWarning.of(AssessmentKind.CONTACT_SLIDES, lifting=lifting, largest=largest)
 
 
 def worst_cases(comparison: Iterable[ComparisonRow]) -> dict[tuple[str, str, float | None], ComparisonRow]:
@@ -145,13 +145,13 @@ def worst_of_each(made: Iterable[Conclusion]) -> list[Conclusion]:
     """Return of each structure the conclusion under its worst record, the worst first."""
     worst: dict[str, Conclusion] = {}
     for conclusion in sorted(made, key=lambda conclusion: conclusion.severity, reverse=True):
-        worst.setdefault(conclusion.verdict.structure, conclusion)
+        worst.setdefault(conclusion.row.structure, conclusion)
     return list(worst.values())
 
 
 def fallen_in_one_run(made: Iterable[Conclusion]) -> frozenset[str]:
     """Return the structures that fall in the one run that was made of them, where no ensemble was followed."""
-    decided = ((conclusion.verdict.structure, conclusion.verdict.decision) for conclusion in made)
+    decided = ((conclusion.row.structure, conclusion.row.decision) for conclusion in made)
     return frozenset(
         name for name, decision in decided if decision.share_in_words == ONE_RUN and decision.share == 1
     )
@@ -160,7 +160,7 @@ def fallen_in_one_run(made: Iterable[Conclusion]) -> frozenset[str]:
 def conclusion_in_words(
     words: Mapping[str, Verdict], records: int = 1, fallen: Collection[str] = frozenset()
 ) -> str:
-    """Return the sentence on all structures, by name the worst word of each: "4 of 12 structures overturn …".
+    """Return the sentence on all structures, by name the worst verdict of each: "4 of 12 structures overturn …".
 
     records: under which that is. fallen: those of them that fall in one run and are uncertain for want of an ensemble.
 
@@ -180,26 +180,27 @@ def conclusion_in_words(
     throughout = " under every record" if records > 1 else ""
     if every <= 1:
         said = (
-            f"{name} {word.predicate}{throughout if word.stays_up else some}." for name, word in words.items()
+            f"{name} {verdict.predicate}{throughout if verdict.stays_up else some}."
+            for name, verdict in words.items()
         )
         return next(said, "No structure was assessed.")
-    if all(word.stays_up for word in words.values()):
+    if all(verdict.stays_up for verdict in words.values()):
         return f"All {every} structures stand{throughout}."
-    falling = sum(word in FALLING for word in words.values())
-    unknown = sum(word is Verdict.CANNOT_BE_TOLD for word in words.values())
+    falling = sum(verdict in FALLING for verdict in words.values())
+    unknown = sum(verdict is Verdict.CANNOT_BE_TOLD for verdict in words.values())
     if unknown == every:
         return f"What becomes of all {every} structures cannot be told."
     of_them = f"All {every}" if falling == every else f"{falling or 'None'} of {every}"
     does = "overturns or probably does" if falling <= 1 else "overturn or probably do"
     under = some.replace("some", "any") if not falling else some
-    # Nothing overturns for sure in one run: the word alone would read as if nothing fell.
+    # Nothing overturns for sure in one run: the verdict alone would read as if nothing fell.
     counted_fallen = [name for name in fallen if words.get(name) is Verdict.UNCERTAIN]
     if counted_fallen and not falling:
         of_them = f"{len(counted_fallen)} of {every}"
         does = "falls in its one run" if len(counted_fallen) == 1 else "fall in their one run"
         does += ", without an ensemble"
         under = some
-    uncertain = sum(word is Verdict.UNCERTAIN for word in words.values())
+    uncertain = sum(verdict is Verdict.UNCERTAIN for verdict in words.values())
     uncertain -= 0 if falling else len(counted_fallen)
     verb = "is" if uncertain == 1 else "are"
     # Unsaid, a structure of which half the members fall would be read as one that stands.
@@ -245,20 +246,20 @@ def falls_in_words(falls: Sequence[ExpectedFallsRow]) -> str:
     )
 
 
-def to_check(remarks: Iterable[RemarkRow]) -> list[str]:
-    """Return what has to be checked of what was typed: the first remarks in full, of the others what they are of.
+def to_check(warnings: Iterable[WarningRow]) -> list[str]:
+    """Return what has to be checked of what was typed: the first warnings in full, of the others what they are of.
 
     It is the same with every conclusion: on the first page of a report, and at the end of a run.
     """
-    shown: dict[str, RemarkRow] = {}
-    without_vertical: dict[str, RemarkRow] = {}
-    for row in remarks:
+    shown: dict[str, WarningRow] = {}
+    without_vertical: dict[str, WarningRow] = {}
+    for row in warnings:
         if row.kind is AssessmentKind.VERTICAL_MISSING:
             without_vertical.setdefault(row.record, row)
         elif row.kind in TO_CHECK:
             shown[row.sentence] = row
     if without_vertical:  # one setting, whatever number of records it is asked of
-        missing = Remark(AssessmentKind.VERTICAL_MISSING, listed(list(without_vertical), _MOST_NAMED))
+        missing = RockingWarning(AssessmentKind.VERTICAL_MISSING, listed(list(without_vertical), _MOST_NAMED))
         shown[str(missing)] = next(iter(without_vertical.values()))
     if len(shown) <= _MOST_TO_CHECK:
         return list(shown)
@@ -267,5 +268,5 @@ def to_check(remarks: Iterable[RemarkRow]) -> list[str]:
     values = counted(len(others), "value")
     return [
         *first,
-        f"To be checked likewise, as remarks.csv says: {values} of {listed(names, _MOST_NAMED)}.",
+        f"To be checked likewise, as warnings.csv says: {values} of {listed(names, _MOST_NAMED)}.",
     ]

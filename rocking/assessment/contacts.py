@@ -34,7 +34,7 @@ that near a limit its outcome is a draw, which several amplitudes show."""
 RUNS = 24
 """Runs of contact dynamics of a case that cannot be told otherwise: none may fall of so few, and it probably stands."""
 MOST_RUNS = UNANIMOUS
-"""Runs with fidelity: contact, none of which falls where the word is "stands"."""
+"""Runs with fidelity: contact, none of which falls where the verdict is "stands"."""
 STEPS = (*7 * (STEP,), STEP / 2)
 """Time steps of contact dynamics, s, which its runs take in turn: every eighth one at a finer step."""
 GOLDEN = (math.sqrt(5) - 1) / 2
@@ -126,7 +126,7 @@ def contact_share(
     """Return how many stacks of the structure fall, of a wall whose leaves may part those of the part that falls most.
 
     Of a part that is one body its mechanism says more. until_sure: whether runs end once the rest cannot change the
-    word; the share of all is asked else. share: instead, once the rest cannot change whether so many fall.
+    verdict; the share of all is asked else. share: instead, once the rest cannot change whether so many fall.
     """
     parts = _parts(structure)
     laid = [part for part in parts if len(parts) == 1 or _courses_of(part) != 1]

@@ -21,10 +21,10 @@ from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.motion.response import lifting_friction
 from rocking.motion.table import table_of
-from rocking.remarks import Remark
 from rocking.structures import Structure
 from rocking.structures.crackable import WEAK_MASONRY
 from rocking.structures.structure import CRACKS, Candidate, with_geometry
+from rocking.warnings import RockingWarning
 
 IN_DOUBT = 0.3
 """Rotation ratio of a member beyond which it is in doubt that a mechanism other than that of statics stands."""
@@ -108,7 +108,7 @@ class CrackEnsembles:
 
     @property
     def deciding(self) -> list[FollowedCrack]:
-        """The crack that governs, then those whose own count may still change the word."""
+        """The crack that governs, then those whose own count may still change the verdict."""
         reach = [crack for crack in self.followed if may_change(self.facts, crack.facts)]
         return [self.governing, *reach]
 
@@ -229,7 +229,7 @@ def ensemble_over_cracks(
     statics chooses overturns, it says all; where one that is known does, the others are followed only until one of
     them overturns, too, so that the worst of them can be reported. Otherwise the bulge of a held wall is followed in
     full, and every crack that `screened` leaves in doubt; the one that then governs, and those whose count may still
-    change the word (`decide.may_change`), with as many members as their words need. A crack other than a bulge that
+    change the verdict (`decide.may_change`), with as many members as their words need. A crack other than a bulge that
     slides before it lifts is left out where one that counts is left, and followed all the same where it is in doubt:
     the decision says what it would do. exhaustive: every crack is followed, whatever the screen says;
     docs/pages/validation.md counts what it misses. With fidelity: quick only as many members are followed as the
@@ -472,16 +472,18 @@ _KINDS = {
 }
 
 
-def worth_measuring(ensembles: CrackEnsembles, *, restitution_is_typed: bool = False) -> tuple[Remark, ...]:
+def worth_measuring(
+    ensembles: CrackEnsembles, *, restitution_is_typed: bool = False
+) -> tuple[RockingWarning, ...]:
     """Return the unknown whose measurement would help most: the first one, if it explains _WORTH_MEASURING at least.
 
     restitution_is_typed: whether the description gives its range, so that it is not known any better.
     """
     governing = ensembles.governing
     if governing.of_geometry and governing.ensemble.overturning_share > 0 and not restitution_is_typed:
-        return (Remark(AssessmentKind.RESTITUTION),)
+        return (RockingWarning(AssessmentKind.RESTITUTION),)
     worth = (
-        Remark(_KINDS[cause.name])
+        RockingWarning(_KINDS[cause.name])
         for cause in deciding(ensembles)
         if cause.origin is Origin.IGNORANCE and cause.share >= _WORTH_MEASURING and cause.name in _KINDS
         if not (restitution_is_typed and cause.name == "restitution")

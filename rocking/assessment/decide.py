@@ -1,7 +1,7 @@
 """The decision: what becomes of a structure under a motion, with all uncertain inputs considered.
 
 `decide` is the only place where a verdict is decided. It is given facts alone, and what it returns is what every table,
-report and line prints: a word, the share behind it and its interval, the reason, what is doubtful and what would tell
+report and line prints: a verdict, the share behind it and its interval, the reason, the warnings and what would say
 more.
 """
 
@@ -12,7 +12,7 @@ from enum import StrEnum
 
 from rocking.assessment.kinds import AssessmentKind
 from rocking.quantities import percents
-from rocking.remarks import Kind, Remark
+from rocking.warnings import Kind, RockingWarning
 
 UNANIMOUS = 64
 """Members of which none overturns, or none stands, that settle a verdict."""
@@ -78,12 +78,12 @@ ORDER = (
 
 def worse(*words: Verdict) -> Verdict:
     """Return the worst of several verdicts."""
-    return max(words, key=lambda word: word.badness)
+    return max(words, key=lambda verdict: verdict.badness)
 
 
 def better(*words: Verdict) -> Verdict:
     """Return the safest of several verdicts."""
-    return min(words, key=lambda word: word.badness)
+    return min(words, key=lambda verdict: verdict.badness)
 
 
 def share_error(*, falls: int, members: int, farthest: float = math.inf) -> float:
@@ -98,7 +98,7 @@ def share_error(*, falls: int, members: int, farthest: float = math.inf) -> floa
 
 
 def step(*, falls: int, members: int, farthest: float = math.inf, risk: float = 0.05) -> Verdict:
-    """Return the word of `members` of which `falls` overturn: where the error counts, it counts on the unsafe side.
+    """Return the verdict of `members` of which `falls` overturn: where the error counts, it counts on the unsafe side.
 
     risk: largest probability of the opposite outcome.
 
@@ -125,7 +125,7 @@ class CrackFacts:
     name: of the crack; "" where only one may form. falls: of those `followed`, that overturn. failed: members that
     could not be followed. farthest: largest rotation ratio of those followed; nan without any. slides_at: acceleration
     [g] at which its joint slides before it lifts, under a motion that reaches so far; nan of one that lifts. counts:
-    whether it takes part in the word; otherwise it is reported along with the known crack. bulges: whether it is the
+    whether it takes part in the verdict; otherwise it is reported along with the known crack. bulges: whether it is the
     bulge of a held wall, which may form wherever that is cracked. part: the leaf that falls alone, "" of the whole
     structure. Raises ValueError.
     """
@@ -177,7 +177,7 @@ class CrackFacts:
         return f"{self.falls}{up_to} of {self.members}"
 
     def step(self, risk: float) -> Verdict:
-        """Return the word of its members, those that failed counted as falling."""
+        """Return the verdict of its members, those that failed counted as falling."""
         return step(
             falls=self.falls + self.failed,
             members=self.members,
@@ -200,22 +200,22 @@ class CrackFacts:
         return self.share_error > 0 and any(abs(self.share - edge) <= self.share_error for edge in edges)
 
     def step_at_worst(self, risk: float) -> Verdict:
-        """Return the word of its members if so many more overturn as the error of their share covers."""
+        """Return the verdict of its members if so many more overturn as the error of their share covers."""
         falls = self.falls + self.failed + math.ceil(self.share_error * self.members)
         return step(falls=min(falls, self.members), members=self.members, risk=risk)
 
     def step_of_followed(self, risk: float) -> Verdict:
-        """Return the word of those that were followed alone.
+        """Return the verdict of those that were followed alone.
 
-        Where members failed, so few falls that the error of the share holds them all bear out no word of falling.
+        Where members failed, so few falls that the error of the share holds them all bear out no verdict of falling.
         """
         if not self.followed:
             return Verdict.UNCERTAIN
-        word = step(falls=self.falls, members=self.followed, farthest=self.farthest, risk=risk)
-        return better(word, Verdict.UNCERTAIN) if self.failed and self.falls <= LATTICE_ERROR else word
+        verdict = step(falls=self.falls, members=self.followed, farthest=self.farthest, risk=risk)
+        return better(verdict, Verdict.UNCERTAIN) if self.failed and self.falls <= LATTICE_ERROR else verdict
 
     def severity(self, risk: float) -> tuple[int, float, float]:
-        """Key by which the worst of several comes last: the word, the share that overturns, then the rotation."""
+        """Key by which the worst of several comes last: the verdict, the share that overturns, then the rotation."""
         farthest = -1.0 if math.isnan(self.farthest) else self.farthest
         return self.step(risk).badness, -1.0 if math.isnan(self.share) else self.share, farthest
 
@@ -225,24 +225,24 @@ _PLACES: dict[Kind, int] = {kind: place for place, kind in enumerate(AssessmentK
 
 @dataclass(frozen=True, kw_only=True)
 class Limit:
-    """What one kind of evidence sets against a word: no safer than `at_best`.
+    """What one kind of evidence sets against a verdict: no safer than `at_best`.
 
-    doubt: for which. settles: what would tell more of it, besides contact dynamics. lifted_by: runs of contact dynamics
-    from which on these say instead; inf where they follow nothing of it. at_rest: whether it acts before anything
-    lifts. value: the number behind it; nan without one.
+    warning: for which. settles: what would say more of it, besides contact dynamics. lifted_by: runs of contact
+    dynamics from which on these say instead; inf where they follow nothing of it. at_rest: whether it acts before
+    anything lifts. value: the number behind it; nan without one.
     """
 
-    doubt: Remark
+    warning: RockingWarning
     at_best: Verdict = Verdict.PROBABLY_STANDS
-    settles: tuple[Remark, ...] = ()
+    settles: tuple[RockingWarning, ...] = ()
     lifted_by: float = UNANIMOUS
     at_rest: bool = False
     value: float = math.nan
 
     @classmethod
-    def untold(cls, doubt: Remark) -> "Limit":
+    def untold(cls, warning: RockingWarning) -> "Limit":
         """Return that of a doubt in which nothing can be told of what does not fall, until contact dynamics ran."""
-        return cls(doubt=doubt, at_best=Verdict.CANNOT_BE_TOLD, lifted_by=1, at_rest=True)
+        return cls(warning=warning, at_best=Verdict.CANNOT_BE_TOLD, lifted_by=1, at_rest=True)
 
     @property
     def is_untold(self) -> bool:
@@ -256,9 +256,9 @@ class Limit:
 
 
 _MISSING = Limit(
-    doubt=Remark(AssessmentKind.COMPONENT_MISSING),
+    warning=RockingWarning(AssessmentKind.COMPONENT_MISSING),
     at_best=Verdict.CANNOT_BE_TOLD,
-    settles=(Remark(AssessmentKind.COMPONENT),),
+    settles=(RockingWarning(AssessmentKind.COMPONENT),),
     lifted_by=math.inf,
     at_rest=True,
 )
@@ -276,7 +276,7 @@ class Facts:
     it; else nan. top: what its top needs and does not get, so that it slips; None where it holds, or there is none.
     stacks: stacks of courses that fall in contact dynamics, of how many; None where none was followed. as_stones: as
     what chain of stones it is followed then, "as voussoirs"; "" where as a stack of courses. stackable: whether
-    contact dynamics can follow it and has not done so yet. remarks: what would reduce the disagreement of the members.
+    contact dynamics can follow it and has not done so yet. settling: what would reduce the disagreement of the members.
     failures: why components gave no result. risk: largest probability of the outcome opposite to "stands" or
     "overturns". Raises ValueError.
     """
@@ -286,11 +286,11 @@ class Facts:
     run_ratio: float = math.nan
     never_overturns_because: str = ""
     slides_at: float = math.nan
-    top: Remark | None = None
+    top: RockingWarning | None = None
     stacks: tuple[int, int] | None = None
     as_stones: str = ""
     stackable: bool = True
-    remarks: tuple[Remark, ...] = ()
+    settling: tuple[RockingWarning, ...] = ()
     failures: tuple[str, ...] = ()
     risk: float = 0.05
 
@@ -333,55 +333,55 @@ class Decision:
 
     Parameters
     ----------
-    word : Verdict
+    verdict : Verdict
         The verdict.
     share : float
-        Largest share that overturns, among the members of the cracks and the stacks that make the word; of a
+        Largest share that overturns, among the members of the cracks and the stacks that make the verdict; of a
         single run 0 or 1, nan where none can be said.
     interval : tuple of (float, float)
         Interval of the share, from the first crack to the worst, with what failed or is not known; nan where
         nothing is known.
     why : str
         The reason, in words.
-    doubts : tuple of Remark, optional
+    warnings : tuple of RockingWarning, optional
         What may make it worse than said.
-    would_settle : tuple of Remark, optional
+    would_settle : tuple of RockingWarning, optional
         What would tell more.
-    other_model : Remark or None, default None
+    other_model : RockingWarning or None, default None
         How many fall by the model that does not make the share: contact dynamics, or the mechanism.
 
     Examples
     --------
     >>> decision = rocking.Decision(rocking.Verdict.UNCERTAIN, 0.5, (0.5, 0.5), "32 of 64 members overturn")
-    >>> print(decision.word, decision.share)
+    >>> print(decision.verdict, decision.share)
     uncertain 0.5
     """
 
-    word: Verdict
+    verdict: Verdict
     share: float
     interval: tuple[float, float]
     why: str
-    doubts: tuple[Remark, ...] = ()
-    would_settle: tuple[Remark, ...] = ()
-    other_model: Remark | None = None
+    warnings: tuple[RockingWarning, ...] = ()
+    would_settle: tuple[RockingWarning, ...] = ()
+    other_model: RockingWarning | None = None
 
     @property
-    def remark(self) -> Remark | None:
-        """How many fall by the other model, else what would tell more of a word that is not sure, else what may make it
+    def warning(self) -> RockingWarning | None:
+        """How many fall by the other model, else what would say more of a verdict not sure, else what may make it
         worse; None without any.
         """
         first = (self.other_model,) if self.other_model else ()
-        would_settle = () if self.word.is_sure else self.would_settle
-        return next(iter((*first, *would_settle, *self.doubts)), None)
+        would_settle = () if self.verdict.is_sure else self.would_settle
+        return next(iter((*first, *would_settle, *self.warnings)), None)
 
     @property
     def share_in_words(self) -> str:
         """The share as it is printed: "31 %", "0–100 %", "at least 31 %", "one run"; "" where nothing is known."""
         low, high = self.interval
-        if math.isnan(low) or self.word is Verdict.CANNOT_OVERTURN:
+        if math.isnan(low) or self.verdict is Verdict.CANNOT_OVERTURN:
             return ""
-        one_run = any(remark.kind is AssessmentKind.ENSEMBLE for remark in self.would_settle)
-        if one_run and low == high and self.word.badness <= Verdict.UNCERTAIN.badness:
+        one_run = any(warning.kind is AssessmentKind.ENSEMBLE for warning in self.would_settle)
+        if one_run and low == high and self.verdict.badness <= Verdict.UNCERTAIN.badness:
             return ONE_RUN  # but not where stacks add to it, or say worse
         if self._is_a_least_share:
             return f"at least {percents(low)}" if low else ""
@@ -422,14 +422,14 @@ Severity = tuple[int, float, float, float]
 
 
 def severity(decision: Decision, *, factor: float = math.nan, rotation_ratio: float = math.nan) -> Severity:
-    """Return the key of a case: its word, its share, the smallest reserve, then the largest rotation.
+    """Return the key of a case: its verdict, its share, the smallest reserve, then the largest rotation.
 
     Every order by what is worst is of this key. factor: on the motion, at which 5 % of the members overturn; nan where
     none is known, which counts as large. rotation_ratio: as recorded.
     """
     share = decision.interval[0] if math.isnan(decision.share) else decision.share
     return (
-        decision.word.badness,
+        decision.verdict.badness,
         -1.0 if math.isnan(share) else share,
         -math.inf if math.isnan(factor) else -factor,
         -1.0 if math.isnan(rotation_ratio) else rotation_ratio,
@@ -452,11 +452,11 @@ def worst_first(cases: Iterable[tuple[str, Severity]]) -> list[str]:
 def decide(facts: Facts, limits: Iterable[Limit] = ()) -> Decision:
     """Return the decision on `facts`, and on what evidence sets against them.
 
-    The step of a crack is the word of its members (`step`), those that failed counted as falling. The first of rows 1
-    to 7 whose test holds names the word of the mechanisms; rows 8 to 10 make it worse, and never safer.
+    The step of a crack is the verdict of its members (`step`), those that failed counted as falling. The first row of 1
+    to 7 whose test holds names the verdict of the mechanisms; rows 8 to 10 make it worse, and never safer.
 
     ===  ================================================================  =============================================
-    row  facts                                                             word
+    row  facts                                                             verdict
     ===  ================================================================  =============================================
     1    no crack that counts can overturn, nothing limits that            cannot overturn
     2    nothing can lift                                                  stands; only what acts at rest limits it
@@ -476,18 +476,18 @@ def decide(facts: Facts, limits: Iterable[Limit] = ()) -> Decision:
     10   a limit at which nothing can be told, or a component is missing   cannot be told, unless it falls anyway
     ===  ================================================================  =============================================
 
-    A crack that slides first is left out where another lifts; where its members would make a worse word, it is a doubt
-    with every word better than probably overturns.
-    A further limit, failure or fall never makes the word safer, nor the share smaller. The share is the largest among
+    A crack that slides first is left out where another lifts; where its members would make a worse verdict, that is a
+    warning with every verdict better than probably overturns.
+    A further limit, failure or fall never makes the verdict safer, nor the share smaller. The share is the largest of
     the cracks that count and the stacks, members that failed counted as falling: at it, the members of the crack or
-    the stacks that make the word have a step no safer than the word. It is of one model, and the mark of the other one
-    stands next to it. Row 5 and limits are of the word, not of the share. Under row 7 the share is empty, and its
+    the stacks that make the verdict have a step no safer than it. The share is of one model, and the mark of the other
+    stands next to it. Row 5 and limits are of the verdict, not of the share. Under row 7 the share is empty, and its
     interval reaches from the members that fall to those that fall or failed; under row 10 from the share at least to
     1.
     """
     evidence = list(limits)
     several = sorted(
-        [*evidence, *([_MISSING] if facts.failures else [])], key=lambda limit: _PLACES[limit.doubt.kind]
+        [*evidence, *([_MISSING] if facts.failures else [])], key=lambda limit: _PLACES[limit.warning.kind]
     )
     acting = [
         limit for limit in several if facts.runs < limit.lifted_by and (limit.at_rest or not facts.rests)
@@ -495,46 +495,46 @@ def decide(facts: Facts, limits: Iterable[Limit] = ()) -> Decision:
     untold = [limit for limit in acting if limit.is_untold]
     limiting = [limit for limit in acting if not limit.is_untold]
     alone, ends = _of_mechanisms(facts, is_limited=any(limit.at_rest for limit in evidence))
-    doubts = [*alone.doubts, *(limit.doubt for limit in untold)]
+    warnings = [*alone.warnings, *(limit.warning for limit in untold)]
     if any(limit.by_contacts for limit in untold) and not facts.stackable:
-        doubts.append(Remark(AssessmentKind.NO_STACK))
+        warnings.append(RockingWarning(AssessmentKind.NO_STACK))
     if ends:
-        return replace(alone, doubts=_in_order(doubts))
+        return replace(alone, warnings=_in_order(warnings))
 
     if facts.stacks is not None:
         alone = _with_stacks(facts, alone)
     why = alone.why
     share = alone.share
     interval = alone.interval
-    if alone.word is Verdict.OVERTURNS:
-        return replace(alone, doubts=_in_order(doubts), would_settle=())
+    if alone.verdict is Verdict.OVERTURNS:
+        return replace(alone, warnings=_in_order(warnings), would_settle=())
     # 8
-    word = worse(alone.word, *(limit.at_best for limit in limiting))
-    doubts += [limit.doubt for limit in limiting]
+    verdict = worse(alone.verdict, *(limit.at_best for limit in limiting))
+    warnings += [limit.warning for limit in limiting]
     would_settle = (*alone.would_settle, *_settling(facts, limiting))
     # 9
     if facts.stacks is not None:
         fallen, runs = facts.stacks
         of_stacks = step(falls=fallen, members=runs, risk=facts.risk)
-        if of_stacks.badness > word.badness and runs < UNANIMOUS and not fallen:
+        if of_stacks.badness > verdict.badness and runs < UNANIMOUS and not fallen:
             # More runs of which none falls would say more.
-            would_settle = (*would_settle, Remark(AssessmentKind.CONTACT_DYNAMICS))
-        word = worse(word, of_stacks)
+            would_settle = (*would_settle, RockingWarning(AssessmentKind.CONTACT_DYNAMICS))
+        verdict = worse(verdict, of_stacks)
     # 10: a mechanism that stands says nothing of what it does not follow.
-    if word.badness < Verdict.PROBABLY_OVERTURNS.badness:
-        doubts += _left_out(facts)
+    if verdict.badness < Verdict.PROBABLY_OVERTURNS.badness:
+        warnings += _left_out(facts)
         if untold:
-            word = Verdict.CANNOT_BE_TOLD
+            verdict = Verdict.CANNOT_BE_TOLD
             interval = interval[0], 1.0
-            not_followed = [str(limit.doubt) for limit in untold if limit is not _MISSING]
+            not_followed = [str(limit.warning) for limit in untold if limit is not _MISSING]
             why = "; ".join([*not_followed, *facts.failures, why])
             would_settle = _settling(facts, untold)
     return Decision(
-        word,
-        math.nan if word is Verdict.CANNOT_BE_TOLD else share,
+        verdict,
+        math.nan if verdict is Verdict.CANNOT_BE_TOLD else share,
         interval,
         why,
-        _in_order(doubts),
+        _in_order(warnings),
         would_settle,
         other_model=alone.other_model,
     )
@@ -550,30 +550,30 @@ def _with_stacks(facts: Facts, alone: Decision) -> Decision:
     members = facts.governing.count if facts.governing else f"{alone.share:.0f} of 1"
     other_model = None
     if share < alone.share:
-        other_model = Remark.of(AssessmentKind.STACKS_FALL, falls=fallen, runs=runs)
+        other_model = RockingWarning.of(AssessmentKind.STACKS_FALL, falls=fallen, runs=runs)
     elif share > alone.share:
-        other_model = Remark.of(AssessmentKind.MECHANISM_FALLS, members=members)
+        other_model = RockingWarning.of(AssessmentKind.MECHANISM_FALLS, members=members)
     why = f"{alone.why}; {counted}"
     largest = max(share, alone.share)
     interval = alone.interval if largest == alone.share else (share, share)
     return replace(alone, share=largest, interval=interval, why=why, other_model=other_model)
 
 
-def _settling(facts: Facts, limits: Sequence[Limit]) -> tuple[Remark, ...]:
-    """What would tell more of what limits a word: first contact dynamics, where it can follow it and has not."""
+def _settling(facts: Facts, limits: Sequence[Limit]) -> tuple[RockingWarning, ...]:
+    """What would tell more of what limits a verdict: first contact dynamics, where it can follow it and has not."""
     asked = facts.stackable and facts.stacks is None and any(limit.by_contacts for limit in limits)
-    contact_dynamics = [Remark(AssessmentKind.CONTACT_DYNAMICS)] if asked else []
-    return (*contact_dynamics, *(remark for limit in limits for remark in limit.settles))
+    contact_dynamics = [RockingWarning(AssessmentKind.CONTACT_DYNAMICS)] if asked else []
+    return (*contact_dynamics, *(warning for limit in limits for warning in limit.settles))
 
 
-def _in_order(doubts: Iterable[Remark]) -> tuple[Remark, ...]:
-    """The doubts in the order in which their kinds are declared."""
-    return tuple(sorted(doubts, key=lambda doubt: _PLACES[doubt.kind]))
+def _in_order(warnings: Iterable[RockingWarning]) -> tuple[RockingWarning, ...]:
+    """The warnings in the order in which their kinds are declared."""
+    return tuple(sorted(warnings, key=lambda warning: _PLACES[warning.kind]))
 
 
-def _left_out(facts: Facts) -> tuple[Remark, ...]:
-    """That a crack that slides first was left out, whose members would make a worse word."""
-    return (Remark(AssessmentKind.SLIDES_FIRST),) if _worse_left_out(facts) else ()
+def _left_out(facts: Facts) -> tuple[RockingWarning, ...]:
+    """That a crack that slides first was left out, whose members would make a worse verdict."""
+    return (RockingWarning(AssessmentKind.SLIDES_FIRST),) if _worse_left_out(facts) else ()
 
 
 def _of_mechanisms(facts: Facts, *, is_limited: bool) -> tuple[Decision, bool]:
@@ -582,51 +582,51 @@ def _of_mechanisms(facts: Facts, *, is_limited: bool) -> tuple[Decision, bool]:
     is_limited: whether anything acts against what cannot overturn.
     """
     worse_other = _worse_than_known(facts)
-    doubts = (Remark(AssessmentKind.OTHER_CRACK_WORSE),) if worse_other else ()
+    warnings = (RockingWarning(AssessmentKind.OTHER_CRACK_WORSE),) if worse_other else ()
     unknown = math.nan, math.nan
-    would_settle: tuple[Remark, ...]
+    would_settle: tuple[RockingWarning, ...]
     # 1, 2, 3: what follows without any member.
     if facts.never_overturns_because and not is_limited:
         why = facts.never_overturns_because
-        would_settle = (Remark(AssessmentKind.TIE_STRENGTH),)
-        doubts = (*doubts, *_left_out(facts))
-        return Decision(Verdict.CANNOT_OVERTURN, 0.0, (0.0, 0.0), why, doubts, would_settle), True
+        would_settle = (RockingWarning(AssessmentKind.TIE_STRENGTH),)
+        warnings = (*warnings, *_left_out(facts))
+        return Decision(Verdict.CANNOT_OVERTURN, 0.0, (0.0, 0.0), why, warnings, would_settle), True
     if facts.rests:
         why = "the ground never reaches the uplift acceleration"
-        return Decision(Verdict.STANDS, 0.0, (0.0, 0.0), why, doubts), False
+        return Decision(Verdict.STANDS, 0.0, (0.0, 0.0), why, warnings), False
     sliding = ""
     if facts.slides_throughout:
         at = f"slides before it lifts, at {facts.slides_at:.2g} g"
         sliding = at if facts.slides_at else "slides apart at rest"
     if sliding and not (facts.as_stones and facts.stacks):
         by_stones = facts.as_stones and facts.stackable and facts.stacks is None
-        would_settle = (Remark(AssessmentKind.FRICTION),)
-        would_settle += (Remark(AssessmentKind.CONTACT_DYNAMICS),) if by_stones else ()
-        return Decision(Verdict.CANNOT_BE_TOLD, math.nan, unknown, sliding, doubts, would_settle), True
+        would_settle = (RockingWarning(AssessmentKind.FRICTION),)
+        would_settle += (RockingWarning(AssessmentKind.CONTACT_DYNAMICS),) if by_stones else ()
+        return Decision(Verdict.CANNOT_BE_TOLD, math.nan, unknown, sliding, warnings, would_settle), True
     if facts.governing is not None:
         of_members = _of_members(facts, facts.governing, worse_other)
         why = f"{sliding}; {of_members.why}" if sliding else of_members.why
-        return replace(of_members, why=why, doubts=(*doubts, *of_members.doubts)), False
+        return replace(of_members, why=why, warnings=(*warnings, *of_members.warnings)), False
     if math.isnan(facts.run_ratio):  # 4
         why = "; ".join(facts.failures) or "no component gave a result"
-        would_settle = (Remark(AssessmentKind.INPUT),)
-        return Decision(Verdict.CANNOT_BE_TOLD, math.nan, unknown, why, doubts, would_settle), True
+        would_settle = (RockingWarning(AssessmentKind.INPUT),)
+        return Decision(Verdict.CANNOT_BE_TOLD, math.nan, unknown, why, warnings, would_settle), True
     # 5: one run, whose scatter nobody knows.
-    word = Verdict.PROBABLY_STANDS if facts.run_ratio <= FAR else Verdict.UNCERTAIN
+    verdict = Verdict.PROBABLY_STANDS if facts.run_ratio <= FAR else Verdict.UNCERTAIN
     share = float(facts.run_ratio == math.inf)
     why = "one run as recorded, without an ensemble"
-    would_settle = (Remark(AssessmentKind.ENSEMBLE),)
+    would_settle = (RockingWarning(AssessmentKind.ENSEMBLE),)
     return Decision(
-        word, share, (share, share), f"{sliding}; {why}" if sliding else why, doubts, would_settle
+        verdict, share, (share, share), f"{sliding}; {why}" if sliding else why, warnings, would_settle
     ), False
 
 
 def _of_members(facts: Facts, governing: CrackFacts, worse_other: CrackFacts | None) -> Decision:
-    """Rows 6 and 7: the worst crack; statics' own keeps a word in it."""
+    """Rows 6 and 7: the worst crack; statics' own keeps a verdict in it."""
     followed = facts.followed
-    word = _envelope((crack, crack.step(facts.risk)) for crack in followed)
-    would_settle = facts.remarks
-    # Not that of the worst step: by their error fewer members may have the worse word and the smaller share.
+    verdict = _envelope((crack, crack.step(facts.risk)) for crack in followed)
+    would_settle = facts.settling
+    # Not that of the worst step: by their error fewer members may have the worse verdict and the smaller share.
     share = max(crack.share for crack in followed)
     why = _counted(facts, worse_other)
     left_out = _worse_left_out(facts)
@@ -635,7 +635,7 @@ def _of_members(facts: Facts, governing: CrackFacts, worse_other: CrackFacts | N
         why = f"{why}; {would} if it did not slide first, at {left_out.slides_at:.2g} g"
     if facts.top is not None:
         why = f"{why}; {facts.top.brief}"
-        would_settle = (*would_settle, Remark(AssessmentKind.TIE_THE_TOP))
+        would_settle = (*would_settle, RockingWarning(AssessmentKind.TIE_THE_TOP))
     of_part = [crack for crack in followed if crack.part == governing.part]
     first = next((crack for crack in of_part if not crack.bulges), governing)
     disagree = not governing.bulges and governing.step(facts.risk) is not first.step(facts.risk)
@@ -643,40 +643,44 @@ def _of_members(facts: Facts, governing: CrackFacts, worse_other: CrackFacts | N
     interval = min(crack.falls / crack.members for crack in ends), share
     # 7: failed members count as falling, but alone they make nothing fall.
     falls_without = _envelope((crack, crack.step_of_followed(facts.risk)) for crack in followed)
-    open_ = word.badness >= Verdict.PROBABLY_OVERTURNS.badness or not all(
+    open_ = verdict.badness >= Verdict.PROBABLY_OVERTURNS.badness or not all(
         crack.followed for crack in followed
     )
     if open_ and falls_without.badness < Verdict.PROBABLY_OVERTURNS.badness:
-        word = Verdict.CANNOT_BE_TOLD
-        would_settle = (Remark(AssessmentKind.TOLERANCE),)
-    failed = (Remark(AssessmentKind.MEMBERS_FAILED),) if any(crack.failed for crack in followed) else ()
-    return Decision(word, share, interval, why, failed, would_settle)
+        verdict = Verdict.CANNOT_BE_TOLD
+        would_settle = (RockingWarning(AssessmentKind.TOLERANCE),)
+    failed = (
+        (RockingWarning(AssessmentKind.MEMBERS_FAILED),) if any(crack.failed for crack in followed) else ()
+    )
+    return Decision(verdict, share, interval, why, failed, would_settle)
 
 
 def may_change(facts: Facts, crack: CrackFacts) -> bool:
-    """Return whether the word of the cracks may get worse by the error of the share of one of them."""
+    """Return whether the verdict of the cracks may get worse by the error of the share of one of them."""
     if not crack.is_near_an_edge(facts.risk):
         return False
     steps = [(other, other.step(facts.risk)) for other in facts.followed]
-    at_worst = [(other, other.step_at_worst(facts.risk) if other is crack else word) for other, word in steps]
+    at_worst = [
+        (other, other.step_at_worst(facts.risk) if other is crack else verdict) for other, verdict in steps
+    ]
     return _envelope(at_worst).badness > _envelope(steps).badness
 
 
 def _envelope(words: Iterable[tuple[CrackFacts, Verdict]]) -> Verdict:
-    """The word of all that may form: the worst of its parts, each of which falls by itself."""
+    """The verdict of all that may form: the worst of its parts, each of which falls by itself."""
     of_parts: dict[str, list[tuple[CrackFacts, Verdict]]] = {}
-    for crack, word in words:
-        of_parts.setdefault(crack.part, []).append((crack, word))
+    for crack, verdict in words:
+        of_parts.setdefault(crack.part, []).append((crack, verdict))
     return worse(*map(_envelope_of_part, of_parts.values()))
 
 
 def _envelope_of_part(each_with_word: Sequence[tuple[CrackFacts, Verdict]]) -> Verdict:
-    """The word of one part: of the cracks only one opens, but a held wall may bulge with any of them."""
+    """The verdict of one part: of the cracks only one opens, but a held wall may bulge with any of them."""
     of_bulges = [word for crack, word in each_with_word if crack.bulges]
     of_cracks = [word for crack, word in each_with_word if not crack.bulges]
     if not of_cracks:
         return worse(Verdict.STANDS, *of_bulges)
-    # The one that statics chooses comes first, which is the likeliest to form: others limit its word, no more.
+    # The one that statics chooses comes first, which is the likeliest to form: others limit its verdict, no more.
     worst = worse(*of_cracks)
     if of_cracks[0] in (Verdict.STANDS, Verdict.PROBABLY_STANDS):
         worst = better(worst, Verdict.UNCERTAIN)
@@ -686,17 +690,17 @@ def _envelope_of_part(each_with_word: Sequence[tuple[CrackFacts, Verdict]]) -> V
 
 
 def _worse_than_known(facts: Facts) -> CrackFacts | None:
-    """The worst crack other than the known one, where its word is worse."""
+    """The worst crack other than the known one, where its verdict is worse."""
     return _worse(facts, (crack for crack in facts.cracks if not crack.counts and not crack.slides))
 
 
 def _worse_left_out(facts: Facts) -> CrackFacts | None:
-    """The worst crack that slides first where another lifts, where its word would be worse."""
+    """The worst crack that slides first where another lifts, where its verdict would be worse."""
     return _worse(facts, (crack for crack in facts.cracks if crack.counts and crack.slides))
 
 
 def _worse(facts: Facts, others: Iterable[CrackFacts]) -> CrackFacts | None:
-    """The worst of others than make the word, where its own is worse than that of the crack that governs."""
+    """The worst of others than make the verdict, where its own is worse than that of the crack that governs."""
     with_members = (crack for crack in others if crack.members)
     worst = max(with_members, key=lambda crack: crack.severity(facts.risk), default=None)
     if worst is None or facts.governing is None:

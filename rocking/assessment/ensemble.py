@@ -170,8 +170,9 @@ def draw(situation: Situation, points: np.ndarray) -> CauseValues:
 FIRST = 16
 """Members with which an ensemble begins."""
 GROWTH = (64, 256, 1024)
-"""Members that an ensemble grows to in turn while fewer leave its word open. At 256 the error still covers 3 % of the
-shares about each edge, and nearly all words that very many members changed lay there (docs/research/stability.py)."""
+"""Members that an ensemble grows to in turn while fewer leave its verdict open. At 256 the error still covers 3 % of
+the shares about each edge, and nearly all verdicts that very many members changed lay there
+(docs/research/stability.py)."""
 LEAST_LOSS = 1e-3
 """Share of the velocity that a member loses at an impact at least, unless the structure states less: without a loss it
 would rock through millions of impacts below any rotation that matters, until the integration fails."""
@@ -334,7 +335,7 @@ def grown(
     *,
     tolerance: float = 1e-6,
 ) -> Ensemble:
-    """Return the ensemble with the members of GROWTH that its word needs.
+    """Return the ensemble with the members of GROWTH that its verdict needs.
 
     structure, motions, settings, tolerance: those of the `members` so far.
     """

@@ -1,12 +1,12 @@
-"""The kinds of remarks on a case and on its decision, with the sentence of each."""
+"""The kinds of warnings on a case and on its decision, with the sentence of each."""
 
 from enum import auto
 
-from rocking.remarks import Kind
+from rocking.warnings import Kind
 
 
 class AssessmentKind(Kind):
-    """A kind of remark on a case and on its decision."""
+    """A kind of warning on a case and on its decision."""
 
     # fmt: off
     # What one degree of freedom does not follow.
@@ -16,7 +16,7 @@ class AssessmentKind(Kind):
     COURSES_THROWN = auto(), "courses above a rocking body may be thrown", "courses may be thrown"
     NOT_FOLLOWED = auto(), "the mechanism of least λ cannot be followed", "weakest not followed"
 
-    # What else makes a decision doubtful: in the order in which a decision lists its doubts.
+    # What else makes a decision doubtful: in the order in which a decision lists its warnings.
     COMPONENT_MISSING = auto(), "a component gave no result"
     OTHER_CRACK_WORSE = auto(), "a crack other than the known one is worse", "another crack is worse"
     NO_STACK = auto(), """contact dynamics cannot follow it, because it is neither a stack of courses nor a

@@ -1,4 +1,4 @@
-"""Methods, and how a prediction stands to the integration: each word and threshold is defined here once.
+"""Methods, and how a prediction stands to the integration: each verdict and threshold is defined here once.
 
 A structure rests, rocks or overturns. It rests up to `NEGLIGIBLE` of its critical rotation, lifted or not: whether a
 rotation is exactly zero hangs on the last digit of the uplift acceleration, and a tremor below a thousandth of the

@@ -25,10 +25,10 @@ from rocking.pulses import (
     velocity_pulse,
 )
 from rocking.records import Accelerogram
-from rocking.remarks import Remark
 from rocking.signal import RotD, rotd
 from rocking.signal.processing import process, variants
 from rocking.signal.rotation import aligned, azimuth_of_axis, rotate
+from rocking.warnings import RockingWarning
 
 AS_IT_IS = "unchanged"
 """Name of the processing that leaves a record as it is."""
@@ -304,7 +304,7 @@ class ComponentPulses:
     motion: HorizontalMotion
     ranked: tuple[PulseEvidence, ...]
     sequence: tuple[PulseEvidence, ...]
-    flags: tuple[Remark, ...]
+    flags: tuple[RockingWarning, ...]
     band: tuple[float, float]
     candidates: tuple[PulseEvidence, ...]
     failure: str

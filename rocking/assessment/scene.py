@@ -26,7 +26,6 @@ from rocking.errors import ConfigurationError, StructureError, StructureWarning
 from rocking.floors.place import GROUND, TYPE_NAME, Place, place_from_config, place_schema
 from rocking.hashes import sha256_of
 from rocking.quantities import finite, listed, shown
-from rocking.remarks import Remark
 from rocking.structures import Mechanism, Structure
 from rocking.structures.description import LONGEST_KEY, nearest
 from rocking.structures.joints import Joints
@@ -40,6 +39,7 @@ from rocking.structures.structure_list import (
 from rocking.structures.unknown_geometry import as_structure
 from rocking.tables import read_edited
 from rocking.tables.yaml_file import read_yaml, scalar_value
+from rocking.warnings import RockingWarning
 
 CHECK_KEYS = {
     "elastic_period_s": "For the checks of the code: period T_0 of a part that is free to vibrate, s (C8.7.1.7); "
@@ -111,14 +111,14 @@ class Scene:
         return sha256_of(self.structure.described.entry, self.place)
 
     @property
-    def remarks(self) -> tuple[Remark, ...]:
+    def warnings(self) -> tuple[RockingWarning, ...]:
         """What there is to say of it before it meets a record: sizes that are unusual, and what it is taken for.
 
         A restitution below that of the geometry is none of them: both are followed, and reported where it matters.
         """
         sizes = [
-            replace(remark, about=f"{self.name}: {remark.about}")
-            for remark in self.structure.described.remarks
+            replace(warning, about=f"{self.name}: {warning.about}")
+            for warning in self.structure.described.warnings
         ]
         above = [
             replace(caution, about=self.name)
@@ -127,7 +127,7 @@ class Scene:
         ]
         heavy = self.place.warning(self.name) if self.place.supports else None
         is_wall = self.structure.type_name == "wall"
-        ceiling = Remark(AssessmentKind.HELD_AT_CEILING, self.name) if is_wall else None
+        ceiling = RockingWarning(AssessmentKind.HELD_AT_CEILING, self.name) if is_wall else None
         return (*sizes, *above, *filter(None, (heavy, ceiling)))
 
 
@@ -237,7 +237,7 @@ def load_scenes(path: str | Path, content: bytes | None = None) -> dict[str, Sce
     A YAML file is a list of mappings, each with a `name` of its own; those of type support carry others, which name
     them by `stands_on`. The variants of a structure follow it, each as "structure: variant". A CSV file, or
     the first sheet of an XLSX file, has an entry a row, without variants; see `_rows`. What there is to say of one is
-    its `Scene.remarks`. Raises ConfigurationError with every defect at once, one a line.
+    its `Scene.warnings`. Raises ConfigurationError with every defect at once, one a line.
     """
     defects: list[str] = []
     path = Path(path)

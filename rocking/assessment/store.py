@@ -20,8 +20,8 @@ import numpy as np
 
 from rocking.errors import RockingError
 from rocking.hashes import sha256_of_bytes, sha256_of_sources
-from rocking.remarks import Kind, kind_of
 from rocking.tables import read_whole, write_whole
+from rocking.warnings import Kind, kind_of
 
 T = TypeVar("T")
 

@@ -30,12 +30,12 @@ class Variant:
     @property
     def share(self) -> float:
         """The share that overturns under its worst record; nan where none can be said."""
-        return self.conclusion.verdict.decision.share if self.conclusion else math.nan
+        return self.conclusion.row.decision.share if self.conclusion else math.nan
 
     @property
     def reserve(self) -> float:
         """Factor on the record at which 5 % of the members overturn; nan where none was found."""
-        reserve = self.conclusion.verdict.reserve if self.conclusion else None
+        reserve = self.conclusion.row.reserve if self.conclusion else None
         return reserve.low if reserve else math.nan
 
     @property
@@ -46,9 +46,7 @@ class Variant:
     @property
     def shows_difference(self) -> bool:
         """Whether its share differs from that of the first by more than both err for their number of members."""
-        both = [
-            variant.conclusion.verdict for variant in (self, self.first) if variant and variant.conclusion
-        ]
+        both = [variant.conclusion.row for variant in (self, self.first) if variant and variant.conclusion]
         error = sum(share_error(falls=row.overturning_members, members=row.members) for row in both)
         return abs(self.share_difference) > error
 
@@ -70,10 +68,10 @@ class VariantRow(RowOf[Variant]):
         "Name of the variant; that of the structure itself for the first", lambda of: of.variant_name
     )
     record: str = of_variant(
-        "Record that is worst for it", lambda of: of.conclusion.verdict.record if of.conclusion else ""
+        "Record that is worst for it", lambda of: of.conclusion.row.record if of.conclusion else ""
     )
     verdict: Verdict | None = of_variant(
-        "Verdict under it", lambda of: of.conclusion.verdict.verdict if of.conclusion else None
+        "Verdict under it", lambda of: of.conclusion.row.verdict if of.conclusion else None
     )
     overturning_share: float = of_variant("Share that overturns under it", lambda of: of.share)
     reserve_factor: float = of_variant(
@@ -90,7 +88,7 @@ def variants(
 
     groups: names of the scenes by the structure. concluded: on each scene, under its worst record.
     """
-    conclusion_of = {conclusion.verdict.structure: conclusion for conclusion in concluded}
+    conclusion_of = {conclusion.row.structure: conclusion for conclusion in concluded}
     made = {}
     for structure, names in groups.items():
         first = Variant(structure, structure, conclusion_of.get(structure))

@@ -14,9 +14,9 @@ from rocking.errors import CatalogueError, RockingError
 from rocking.quantities import acceleration_factor, is_number, listed, shown
 from rocking.records.formats.format import plain
 from rocking.records.kinds import RecordKind
-from rocking.remarks import Remark
 from rocking.signal.scaling import ScalingTarget
 from rocking.tables import edited_text, read_edited
+from rocking.warnings import RockingWarning
 
 _OBSPY = "obspy:"
 _ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,79}")
@@ -149,12 +149,12 @@ class CatalogueRecord:
         return bool(self.source_repository)
 
     @property
-    def station_place(self) -> Coordinates | Remark | None:
+    def station_place(self) -> Coordinates | RockingWarning | None:
         """Where the station is, or what is wrong with its coordinates; None without them."""
         return place_of(latitude=self.station_latitude, longitude=self.station_longitude)
 
     @property
-    def epicentre(self) -> Coordinates | Remark | None:
+    def epicentre(self) -> Coordinates | RockingWarning | None:
         """Where the earthquake began, or what is wrong with its coordinates; None without them."""
         return place_of(latitude=self.epicentre_latitude, longitude=self.epicentre_longitude, of="epicentre")
 
@@ -310,17 +310,17 @@ def catalogue_text(
     return edited_text(rows, columns, like, _NUMBERS)
 
 
-def repeated(records: Iterable[CatalogueRecord]) -> tuple[Remark, ...]:
-    """Return a remark on each record that is an earlier one again: one content and scale, a component in common."""
-    remarks = []
+def repeated(records: Iterable[CatalogueRecord]) -> tuple[RockingWarning, ...]:
+    """Return a warning on each record that is an earlier one again: one content and scale, a component in common."""
+    warnings = []
     earlier: dict[tuple[str, float, str], list[CatalogueRecord]] = {}
     for record, file in [(row, file) for row in records for file in row.files if file.sha256]:
         same = earlier.setdefault((file.sha256, record.scale_factor, record.scale_to), [])
         chosen = set(record.components)  # none names all
         both = (twin for twin in same if not (chosen and twin.components) or chosen & set(twin.components))
         if other := next(both, None):
-            remarks.append(
-                Remark.of(
+            warnings.append(
+                RockingWarning.of(
                     RecordKind.RECORD_REPEATED,
                     record.id,
                     file=file.name,
@@ -329,4 +329,4 @@ def repeated(records: Iterable[CatalogueRecord]) -> tuple[Remark, ...]:
                 )
             )
         same.append(record)
-    return tuple(remarks)
+    return tuple(warnings)

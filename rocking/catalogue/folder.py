@@ -13,20 +13,20 @@ from typing import Any
 from rocking.catalogue.catalogue import NAMED, is_safe_id, read_rows
 from rocking.catalogue.grouping import named_channel, rsn_of, stations, without_direction
 from rocking.catalogue.joining import SQUARE
-from rocking.catalogue.listing import CELLS, ListedChannel, ListedFile, doubts_of, listed_file, trials
+from rocking.catalogue.listing import CELLS, ListedChannel, ListedFile, listed_file, trials, warnings_of
 from rocking.catalogue.readings import Readings
 from rocking.errors import CatalogueError, RecordError
 from rocking.quantities import acceleration_factor, is_number, listed
 from rocking.records.archive import is_archive, members
 from rocking.records.claims import without_ending
-from rocking.records.direction import angle_between, names_no_direction, pair_doubt
+from rocking.records.direction import angle_between, names_no_direction, pair_warning
 from rocking.records.formats.format import plain
 from rocking.records.formats.layouts import NAME, Layouts
 from rocking.records.formats.text import day_of
 from rocking.records.kinds import RecordKind
 from rocking.records.read import bare_text, bytes_of, printable, recognise, unpack
-from rocking.remarks import Remark
 from rocking.tables import read_start
+from rocking.warnings import RockingWarning
 
 Row = dict[str, str]
 
@@ -40,14 +40,14 @@ class FolderCatalogue:
 
     files: every file, in the order of names. existing: the rows that the catalogue holds already, with the new names of
     files that were renamed, and without the request to fill in what was typed. new: the rows of the other files.
-    remarks: what there is to say beyond the files. layouts: the text of layouts.csv with the questions that are new,
+    warnings: what there is to say beyond the files. layouts: the text of layouts.csv with the questions that are new,
     None where none is.
     """
 
     files: list[ListedFile]
     existing: list[Row]
     new: list[Row]
-    remarks: tuple[Remark, ...] = ()
+    warnings: tuple[RockingWarning, ...] = ()
     layouts: str | None = None
 
 
@@ -112,9 +112,9 @@ def catalogue_of_folder(
     for row in rows:
         _clear_filled(row, by_answer.get(row["id"], ""))
     new = rows_of_files(listed, (row["id"].lower() for row in rows))
-    of_store = [readings.remark] if readings.remark else []
+    of_store = [readings.warning] if readings.warning else []
     idle = [
-        Remark.of(RecordKind.ANSWER_IDLE, NAME, line=answer.line, answer=answer.text)
+        RockingWarning.of(RecordKind.ANSWER_IDLE, NAME, line=answer.line, answer=answer.text)
         for answer in layouts.idle(signatures)
     ]
     asked = layouts.text(((file.file, file.question) for file in listed if file.question), tried)
@@ -148,7 +148,7 @@ def _declared_in(row: Row | None, declared: Mapping[str, Any]) -> dict[str, Any]
 
 def _follow_renamed(
     rows: Iterable[Row], rows_of: dict[str, Row], listed: Iterable[ListedFile]
-) -> Iterator[Remark]:
+) -> Iterator[RockingWarning]:
     """Write the new names of renamed files into their rows, and say so: known by their sha256, the old name is gone."""
     present = {file.file for file in listed}
     strangers = {file.sha256: file.file for file in listed if file.sha256 and file.file not in rows_of}
@@ -162,7 +162,7 @@ def _follow_renamed(
             names[place] = _as_cell(now)
             rows_of[now] = row
             del strangers[sha256.strip()]
-            yield Remark.of(RecordKind.FILE_RENAMED, row["id"], before=name.strip(), now=now)
+            yield RockingWarning.of(RecordKind.FILE_RENAMED, row["id"], before=name.strip(), now=now)
         row["file"] = ";".join(names)
 
 
@@ -179,11 +179,11 @@ def _mark_repeats(listed: Iterable[ListedFile]) -> None:
             original = originals.setdefault(file.sha256, file.file)
             file.is_repeat = original != file.file
             if file.is_repeat:
-                file.doubts += (Remark.of(RecordKind.CONTENT_REPEATED, original=original),)
+                file.warnings += (RockingWarning.of(RecordKind.CONTENT_REPEATED, original=original),)
 
 
-def _rows_to_join(listed: Sequence[ListedFile]) -> Iterator[Remark]:
-    """Yield a remark on each station of which a component has a separate row: a person may make them one."""
+def _rows_to_join(listed: Sequence[ListedFile]) -> Iterator[RockingWarning]:
+    """Yield a warning on each station of which a component has a separate row: a person may make them one."""
     sizes = Counter(file.record for file in listed)
     single = [
         copy(file) for file in listed if not file.refusal and (not file.record or sizes[file.record] == 1)
@@ -192,7 +192,7 @@ def _rows_to_join(listed: Sequence[ListedFile]) -> Iterator[Remark]:
         if len(group) > 1 and any(file.record for file in group):
             cell = ";".join(_as_cell(file.file) for file in group)
             rows = " and ".join(file.record for file in group if file.record)
-            yield Remark.of(RecordKind.ROWS_TO_JOIN, files=cell, rows=rows)
+            yield RockingWarning.of(RecordKind.ROWS_TO_JOIN, files=cell, rows=rows)
 
 
 _FILL = "Fill in {}."
@@ -224,7 +224,9 @@ def rows_of_files(listed: Sequence[ListedFile], taken: Iterable[str] = ()) -> li
         for file in group:
             file.record = rows[-1]["id"] if level else ""
             file.companions = len(group) - 1
-            by_name = [str(doubt) for doubt in file.doubts if doubt.kind is RecordKind.VERTICAL_BY_NAME]
+            by_name = [
+                str(warning) for warning in file.warnings if warning.kind is RecordKind.VERTICAL_BY_NAME
+            ]
             why = filter(None, (_ONLY_VERTICAL, file.separated, *by_name))
             file.refusal = "" if level else " ".join(why)
     return rows
@@ -260,19 +262,21 @@ def _row(group: Sequence[ListedFile], level: Sequence[ListedChannel], ids: set[s
         "station": first.station.lstrip(_FORMULA + " "),
         "sha256": ";".join(file.sha256 for file in group),
         **group[0].declarations,
-        "note": plain(" ".join([*head, *map(str, _remarks(group, level)), group[0].separated])),
+        "note": plain(" ".join([*head, *map(str, _warnings(group, level)), group[0].separated])),
     }
 
 
-def _remarks(group: Sequence[ListedFile], level: Sequence[ListedChannel]) -> Iterator[Remark]:
+def _warnings(group: Sequence[ListedFile], level: Sequence[ListedChannel]) -> Iterator[RockingWarning]:
     """Yield what is doubtful of the files of a row and of the directions of its components."""
-    yield from dict.fromkeys(doubt for file in group for doubt in doubts_of(file))
+    yield from dict.fromkeys(warning for file in group for warning in warnings_of(file))
     angle = angle_between(*level) if len(level) == 2 else None
     if angle is not None and abs(angle - 90) > SQUARE:
         first, second = (channel.component for channel in level)
-        yield Remark.of(RecordKind.NOT_SQUARE, first=first, second=second, angle_deg=min(angle, 180 - angle))
-    if doubt := pair_doubt(level):
-        yield doubt
+        yield RockingWarning.of(
+            RecordKind.NOT_SQUARE, first=first, second=second, angle_deg=min(angle, 180 - angle)
+        )
+    if warning := pair_warning(level):
+        yield warning
 
 
 _LONGEST_ID = 70
@@ -304,8 +308,8 @@ def _of_station(group: Sequence[ListedFile], first: ListedChannel) -> str:
 _LOOKED_AT = 200  # files next to a catalogue that are opened, at most, to see whether they are records
 
 
-def unlisted(catalogue: Path) -> tuple[Remark, ...]:
-    """Return a remark when records lie next to `catalogue` that neither it nor another catalogue there names.
+def unlisted(catalogue: Path) -> tuple[RockingWarning, ...]:
+    """Return a warning when records lie next to `catalogue` that neither it nor another catalogue there names.
 
     But for those that a catalogue of the folder was asked to list, and which it refused: it would again.
     """
@@ -326,7 +330,7 @@ def unlisted(catalogue: Path) -> tuple[Remark, ...]:
     if not records:
         return ()
     files = listed([printable(path.relative_to(folder).as_posix()) for path in records], NAMED)
-    return (Remark.of(RecordKind.FILES_UNLISTED, files=files, folder=str(folder)),)
+    return (RockingWarning.of(RecordKind.FILES_UNLISTED, files=files, folder=str(folder)),)
 
 
 def _was_refused(path: Path, folder: Path, readings: Readings) -> bool:

@@ -19,7 +19,7 @@ from rocking.records.direction import (
 from rocking.records.formats.peer import PEER_AT2
 from rocking.records.formats.text import day_of
 from rocking.records.kinds import RecordKind
-from rocking.remarks import Remark
+from rocking.warnings import RockingWarning
 
 _RSN = re.compile(r"(RSN\d+)_")
 """Number of a record in the databases of PEER, with which the names of its files begin."""
@@ -156,7 +156,7 @@ def _together(group: list[ListedFile]) -> list[ListedFile]:
     return [file for file in group if file in chosen]
 
 
-def _why_apart(group: Sequence[ListedFile]) -> Remark | None:
+def _why_apart(group: Sequence[ListedFile]) -> RockingWarning | None:
     """Return why the files of one station cannot share a row; None where they can."""
     if len(group) == 1:
         return None
@@ -164,7 +164,7 @@ def _why_apart(group: Sequence[ListedFile]) -> Remark | None:
     by_name = [file for file in group if names_no_direction(file.channels[0].component)]
     unnamed = [file for file in by_name if not _direction(file)]
     if unnamed or len(by_name) not in (0, len(group)):
-        return Remark(RecordKind.COMPONENT_NOT_NAMED, (unnamed or by_name)[0].file)
+        return RockingWarning(RecordKind.COMPONENT_NOT_NAMED, (unnamed or by_name)[0].file)
     extents = [
         Extent(channel.samples, channel.shaking, channel.format == PEER_AT2.name) for channel in channels
     ]
@@ -172,23 +172,23 @@ def _why_apart(group: Sequence[ListedFile]) -> Remark | None:
         return why
     level = [channel for channel in channels if not channel.vertical]
     if len(level) > 2 or len(channels) - len(level) > 1:
-        return Remark.of(
+        return RockingWarning.of(
             RecordKind.TOO_MANY_COMPONENTS, horizontal=len(level), vertical=len(channels) - len(level)
         )
     if any(file.declarations != group[0].declarations for file in group):
-        return Remark(RecordKind.DECLARED_BY_SOME)
+        return RockingWarning(RecordKind.DECLARED_BY_SOME)
     return _why_no_pair(group, level)
 
 
-def _why_no_pair(group: Sequence[ListedFile], level: Sequence[ListedChannel]) -> Remark | None:
+def _why_no_pair(group: Sequence[ListedFile], level: Sequence[ListedChannel]) -> RockingWarning | None:
     """Return why two horizontal components are no pair; None where they are, or are not two."""
     if len(level) != 2:
         return None
     first, second = (channel.component for channel in level)
     angle = angle_between(*level)
     if angle is not None and min(angle, 180 - angle) < SQUARE:
-        return Remark.of(RecordKind.POINT_THE_SAME_WAY, first=first, second=second)
+        return RockingWarning.of(RecordKind.POINT_THE_SAME_WAY, first=first, second=second)
     by_name = any(_direction(file) for file in group)
     if by_name and (angle is None or abs(angle - 90) > SQUARE):
-        return Remark.of(RecordKind.NOT_SQUARE_BY_NAME, first=first, second=second)
+        return RockingWarning.of(RecordKind.NOT_SQUARE_BY_NAME, first=first, second=second)
     return None

@@ -12,9 +12,9 @@ from rocking.errors import RecordError
 from rocking.records.direction import Channel
 from rocking.records.formats.peer import PEER_AT2
 from rocking.records.kinds import RecordKind
-from rocking.remarks import Remark
 from rocking.signal.accelerogram import SAME_STEP, Accelerogram
 from rocking.signal.measures import end_of_shaking
+from rocking.warnings import RockingWarning
 
 LONGEST_TAIL = 0.02
 """Share of the longest file that it may last beyond the shortest one where no file says when it begins.
@@ -45,7 +45,7 @@ class Extent:
     is_peer: bool
 
 
-def why_apart(channels: Sequence[ComponentFacts], extents: Collection[Extent]) -> Remark | None:
+def why_apart(channels: Sequence[ComponentFacts], extents: Collection[Extent]) -> RockingWarning | None:
     """Return why channels of several files cannot be one station's; None where they can.
 
     Files of PEER, which never say when they begin, are one record at any length that leaves out nothing of D5–95. That
@@ -54,16 +54,16 @@ def why_apart(channels: Sequence[ComponentFacts], extents: Collection[Extent]) -
     """
     names = Counter(channel.component for channel in channels if not channel.borehole)
     if twice := next((name for name, n in names.items() if n > 1), ""):
-        return Remark.of(RecordKind.COMPONENT_TWICE, twice, times=names[twice])
+        return RockingWarning.of(RecordKind.COMPONENT_TWICE, twice, times=names[twice])
     steps = [channel.time_step for channel in channels]
     if max(steps) / min(steps) - 1 > SAME_STEP:
-        return Remark.of(RecordKind.STEPS_UNLIKE, least_s=min(steps), most_s=max(steps))
+        return RockingWarning.of(RecordKind.STEPS_UNLIKE, least_s=min(steps), most_s=max(steps))
     have_starts = [bool(channel.start_time) for channel in channels]
     samples = [extent.samples for extent in extents]
     is_still = all(extent.is_peer and extent.shaking <= min(samples) for extent in extents)
     allowed = 0 if any(have_starts) else LONGEST_TAIL * max(samples)
     if max(samples) - min(samples) > allowed and not (all(have_starts) or is_still):
-        return Remark.of(RecordKind.BEGINNINGS_UNKNOWN, least=min(samples), most=max(samples))
+        return RockingWarning.of(RecordKind.BEGINNINGS_UNKNOWN, least=min(samples), most=max(samples))
     return None
 
 
@@ -119,7 +119,11 @@ def _to_the_shortest(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
     cut = []
     is_far = longest - size > LONGEST_TAIL * longest
     apart = (longest - size) * channels[0].time_step
-    doubts = [Remark.of(RecordKind.LENGTHS_UNLIKE, least=size, most=longest, apart_s=apart)] if is_far else []
+    warnings = (
+        [RockingWarning.of(RecordKind.LENGTHS_UNLIKE, least=size, most=longest, apart_s=apart)]
+        if is_far
+        else []
+    )
     for channel in channels:
         surplus = channel.acceleration.size - size
         sentence = (
@@ -127,7 +131,7 @@ def _to_the_shortest(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
             "begin together."
         )
         samples = channel.acceleration[:size]
-        cut.append((channel.processed_by(samples, sentence) if surplus else channel).warned(*doubts))
+        cut.append((channel.processed_by(samples, sentence) if surplus else channel).warned(*warnings))
     return cut
 
 

@@ -17,11 +17,11 @@ from rocking.records.formats.layouts import NAME, AskedError, Layouts, Question,
 from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import OF_COUNTS
 from rocking.records.read import printable, read_raw
-from rocking.remarks import Kind, Remark
 from rocking.signal.accelerogram import Accelerogram
 from rocking.signal.kinds import SignalKind
 from rocking.signal.measures import end_of_shaking
 from rocking.signal.processing import process, velocity
+from rocking.warnings import Kind, RockingWarning
 
 CELLS = {"unit": "unit", "time_step": "time_step_s"}
 """The column of a catalogue that declares what a file leaves out."""
@@ -81,14 +81,14 @@ class ListedChannel:
 class Reading:
     """The findings of reading one file, whatever else lies in its folder.
 
-    doubts: what is plausibly wrong, about the components where not all are concerned. refusal: why it cannot be read,
+    warnings: what is plausibly wrong, about the components where not all are concerned. refusal: why it cannot be read,
     or "". missing: what it does not declare, of the keys of CELLS. question: what layouts.csv asks of a table;
     signature: of a table, and the answer by which it was read, "" where there was none.
     """
 
     sha256: str
     channels: tuple[ListedChannel, ...] = ()
-    doubts: tuple[Remark, ...] = ()
+    warnings: tuple[RockingWarning, ...] = ()
     refusal: str = ""
     missing: tuple[str, ...] = ()
     question: Question | None = None
@@ -100,7 +100,7 @@ class Reading:
 class ListedFile:
     """One file of a folder as it was read, and the id of its catalogue row, "" if it cannot be used.
 
-    doubts: what is plausibly wrong. refusal: why it gets no row, or "". separation: why it does not share the row of
+    warnings: what is plausibly wrong. refusal: why it gets no row, or "". separation: why it does not share the row of
     other files of its station; None where it does, or there are none. blanks: the cells that its row leaves blank and
     that must be filled; declarations: those that hold what its header does not say. direction: of its component, where
     only the file's name or its row says it. companions: number of other files in its row. is_repeat: whether it has the
@@ -111,11 +111,11 @@ class ListedFile:
     sha256: str = ""
     channels: tuple[ListedChannel, ...] = ()
     refusal: str = ""
-    doubts: tuple[Remark, ...] = ()
+    warnings: tuple[RockingWarning, ...] = ()
     declarations: dict[str, str] = field(default_factory=dict)
     blanks: tuple[str, ...] = ()
     direction: str = ""
-    separation: Remark | None = None
+    separation: RockingWarning | None = None
     record: str = ""
     companions: int = 0
     is_repeat: bool = False
@@ -162,29 +162,31 @@ def read_for_listing(
             return Reading(sha256, refusal=printable(reason.without_place(printable(path.name))))
     is_known = all(declared[name] for name in missing)
     is_unit_known = "unit" not in missing or bool(declared["unit"])
-    remarks = list(_doubts_of(channels, () if is_unit_known else _OF_UNIT))
+    warnings = list(_warnings_of(channels, () if is_unit_known else _OF_UNIT))
     if not is_unit_known and channels[0].source.format in OF_COUNTS:
-        remarks.append(Remark(RecordKind.COUNTS_WITHOUT_UNIT))
+        warnings.append(RockingWarning(RecordKind.COUNTS_WITHOUT_UNIT))
     listed = tuple(_without_samples(channel, is_known) for channel in channels)
-    return Reading(sha256, listed, tuple(remarks), missing=missing, question=None if is_known else question)
+    return Reading(sha256, listed, tuple(warnings), missing=missing, question=None if is_known else question)
 
 
 def reading_of(channels: Sequence[Accelerogram]) -> Reading:
     """Return what the channels of one file give, which were read with all that it leaves open."""
     listed = tuple(_without_samples(channel, is_known=True) for channel in channels)
-    return Reading(channels[0].source.sha256, listed, _doubts_of(channels))
+    return Reading(channels[0].source.sha256, listed, _warnings_of(channels))
 
 
-def _doubts_of(channels: Sequence[Accelerogram], passed_over: Collection[Kind] = ()) -> tuple[Remark, ...]:
+def _warnings_of(
+    channels: Sequence[Accelerogram], passed_over: Collection[Kind] = ()
+) -> tuple[RockingWarning, ...]:
     """Return what is doubtful of the channels of a file, about the components where not all are concerned."""
-    doubts: dict[Remark, list[str]] = {}
+    warnings: dict[RockingWarning, list[str]] = {}
     for channel in channels:
-        for remark in channel.warnings:
-            if remark.kind not in passed_over:
-                doubts.setdefault(remark, []).append(channel.component)
+        for warning in channel.warnings:
+            if warning.kind not in passed_over:
+                warnings.setdefault(warning, []).append(channel.component)
     return tuple(
-        remark if len(of) == len(channels) or remark.about else replace(remark, about=", ".join(of))
-        for remark, of in doubts.items()
+        warning if len(of) == len(channels) or warning.about else replace(warning, about=", ".join(of))
+        for warning, of in warnings.items()
     )
 
 
@@ -213,7 +215,7 @@ def listed_file(reading: Reading, path: Path, folder: Path, declared: Mapping[st
         sha256=reading.sha256,
         channels=reading.channels,
         refusal=reading.refusal or _why_not_listed(path, folder),
-        doubts=reading.doubts,
+        warnings=reading.warnings,
         declarations={CELLS[name]: f"{declared[name]}" for name in reading.missing if declared[name]},
         blanks=tuple(CELLS[name] for name in CELLS if name in reading.missing and not declared[name]),
         question=reading.question,
@@ -230,9 +232,9 @@ def _why_not_listed(path: Path, folder: Path) -> str:
     return ""
 
 
-def doubts_of(file: ListedFile) -> list[Remark]:
-    """Return the doubts about a file that hold whatever its row calls it."""
-    return [doubt for doubt in file.doubts if not (file.direction and doubt.kind in _OF_DIRECTION)]
+def warnings_of(file: ListedFile) -> list[RockingWarning]:
+    """Return the warnings about a file that hold whatever its row calls it."""
+    return [warning for warning in file.warnings if not (file.direction and warning.kind in _OF_DIRECTION)]
 
 
 _FEWEST_TRIED = 3
@@ -279,7 +281,7 @@ _FALLBACK = 100
 def listing_text(listed: Sequence[ListedFile], width: int | None = None) -> str:
     """Return a table with a line for each channel that was read, no wider than `width`, and below it what to know.
 
-    width: characters, None: of the terminal. Below are the cells to fill in, what was joined, doubts and refusals.
+    width: characters, None: of the terminal. Below are the cells to fill in, what was joined, warnings and refusals.
     """
     width = width or shutil.get_terminal_size((_FALLBACK, 24)).columns
     return "".join(f"{line}\n" for line in (*_table(listed, width), *_sentences(listed)))
@@ -332,7 +334,7 @@ def _sentences(files: Sequence[ListedFile]) -> Iterator[str]:
         "To know:": [
             (file.file, text)
             for file in read
-            if (text := " ".join(filter(None, (*map(str, doubts_of(file)), file.separated))))
+            if (text := " ".join(filter(None, (*map(str, warnings_of(file)), file.separated))))
         ],
         "Not read:": [
             (file.file, first[_family(file)]) for file in files if file.refusal and not file.question

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 
 from rocking.records.kinds import RecordKind
-from rocking.remarks import Remark
+from rocking.warnings import RockingWarning
 
 _RADIUS = 6371.0088
 """Mean radius of the earth, km (IUGG)."""
@@ -31,7 +31,7 @@ class Coordinates:
 
 def place_of(
     *, latitude: float | None, longitude: float | None, of: str = "station"
-) -> Coordinates | Remark | None:
+) -> Coordinates | RockingWarning | None:
     """Return the place of two cells of a catalogue, in degrees, or what is wrong with them; None where both are empty.
 
     of: what the names of their columns begin with.
@@ -41,12 +41,12 @@ def place_of(
         if latitude is longitude:
             return None
         given, missing = names.values() if longitude is None else reversed(names.values())
-        return Remark.of(RecordKind.PLACE_HALF, given=given, missing=missing)
+        return RockingWarning.of(RecordKind.PLACE_HALF, given=given, missing=missing)
     if abs(latitude) <= 90 and abs(longitude) <= 180:
         return Coordinates(latitude=latitude, longitude=longitude)
     swapped = abs(latitude) <= 180 and abs(longitude) <= 90
     kind = RecordKind.PLACE_SWAPPED if swapped else RecordKind.PLACE_IMPOSSIBLE
-    return Remark.of(
+    return RockingWarning.of(
         kind,
         latitude=names["latitude"],
         longitude=names["longitude"],

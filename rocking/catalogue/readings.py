@@ -15,8 +15,8 @@ from rocking.records.formats.layouts import Layouts
 from rocking.records.formats.tables import COLUMNS
 from rocking.records.kinds import RecordKind
 from rocking.records.read import bytes_of, printable, signature_in
-from rocking.remarks import Remark
 from rocking.tables import read_whole, write_whole
+from rocking.warnings import RockingWarning
 
 if TYPE_CHECKING:
     from pydantic import TypeAdapter
@@ -32,7 +32,7 @@ class Readings:
     """The readings of the files under `folder`, each made once for its content, its name and what is declared.
 
     layouts: the answers next to the catalogue. is_kept: whether readings are looked for, and cached, in a store in that
-    folder. remark: where a store lies there that cannot be used, else None.
+    folder. warning: where a store lies there that cannot be used, else None.
     """
 
     def __init__(self, folder: Path, layouts: Layouts, is_kept: bool = True) -> None:
@@ -44,13 +44,13 @@ class Readings:
         self._before: dict[str, Reading] = {}
         self._now: dict[str, Reading] = {}
         self._inventory_hashes: dict[Path, str] = {}
-        self.remark: Remark | None = None
+        self.warning: RockingWarning | None = None
         if is_kept and self._store.exists():
             try:
                 self._before = _stored(self._store)
             except _UnusableStoreError as error:
                 why = str(error).rstrip(".")
-                self.remark = Remark.of(RecordKind.READINGS_UNUSABLE, str(self._store), why=why)
+                self.warning = RockingWarning.of(RecordKind.READINGS_UNUSABLE, str(self._store), why=why)
 
     def of(self, path: Path, declared: Mapping[str, Any]) -> Reading:
         """Return the reading of the file at `path`; declared: as read_for_listing takes it."""
@@ -152,7 +152,7 @@ def _version() -> str:
     package = Path(__file__).parents[1]
     sources = [
         package / "quantities.py",
-        package / "remarks.py",
+        package / "warnings.py",
         package / "tables" / "files.py",
         package / "tables" / "edited.py",
     ]

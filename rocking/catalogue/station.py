@@ -16,10 +16,10 @@ from rocking.errors import RecordError, about
 from rocking.hashes import sha256_of_bytes
 from rocking.records.direction import (
     directed,
-    doubts_of_channel,
     names_no_direction,
-    pair_doubt,
-    vertical_doubt,
+    pair_warning,
+    vertical_warning,
+    warnings_of_channel,
 )
 from rocking.records.doors import through
 from rocking.records.formats import Options
@@ -28,9 +28,9 @@ from rocking.records.formats.text import day_of, iso_date
 from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import same_motion
 from rocking.records.read import bytes_of, read_raw
-from rocking.remarks import Remark
 from rocking.signal.accelerogram import Accelerogram
 from rocking.signal.scaling import ScalingTarget, scaled, scaled_to
+from rocking.warnings import RockingWarning
 
 
 @dataclass(frozen=True)
@@ -106,10 +106,10 @@ def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sta
                 replace(channel, warnings=tuple(w for w in channel.warnings if w.kind not in _ANSWERED))
                 for channel in horizontal
             ]
-        elif doubt := vertical_doubt([*horizontal, *filter(None, [vertical])]):
-            raise RecordError(str(doubt))
-        if doubt := pair_doubt(horizontal):
-            horizontal = [channel.warned(doubt) for channel in horizontal]
+        elif warning := vertical_warning([*horizontal, *filter(None, [vertical])]):
+            raise RecordError(str(warning))
+        if warning := pair_warning(horizontal):
+            horizontal = [channel.warned(warning) for channel in horizontal]
         declared = [_as_declared(channel, record) for channel in horizontal]
         upright = None if vertical is None else _as_declared(vertical, record)
         if record.scale_to:
@@ -131,7 +131,7 @@ def _called_now(channel: Accelerogram, name: str) -> Accelerogram:
         warning for warning in channel.warnings if warning.kind is not RecordKind.DIRECTION_UNKNOWN
     )
     named = replace(channel, **directed({"component": name}), warnings=others)
-    return named.warned(*doubts_of_channel(named))
+    return named.warned(*warnings_of_channel(named))
 
 
 _ANSWERED = (RecordKind.SOME_MAY_BE_VERTICAL, RecordKind.LONE_MAY_BE_VERTICAL)
@@ -149,7 +149,7 @@ def _horizontal(
     named = [_called(name, channels) for name in record.components]
     if named and len(record.files) == 1:
         return [
-            channel.warned(Remark(RecordKind.VERTICAL_AS_HORIZONTAL, channel.component))
+            channel.warned(RockingWarning(RecordKind.VERTICAL_AS_HORIZONTAL, channel.component))
             if channel.vertical
             else channel
             for channel in named
@@ -180,7 +180,7 @@ def _counted_once(
         else:
             first = distinct[place]
             distinct[place] = first.warned(
-                Remark.of(RecordKind.SAME_MOTION, channel.component, other=first.component)
+                RockingWarning.of(RecordKind.SAME_MOTION, channel.component, other=first.component)
             )
     if is_apart and distinct[-1] is vertical:
         return distinct[:-1], vertical
@@ -220,11 +220,11 @@ def _as_declared(channel: Accelerogram, record: CatalogueRecord) -> Accelerogram
         facts |= {"magnitude": record.magnitude, "magnitude_type": ""}
     if record.epicentral_distance is not None:
         facts["epicentral_distance"] = 1000 * record.epicentral_distance
-    place, doubts = _place(channel, record)
+    place, warnings = _place(channel, record)
     if place is not None:
         facts |= {"latitude": place.latitude, "longitude": place.longitude}
     enlarged = channel if record.scale_factor == 1 else scaled(channel, record.scale_factor)
-    return replace(enlarged, **facts).warned(*doubts)
+    return replace(enlarged, **facts).warned(*warnings)
 
 
 _DAY = re.compile(r"\b(?:\d{4}-\d\d-\d\d|\d{1,2}/\d{1,2}/(?:\d{4}|\d\d))\b")
@@ -247,17 +247,17 @@ _NEAR = 1.0
 """Distance of two places, km, up to which they are one: coordinates are often given to a hundredth of a degree."""
 
 
-def _place(channel: Accelerogram, record: CatalogueRecord) -> tuple[Coordinates | None, list[Remark]]:
+def _place(channel: Accelerogram, record: CatalogueRecord) -> tuple[Coordinates | None, list[RockingWarning]]:
     """The place of the station by its row, where it gives one that can be; what is wrong with it and the epicentre."""
     given = record.station_place
-    doubts = [doubt for doubt in (given, record.epicentre) if isinstance(doubt, Remark)]
+    warnings = [warning for warning in (given, record.epicentre) if isinstance(warning, RockingWarning)]
     if not isinstance(given, Coordinates):
-        return None, doubts
+        return None, warnings
     stated = place_of(latitude=channel.latitude, longitude=channel.longitude)
     if isinstance(stated, Coordinates) and (distance := stated.distance_to(given)) > _NEAR:
-        doubts.append(
-            Remark.of(
+        warnings.append(
+            RockingWarning.of(
                 RecordKind.PLACE_UNLIKE_FILE, catalogue=str(given), file=str(stated), distance_km=distance
             )
         )
-    return given, doubts
+    return given, warnings

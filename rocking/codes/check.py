@@ -9,8 +9,8 @@ from rocking.codes.kinds import CheckKind
 from rocking.errors import ConfigurationError
 from rocking.floors.support import Support
 from rocking.quantities import finite, kind_of, positive
-from rocking.remarks import Remark
 from rocking.structures.linkage import Restraint
+from rocking.warnings import RockingWarning
 
 CONFIDENCE_FACTOR = 1.35
 """The factor of the level of knowledge LC1, which C8.7.1.2.1 asks for unless crushing enters α, as with a
@@ -99,7 +99,7 @@ class Check:
         What opens, and to which side it falls.
     unit : str, default 'm/s²'
         Unit of capacity and demand.
-    refusal : Remark or None, optional
+    refusal : RockingWarning or None, optional
         Why it is not called met, where that is not in the numbers; else None.
 
     Examples
@@ -115,7 +115,7 @@ class Check:
     demand: float
     mechanism: str
     unit: str = "m/s²"
-    refusal: Remark | None = None
+    refusal: RockingWarning | None = None
 
     @property
     def ratio(self) -> float:
@@ -170,7 +170,7 @@ class DynamicCheck(Check):
         What opens, and to which side it falls.
     unit : str, default 'm/s²'
         Unit of capacity and demand.
-    refusal : Remark or None, optional
+    refusal : RockingWarning or None, optional
         Why it is not called met, where that is not in the numbers; else None.
     exceeding : int
         Motions of the chosen set under which d_0 is exceeded.
@@ -222,12 +222,12 @@ class DynamicCheck(Check):
         return super().outcome
 
     @property
-    def caution(self) -> Remark | None:
+    def caution(self) -> RockingWarning | None:
         """How far the stations of the pool speak for others, which belongs to a check that is met."""
         if not self.passed:
             return None
         unseen = 1 - RISK ** (1 / self.stations)
-        return Remark.of(
+        return RockingWarning.of(
             CheckKind.OTHER_STATIONS,
             stations=self.stations,
             earthquakes=self.earthquakes,
@@ -268,7 +268,7 @@ class StructureCheck:
     linear : Check or None, optional
         Linear check; None for SLC, of which the code has none.
     nonlinear : Check or None, optional
-        Nonlinear kinematic check; None for SLD, and where nothing can overturn, which `remark` then says.
+        Nonlinear kinematic check; None for SLD, and where nothing can overturn, which `warning` then says.
     dynamic : DynamicCheck or None, optional
         Dynamic check; None without records, and where `nonlinear` is None.
     damage_level : float
@@ -279,7 +279,7 @@ class StructureCheck:
         The mechanism that decides.
     restraints : tuple of Restraint, optional
         What holds the structure sideways.
-    remark : Remark or None, optional
+    warning : RockingWarning or None, optional
         Why a check is left out; else None.
     were_it_unknown : StructureCheck or None, optional
         The kinematic checks of a structure whose crack is known, were it not; None where it is not, or would
@@ -300,7 +300,7 @@ class StructureCheck:
     mechanisms: tuple[CodeCapacity, ...] = field(repr=False)
     governing: CodeCapacity = field(repr=False)
     restraints: tuple[Restraint, ...] = field(default=(), repr=False)
-    remark: Remark | None = None
+    warning: RockingWarning | None = None
     were_it_unknown: "StructureCheck | None" = field(default=None, repr=False)
 
     def __repr__(self) -> str:
@@ -309,8 +309,8 @@ class StructureCheck:
             f"{check.clause} {check.refusal or check.outcome}, ratio {check.ratio_in_words}"
             for check in self.checks
         ]
-        if self.remark:
-            parts.append(str(self.remark))
+        if self.warning:
+            parts.append(str(self.warning))
         parts.append(f"starts at a_g = {self.damage_level:.3g} m/s²")
         return f"StructureCheck({self.limit_state}: {'; '.join(parts)})"
 

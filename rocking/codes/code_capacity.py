@@ -12,9 +12,9 @@ from numpy.typing import ArrayLike
 
 from rocking.codes.kinds import CheckKind
 from rocking.quantities import GRAVITY
-from rocking.remarks import Remark
 from rocking.structures.capacity import StaticCapacity
 from rocking.structures.structure import Candidate
+from rocking.warnings import RockingWarning
 
 _MOST_FALL = 0.5
 """Share of the largest capacity in acceleration by which it may fall as a part breaks (C8.7.1.2.1.6)."""
@@ -55,7 +55,7 @@ class LimitPoint:
     displacement: float
     acceleration: float
     period: float
-    reason: Remark
+    reason: RockingWarning
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,19 +142,23 @@ class CodeCapacity:
         Where a vanishes nowhere and nothing else limits it, the displacement is inf, and the others are nan.
         """
         share = state.displacement_share
-        limits = {share * self.ultimate_displacement: Remark.of(CheckKind.LIMIT_SHARE, share=share)}
+        limits = {share * self.ultimate_displacement: RockingWarning.of(CheckKind.LIMIT_SHARE, share=share)}
         ruptures = self.limiting_ruptures[self.released :] if state.ends_with_ties else ()
         if ruptures:
-            limits[float(self.displacement(ruptures[0] * _JUST_BEFORE))] = Remark(CheckKind.LIMIT_TIE_BREAKS)
+            limits[float(self.displacement(ruptures[0] * _JUST_BEFORE))] = RockingWarning(
+                CheckKind.LIMIT_TIE_BREAKS
+            )
         if self.support_loss < math.inf:
-            limits[self.support_loss * self.static.displacement_factor] = Remark(CheckKind.LIMIT_LOAD_FALLS)
+            limits[self.support_loss * self.static.displacement_factor] = RockingWarning(
+                CheckKind.LIMIT_LOAD_FALLS
+            )
         displacement = min(limits)
         if math.isinf(displacement):
             return LimitPoint(
                 displacement=displacement,
                 acceleration=math.nan,
                 period=math.nan,
-                reason=Remark(CheckKind.LIMIT_NOWHERE),
+                reason=RockingWarning(CheckKind.LIMIT_NOWHERE),
             )
         rotation = self.static.rotation_at(displacement / self.static.displacement_factor)
         acceleration = float(self.acceleration(rotation))

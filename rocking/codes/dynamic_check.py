@@ -30,10 +30,10 @@ from rocking.codes.static_check import kinematic_check
 from rocking.errors import ConfigurationError
 from rocking.floors.support import Support
 from rocking.quantities import kind_of
-from rocking.remarks import Remark
 from rocking.signal.accelerogram import Accelerogram
 from rocking.structures import Mechanism, Side, Structure
 from rocking.structures.mechanism import SideTie
+from rocking.warnings import RockingWarning
 
 BOOTSTRAPS = 50
 INTERVAL = 0.05, 0.95
@@ -161,15 +161,17 @@ def _dynamic_check(
     return replace(found, refusal=_refusal(found, least_others, records.chosen.size))
 
 
-def _refusal(found: DynamicCheck, least_others: float, size: int) -> Remark | None:
+def _refusal(found: DynamicCheck, least_others: float, size: int) -> RockingWarning | None:
     if found.exceeding:
-        return Remark.of(CheckKind.DISPLACEMENT_EXCEEDED, exceeding=found.exceeding, motions=found.motions)
+        return RockingWarning.of(
+            CheckKind.DISPLACEMENT_EXCEEDED, exceeding=found.exceeding, motions=found.motions
+        )
     if not found.met_by_the_set:
-        return Remark(CheckKind.CHECK_NOT_MET)
+        return RockingWarning(CheckKind.CHECK_NOT_MET)
     if found.sets < SETS:
-        return Remark.of(CheckKind.SETS_TOO_FEW, sets=found.sets, asked=SETS)
+        return RockingWarning.of(CheckKind.SETS_TOO_FEW, sets=found.sets, asked=SETS)
     if not found.sets_agree:
-        return Remark.of(
+        return RockingWarning.of(
             CheckKind.SETS_DISAGREE,
             share_percent=100 * found.share,
             sets=found.sets,
@@ -177,7 +179,7 @@ def _refusal(found: DynamicCheck, least_others: float, size: int) -> Remark | No
         )
     low, high = found.interval
     if low < least_others:
-        return Remark.of(
+        return RockingWarning.of(
             CheckKind.OTHERS_TOO_FEW,
             low_percent=100 * low,
             high_percent=100 * high,

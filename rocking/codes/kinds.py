@@ -1,12 +1,12 @@
-"""The kinds of remarks on a check at the design level, with the sentence of each."""
+"""The kinds of warnings on a check at the design level, with the sentence of each."""
 
 from enum import auto
 
-from rocking.remarks import Kind
+from rocking.warnings import Kind
 
 
 class CheckKind(Kind):
-    """A kind of remark on a check at the design level."""
+    """A kind of warning on a check at the design level."""
 
     # fmt: off
     # Why the displacement of a limit state is what it is.

@@ -19,9 +19,9 @@ from rocking.drawn import Drawn
 from rocking.earthquakes.sample import Sample, earthquakes_of, stations_of
 from rocking.errors import ConfigurationError
 from rocking.quantities import positive
-from rocking.remarks import Remark
 from rocking.signal.accelerogram import Accelerogram
 from rocking.signal.measures import response_spectrum
+from rocking.warnings import RockingWarning
 
 STATIONS = 20
 """The stations of a set: with 7 the verdict hangs on the choice for one wall in nine, with 20 for one in thirty-six."""
@@ -346,7 +346,7 @@ def search(
             break
     if not number:
         raise ConfigurationError.saying(
-            Remark.of(
+            RockingWarning.of(
                 CheckKind.NO_SET_WITHIN,
                 count=count,
                 drawn=drawn,
@@ -371,8 +371,8 @@ def random_sets(
     """
     names, of_record = np.unique(stations, return_inverse=True)
     if names.size < count:
-        remark = Remark.of(CheckKind.STATIONS_TOO_FEW, stations=int(names.size), count=count)
-        raise ConfigurationError.saying(remark)
+        warning = RockingWarning.of(CheckKind.STATIONS_TOO_FEW, stations=int(names.size), count=count)
+        raise ConfigurationError.saying(warning)
     order = np.argsort(of_record, kind="stable")
     sizes = np.bincount(of_record)
     begins = np.concatenate([[0], np.cumsum(sizes)[:-1]])

@@ -20,12 +20,12 @@ from rocking.codes.floor_demand import FloorDemand
 from rocking.codes.kinds import CheckKind
 from rocking.errors import ConfigurationError, DoesNotStandError, StructureError
 from rocking.quantities import GRAVITY, kind_of, positive
-from rocking.remarks import Phrase, Remark
 from rocking.structures import Structure
 from rocking.structures.crackable import Crackable
 from rocking.structures.joints import USUAL
 from rocking.structures.leaves import parts_of
 from rocking.structures.structure import AS_DESCRIBED, Candidate
+from rocking.warnings import Phrase, RockingWarning
 
 _SAME = 1e-9
 """Relative difference below which two levels are one but for rounding: the mechanism that is named first decides."""
@@ -90,8 +90,8 @@ def _kinematic_check(structure: Structure, spectrum: DesignSpectrum, terms: Code
         mechanisms=mechanisms,
         governing=mechanisms[first],
         restraints=structure.restraints(),
-        remark=next(
-            (restraint.remark for restraint in structure.restraints() if restraint.ties == math.inf), None
+        warning=next(
+            (restraint.warning for restraint in structure.restraints() if restraint.ties == math.inf), None
         ),
     )
     if terms.limit_state == "SLD":
@@ -103,7 +103,7 @@ def _kinematic_check(structure: Structure, spectrum: DesignSpectrum, terms: Code
     collapses = _collapses(mechanisms, floor, LIMIT_STATES[terms.limit_state])
     weakest, level = _weakest(starts, collapses)
     if math.isinf(level):
-        return replace(made, remark=_not_made(mechanisms[first]))
+        return replace(made, warning=_not_made(mechanisms[first]))
     made = replace(made, governing=mechanisms[weakest])
     return replace(made, nonlinear=_nonlinear_check(made, spectrum, level))
 
@@ -135,9 +135,11 @@ def _level_check(made: StructureCheck, spectrum: DesignSpectrum, clause: str, ca
     )
 
 
-def _not_made(mechanism: CodeCapacity) -> Remark:
+def _not_made(mechanism: CodeCapacity) -> RockingWarning:
     """Why checks that need d_0 were not made."""
-    return Remark.of(CheckKind.NO_DISPLACEMENT, why=mechanism.candidate.mechanism.never_overturns_because)
+    return RockingWarning.of(
+        CheckKind.NO_DISPLACEMENT, why=mechanism.candidate.mechanism.never_overturns_because
+    )
 
 
 def _capacities(structure: Structure, terms: CodeTerms) -> tuple[CodeCapacity, ...]:

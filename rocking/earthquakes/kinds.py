@@ -1,12 +1,12 @@
-"""The kinds of remarks on the earthquakes and stations behind a result."""
+"""The kinds of warnings on the earthquakes and stations behind a result."""
 
 from enum import auto
 
-from rocking.remarks import Kind
+from rocking.warnings import Kind
 
 
 class SampleKind(Kind):
-    """A kind of remark on a sample of stations and earthquakes."""
+    """A kind of warning on a sample of stations and earthquakes."""
 
     # fmt: off
     EARTHQUAKES_UNNAMED = auto(), """{records} of {all} records name no earthquake, and count as of one: name

@@ -19,7 +19,7 @@ import numpy as np
 from rocking.earthquakes.kinds import SampleKind
 from rocking.errors import ConfigurationError
 from rocking.quantities import counted
-from rocking.remarks import Phrase, Remark
+from rocking.warnings import Phrase, RockingWarning
 
 FEWEST = 5
 """Earthquakes below which nothing is resampled: the interval is then Student's, or Clopper and Pearson's, on them."""
@@ -254,7 +254,7 @@ def students(*, freedom: float, tail: float = TAIL) -> float:
 class Sample:
     """Which records are of one station, and which stations are of one earthquake.
 
-    stations, events: (r,) names. remarks: what there is to say of the names. Raises ConfigurationError unless each
+    stations, events: (r,) names. warnings: what there is to say of the names. Raises ConfigurationError unless each
     record has one of both.
 
     >>> sample = Sample(("a", "a", "b", "c"), ("Kobe", "Kobe", "Kobe", "Landers"))
@@ -264,7 +264,7 @@ class Sample:
 
     stations: tuple[str, ...]
     events: tuple[str, ...]
-    remarks: tuple[Remark, ...] = field(default=())
+    warnings: tuple[RockingWarning, ...] = field(default=())
 
     def __post_init__(self) -> None:
         if len(self.stations) != len(self.events):
@@ -297,29 +297,35 @@ class Sample:
                 )
         of_records = list(map(str, events)) if events is not None else earthquakes_of(records)
         own = list(map(str, stations)) if stations is not None else stations_of(records, of_records, rows)
-        remarks = []
+        warnings = []
         unnamed = [place for place, event in enumerate(of_records) if not event]
         if unnamed and not each_unnamed:
-            remarks.append(Remark.of(SampleKind.EARTHQUAKES_UNNAMED, records=len(unnamed), all=len(records)))
+            warnings.append(
+                RockingWarning.of(SampleKind.EARTHQUAKES_UNNAMED, records=len(unnamed), all=len(records))
+            )
         filled = [
             event or (own[place] if each_unnamed else UNNAMED) for place, event in enumerate(of_records)
         ]
         for event, other in _named_twice(records, filled) if events is None else ():
-            remarks.append(Remark.of(SampleKind.EARTHQUAKE_NAMED_TWICE, first=event, second=other))
+            warnings.append(RockingWarning.of(SampleKind.EARTHQUAKE_NAMED_TWICE, first=event, second=other))
         first_of: dict[str, str] = {}
         for station, event in zip(own, filled, strict=True):
             first = first_of.setdefault(station, event)
             if first != event:
-                remarks.append(
-                    Remark.of(SampleKind.STATION_OF_TWO_EARTHQUAKES, station, first=first, second=event)
+                warnings.append(
+                    RockingWarning.of(
+                        SampleKind.STATION_OF_TWO_EARTHQUAKES, station, first=first, second=event
+                    )
                 )
         of_station = [first_of[station] for station in own]
         made = cls(tuple(own), tuple(of_station))
         if made.earthquakes == 1 < made.count and not unnamed:
-            remarks.append(Remark.of(SampleKind.EARTHQUAKE_ONE, stations=made.count))
+            warnings.append(RockingWarning.of(SampleKind.EARTHQUAKE_ONE, stations=made.count))
         elif 1 < made.earthquakes < FEWEST:
-            remarks.append(Remark.of(SampleKind.EARTHQUAKES_FEW, earthquakes=made.earthquakes, fewest=FEWEST))
-        return cls(made.stations, made.events, tuple(dict.fromkeys(remarks)))
+            warnings.append(
+                RockingWarning.of(SampleKind.EARTHQUAKES_FEW, earthquakes=made.earthquakes, fewest=FEWEST)
+            )
+        return cls(made.stations, made.events, tuple(dict.fromkeys(warnings)))
 
     @classmethod
     def scattered(cls, stations: Sequence[str]) -> "Sample":

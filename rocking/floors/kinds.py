@@ -1,12 +1,12 @@
-"""The kinds of remarks on a support and on its motion, with the sentence of each."""
+"""The kinds of warnings on a support and on its motion, with the sentence of each."""
 
 from enum import auto
 
-from rocking.remarks import Kind
+from rocking.warnings import Kind
 
 
 class FloorKind(Kind):
-    """A kind of remark on a support and on its motion."""
+    """A kind of warning on a support and on its motion."""
 
     # fmt: off
     # The samples of a record.

@@ -17,8 +17,8 @@ from rocking.floors.kinds import FloorKind
 from rocking.floors.spectrum import FLOOR_DAMPING, floor_spectrum, has_code_spectrum, spectrum_of
 from rocking.floors.support import Mode, Support
 from rocking.quantities import finite
-from rocking.remarks import Remark
 from rocking.signal.accelerogram import Accelerogram
+from rocking.warnings import RockingWarning
 
 TYPE_NAME = "support"
 """The `type` of an entry of a structure list that is a support."""
@@ -104,11 +104,11 @@ class Place:
             code_spectral_acceleration=by_code,
         )
 
-    def warning(self, structure: str) -> Remark | None:
+    def warning(self, structure: str) -> RockingWarning | None:
         """Return that a structure is too heavy for the support to be followed alone; None where it is not."""
         if self.mass_ratio is None or self.mass_ratio <= HEAVY:
             return None
-        return Remark.of(
+        return RockingWarning.of(
             FloorKind.HEAVY_ON_SUPPORT, structure, ratio=self.mass_ratio, support=self.name, limit=HEAVY
         )
 

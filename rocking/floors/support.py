@@ -15,8 +15,8 @@ import numpy as np
 from rocking.errors import RecordError
 from rocking.floors.kinds import FloorKind
 from rocking.quantities import finite
-from rocking.remarks import Remark
 from rocking.signal.accelerogram import SHORTEST_STEP, Accelerogram
+from rocking.warnings import RockingWarning
 
 INTERPOLATION_ERROR = 1e-4
 """Largest error of straight lines between the samples of a floor's motion, over its peak. A rotation is up to ten times
@@ -223,7 +223,7 @@ class Support:
             return made
         share = left / made.peak_acceleration
         return made.warned(
-            Remark.of(FloorKind.STILL_RINGING, share=float(share), after_s=after * record.time_step)
+            RockingWarning.of(FloorKind.STILL_RINGING, share=float(share), after_s=after * record.time_step)
         )
 
     def motions(self, records: Sequence[Accelerogram]) -> tuple[Accelerogram, ...]:

@@ -25,10 +25,10 @@ from rocking.motion.table import (
     table_of,
 )
 from rocking.quantities import GRAVITY, finite, kind_of, within
-from rocking.remarks import Remark
 from rocking.signal.accelerogram import Accelerogram
 from rocking.structures import Outcome
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
+from rocking.warnings import RockingWarning
 
 
 class HasMechanism(Protocol):
@@ -80,7 +80,7 @@ class Runs(NamedTuple):
 
 
 class RunOptions(NamedTuple):
-    """How runs begin and end: from what state, whether each ends where its word is settled, and where states go.
+    """How runs begin and end: from what state, whether each ends where its verdict is settled, and where states go.
 
     log: (k, 3), filled with time, arc and its rate, or without lines.
     """
@@ -188,7 +188,7 @@ def integrate(
 
 
 def strict(tolerance: float) -> float:
-    """Return the tolerance of a run on which a word hangs: that of a fragile run's repetition, or a smaller one.
+    """Return the tolerance of a run on which a verdict hangs: that of a fragile run's repetition, or a smaller one.
 
     To ask of a run whether it is fragile takes four runs more; to follow it at this tolerance at once, a fifth more
     time. Runs that do not report whether they are fragile are therefore strict from the start.
@@ -357,7 +357,7 @@ def _response(
         peak_side=(1, -1)[largest] if rocks else int(row[runs.SIDE]),
         steps=int(row[runs.STEPS]),
         tolerance=0.0 if isinstance(sides[0], EquivalentBlock) else tolerance,
-        warning=Remark(MotionKind.WEIGHTLESS) if forcing.weightless else None,
+        warning=RockingWarning(MotionKind.WEIGHTLESS) if forcing.weightless else None,
         critical_rotations=(sides[0].critical_rotation, sides[-1].critical_rotation),
         **states,
     )

@@ -1,12 +1,12 @@
-"""The kinds of remarks on an integration, with the sentence of each."""
+"""The kinds of warnings on an integration, with the sentence of each."""
 
 from enum import auto
 
-from rocking.remarks import Kind
+from rocking.warnings import Kind
 
 
 class MotionKind(Kind):
-    """A kind of remark on an integration."""
+    """A kind of warning on an integration."""
 
     # fmt: off
     # An integration.

@@ -10,9 +10,9 @@ from rocking.drawn import Drawn
 from rocking.errors import MotionError
 from rocking.quantities import GRAVITY, counted, four_digits
 from rocking.records import Accelerogram
-from rocking.remarks import Remark
 from rocking.structures import Outcome, Structure
 from rocking.structures.linkage import UnknownContacts, largest_so_far
+from rocking.warnings import RockingWarning
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -54,7 +54,7 @@ class Response(Drawn):
         may miss it; 0.0 of an exact response.
     reason : str, default ''
         One sentence where the outcome is FAILED, else empty.
-    warning : Remark or None, optional
+    warning : RockingWarning or None, optional
         Where the vertical motion takes away all of gravity, else None.
     times : ndarray or None, optional
         (k,) times of the history, s; None without one.
@@ -86,7 +86,7 @@ class Response(Drawn):
     steps: int = 0
     tolerance: float = 0.0
     reason: str = ""
-    warning: Remark | None = None
+    warning: RockingWarning | None = None
     times: np.ndarray | None = None
     rotation: np.ndarray | None = None
     angular_velocity: np.ndarray | None = None

@@ -13,8 +13,8 @@ from rocking.errors import PulseError
 from rocking.pulses.kinds import PulseKind
 from rocking.pulses.pulse import Pulse, PulseAnalysis, PulseEvidence, PulseSettings
 from rocking.quantities import instance
-from rocking.remarks import Remark
 from rocking.signal.accelerogram import Accelerogram
+from rocking.warnings import RockingWarning
 
 NOTHING_LEFT = 1e-20
 """Share of the record's energy below which what the pursuit leaves, or what a cycle gains, is rounding."""
@@ -324,7 +324,7 @@ def _raised(
     search: PulseSearch,
     ranked: tuple[PulseEvidence, ...],
     sequence: tuple[PulseEvidence, ...],
-) -> tuple[Remark, ...]:
+) -> tuple[RockingWarning, ...]:
     """The flags of the dominant pulse."""
     pulse = ranked[0].pulse
     second = ranked[1] if len(ranked) > 1 else None
@@ -353,7 +353,7 @@ def _raised(
         PulseKind.PULSE_RECORD_SHORT: low > search.settings.lowest_frequency,
         PulseKind.PULSE_SAMPLING_COARSE: high < search.settings.highest_frequency,
     }
-    return tuple(Remark(kind) for kind, holds in raised.items() if holds)
+    return tuple(RockingWarning(kind) for kind, holds in raised.items() if holds)
 
 
 def oscillates(pulse: Pulse, strong_rivals: list[Pulse]) -> bool:

@@ -1,12 +1,12 @@
-"""The kinds of remarks on the pulses of a record, with the sentence of each."""
+"""The kinds of warnings on the pulses of a record, with the sentence of each."""
 
 from enum import auto
 
-from rocking.remarks import Kind
+from rocking.warnings import Kind
 
 
 class PulseKind(Kind):
-    """A kind of remark on the pulses of a record."""
+    """A kind of warning on the pulses of a record."""
 
     # fmt: off
     # The dominant pulse of a record.

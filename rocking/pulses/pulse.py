@@ -11,8 +11,8 @@ from rocking.described import check_described, described
 from rocking.drawn import Drawn, in_a_notebook
 from rocking.errors import PulseError
 from rocking.quantities import GRAVITY, counted, finite, four_digits, positive, within
-from rocking.remarks import Remark
 from rocking.signal.accelerogram import Accelerogram
+from rocking.warnings import RockingWarning
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -192,7 +192,7 @@ class PulseAnalysis(Drawn):
         first is dominant.
     sequence : tuple of PulseEvidence
         The pursuit, each pulse found in what the ones before it left.
-    flags : tuple of Remark
+    flags : tuple of RockingWarning
         Reasons to doubt the dominant pulse.
     band : tuple of (float, float)
         Lowest and highest frequency that were searched, Hz.
@@ -208,7 +208,7 @@ class PulseAnalysis(Drawn):
     accelerogram: Accelerogram
     ranked: tuple[PulseEvidence, ...]
     sequence: tuple[PulseEvidence, ...]
-    flags: tuple[Remark, ...]
+    flags: tuple[RockingWarning, ...]
     band: tuple[float, float]
 
     def __repr__(self) -> str:

@@ -16,8 +16,8 @@ from rocking.quantities import NUMBER, acceleration_factor, acceleration_unit
 from rocking.records.direction import Direction
 from rocking.records.doors import advice
 from rocking.records.kinds import RecordKind
-from rocking.remarks import Remark
 from rocking.signal.accelerogram import Accelerogram
+from rocking.warnings import RockingWarning
 
 What = Literal["unit", "time_step", "rate", "samples", "peak", "direction"]
 """What a claim is about; rate: a step that is spoken of, which may be that of the recorder."""
@@ -597,16 +597,18 @@ class Declarations:
         return str(held)
 
 
-def doubts_of_claims(channel: Accelerogram, said: Declarations) -> tuple[Remark, ...]:
-    """Return a remark where the peak or the direction of the only channel is not what the text above it says."""
-    doubts = []
+def warnings_of_claims(channel: Accelerogram, said: Declarations) -> tuple[RockingWarning, ...]:
+    """Return a warning where the peak or the direction of the only channel is not what the text above it says."""
+    warnings = []
     peaks = [claim.value for claim in said.claims if claim.what == "peak"]
     if peaks and not any(_SAME["peak"](abs(peak), channel.peak_acceleration) for peak in peaks):
         values = {"peak_m_s2": channel.peak_acceleration, "stated_m_s2": abs(peaks[0])}
-        doubts.append(Remark.of(RecordKind.PEAK_UNLIKE_HEADER, **values))
+        warnings.append(RockingWarning.of(RecordKind.PEAK_UNLIKE_HEADER, **values))
     if said.component and point_apart(said.component, channel.component):
-        doubts.append(Remark.of(RecordKind.DIRECTION_SAID_TWICE, channel.component, other=said.component))
-    return tuple(doubts)
+        warnings.append(
+            RockingWarning.of(RecordKind.DIRECTION_SAID_TWICE, channel.component, other=said.component)
+        )
+    return tuple(warnings)
 
 
 def meaning(comment: str) -> str:
@@ -622,10 +624,10 @@ def speaks_of_factor(line: str) -> bool:
     return bool(_SCALED.search(line) or (_TIMES.search(line) and _OF_ACCELERATION.search(line)))
 
 
-def factor_warnings(lines: Sequence[str]) -> tuple[Remark, ...]:
+def factor_warnings(lines: Sequence[str]) -> tuple[RockingWarning, ...]:
     """Return a warning where lines speak of a factor: none is applied."""
     spoken = next((line.strip() for line in lines if speaks_of_factor(line)), "")
-    return (Remark.of(RecordKind.FACTOR_NOT_APPLIED, text=spoken[:60]),) if spoken else ()
+    return (RockingWarning.of(RecordKind.FACTOR_NOT_APPLIED, text=spoken[:60]),) if spoken else ()
 
 
 def _units(line: str) -> set[str]:
@@ -676,7 +678,7 @@ _DIGITS_OF_AN_ANGLE = 3
 END = re.compile(
     r"(?i)(?:[#%$!]|//).*|[a-z]\w*[ \t]*\$|[\W_]*(?:end(?:[ \t]+of)?(?:[ \t]+\w+)?|eof)[\W_]*|[}\])]+;?"
 )
-"""Remarks, or a word for the end, below the numbers: these are reported to nobody."""
+"""Warnings, or a word for the end, below the numbers: these are reported to nobody."""
 _MARK_OF_END = re.compile(
     rb"(?i)(?:(?<=\n)|(?<=\d)(?=\*\*))[ \t]*(?:"
     rb"[*\-=\s]*(?:end|eof)(?:[ \t]+(?:of[ \t]+)?(?:data|file))?[*\-=. \t]*|/[&*]|[a-z]+[ \t]*\$|[}\])]+;?)\Z"

@@ -7,7 +7,7 @@ from functools import cache
 from typing import Any, Protocol
 
 from rocking.records.kinds import RecordKind
-from rocking.remarks import Remark
+from rocking.warnings import RockingWarning
 
 _VERTICAL = {
     "UP", "DOWN", "DN", "DWN", "V", "Z", "UD", "U-D", "U", "VER", "VERT", "VERTICAL", "UPDO", "U/D", "UPWARD",
@@ -165,8 +165,8 @@ def names_no_direction(component: str) -> bool:
 _ONLY_ACCELERATION = re.compile(r"a|ag|a_g|acc\w*|ground[ _]?acc\w*|amplitude|values?|data", re.I)
 
 
-def doubts_of_channel(channel: Channel) -> tuple[Remark, ...]:
-    """Return a remark where a channel has a name, and neither that nor its header says where it points."""
+def warnings_of_channel(channel: Channel) -> tuple[RockingWarning, ...]:
+    """Return a warning where a channel has a name, and neither that nor its header says where it points."""
     name = channel.component.strip()
     if channel.vertical or channel.azimuth is not None or not name:
         return ()
@@ -176,11 +176,11 @@ def doubts_of_channel(channel: Channel) -> tuple[Remark, ...]:
     is_combined = re.match(r"(?i)rot|srss|gm|geo", name) is not None
     is_longer_angle = re.search(r"\d\d", name) is not None  # an angle to which a program has written more
     unknown = is_beyond or is_combined or not is_longer_angle
-    return (Remark(RecordKind.DIRECTION_UNKNOWN, name),) if unknown else ()
+    return (RockingWarning(RecordKind.DIRECTION_UNKNOWN, name),) if unknown else ()
 
 
-def contradiction(channel: Channel) -> tuple[Remark, ...]:
-    """Return a remark where a channel code (HNE) points elsewhere than the header of its record.
+def contradiction(channel: Channel) -> tuple[RockingWarning, ...]:
+    """Return a warning where a channel code (HNE) points elsewhere than the header of its record.
 
     A code is taken at its word where N and E are near their axes, whichever way they point.
     """
@@ -198,11 +198,13 @@ def contradiction(channel: Channel) -> tuple[Remark, ...]:
     direction = (
         "upwards" if channel.vertical else "to no known azimuth" if along is None else f"to {along:g}°"
     )
-    return (Remark.of(RecordKind.DIRECTION_CONTRADICTED, channel.component.strip(), direction=direction),)
+    return (
+        RockingWarning.of(RecordKind.DIRECTION_CONTRADICTED, channel.component.strip(), direction=direction),
+    )
 
 
-def vertical_doubt(channels: Sequence[Channel]) -> Remark | None:
-    """Return a remark where one of the channels may be vertical, and nothing says whether it is.
+def vertical_warning(channels: Sequence[Channel]) -> RockingWarning | None:
+    """Return a warning where one of the channels may be vertical, and nothing says whether it is.
 
     That is so of three channels or more without directions, and of a lone one with a code of unknown direction.
     """
@@ -212,19 +214,19 @@ def vertical_doubt(channels: Sequence[Channel]) -> Remark | None:
         code = channels[0].component.strip()
         is_code = _SEED.fullmatch(code) and not names_acceleration(code)
         return (
-            Remark(RecordKind.LONE_MAY_BE_VERTICAL, code)
-            if is_code and doubts_of_channel(channels[0])
+            RockingWarning(RecordKind.LONE_MAY_BE_VERTICAL, code)
+            if is_code and warnings_of_channel(channels[0])
             else None
         )
     of_unknown = [channel.component for channel in channels if channel.azimuth is None]
     if len(channels) < _OF_A_STATION or not of_unknown:
         return None
     names = ", ".join(of_unknown[:_OF_A_STATION])
-    return Remark.of(RecordKind.SOME_MAY_BE_VERTICAL, channels=len(channels), names=names)
+    return RockingWarning.of(RecordKind.SOME_MAY_BE_VERTICAL, channels=len(channels), names=names)
 
 
-def pair_doubt(horizontal: Sequence[Channel]) -> Remark | None:
-    """Return a remark where the angle of two horizontal components is neither known nor said by their names."""
+def pair_warning(horizontal: Sequence[Channel]) -> RockingWarning | None:
+    """Return a warning where the angle of two horizontal components is neither known nor said by their names."""
     if len(horizontal) != 2 or any(channel.vertical for channel in horizontal):
         return None
     first, second = (channel.component for channel in horizontal)
@@ -233,7 +235,7 @@ def pair_doubt(horizontal: Sequence[Channel]) -> Remark | None:
         return None
     if names_no_direction(first) and names_no_direction(second):
         return None
-    return Remark.of(RecordKind.ANGLE_UNKNOWN, first=first, second=second)
+    return RockingWarning.of(RecordKind.ANGLE_UNKNOWN, first=first, second=second)
 
 
 def angle_between(first: Channel, second: Channel) -> float | None:

@@ -1,12 +1,12 @@
-"""The kinds of remarks on files, samples of records and the catalogue, with the sentence of each."""
+"""The kinds of warnings on files, samples of records and the catalogue, with the sentence of each."""
 
 from enum import auto
 
-from rocking.remarks import Kind
+from rocking.warnings import Kind
 
 
 class RecordKind(Kind):
-    """A kind of remark on a file, the samples of a record or the catalogue."""
+    """A kind of warning on a file, the samples of a record or the catalogue."""
 
     # fmt: off
     # The samples of a record.

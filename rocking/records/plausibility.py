@@ -18,9 +18,9 @@ from rocking.errors import RecordError
 from rocking.quantities import GRAVITY, acceleration_factor
 from rocking.records.doors import advice
 from rocking.records.kinds import RecordKind
-from rocking.remarks import Remark
 from rocking.signal.accelerogram import LARGEST_PEAK, RARE_PEAK, Accelerogram
 from rocking.signal.processing import UNPROCESSED_DEFAULT, integral, process, velocity
+from rocking.warnings import RockingWarning
 
 SMALLEST_PEAK = 1e-5 * GRAVITY
 """m/s²; below, a record is noise or has a wrong unit."""
@@ -89,7 +89,7 @@ def agree_with_header(
         )
     if off > max(_ROUNDING * stated, digit):
         record = record.warned(
-            Remark.of(RecordKind.PEAK_UNLIKE_HEADER, peak_m_s2=peak_read, stated_m_s2=stated)
+            RockingWarning.of(RecordKind.PEAK_UNLIKE_HEADER, peak_m_s2=peak_read, stated_m_s2=stated)
         )
     if at is None:
         return record
@@ -99,10 +99,10 @@ def agree_with_header(
     if around.max() >= 0.98 * magnitudes.max():
         return record
     stands_at = float(instants[magnitudes.argmax()])
-    return record.warned(Remark.of(RecordKind.PEAK_ELSEWHERE, stated_s=at, time_s=stands_at))
+    return record.warned(RockingWarning.of(RecordKind.PEAK_ELSEWHERE, stated_s=at, time_s=stands_at))
 
 
-def pass_limits(record: Accelerogram, form: str = "") -> tuple[Remark, ...]:
+def pass_limits(record: Accelerogram, form: str = "") -> tuple[RockingWarning, ...]:
     """Return warnings on a peak below 1e-5 g, or above 3 g or 3 m/s; raise RecordError when it is above 5 g or 4 m/s.
 
     form: the name of the format, by which the sentence says what to do.
@@ -112,15 +112,15 @@ def pass_limits(record: Accelerogram, form: str = "") -> tuple[Remark, ...]:
         _refuse_peak(record, f"peak acceleration is {peak:.6g} g", "the 5 g that no ground has reached", form)
     fast = _velocity_limit(record, form)
     if record.peak_acceleration > RARE_PEAK:
-        return (Remark.of(RecordKind.PEAK_RARE, peak_g=peak), *fast)
+        return (RockingWarning.of(RecordKind.PEAK_RARE, peak_g=peak), *fast)
     if record.peak_acceleration >= SMALLEST_PEAK:
         return fast
     if fits := _fitting_factors(peak):
-        return (Remark.of(RecordKind.PEAK_TINY_BY_UNIT, peak_g=peak, factors=fits),)
-    return (Remark.of(RecordKind.PEAK_TINY, peak_g=peak),)
+        return (RockingWarning.of(RecordKind.PEAK_TINY_BY_UNIT, peak_g=peak, factors=fits),)
+    return (RockingWarning.of(RecordKind.PEAK_TINY, peak_g=peak),)
 
 
-def _velocity_limit(record: Accelerogram, form: str) -> tuple[Remark, ...]:
+def _velocity_limit(record: Accelerogram, form: str) -> tuple[RockingWarning, ...]:
     """Return a warning on a peak velocity above 3 m/s; raise RecordError when it is above 4 m/s.
 
     After the processing of raw records, whatever the file says: without it an offset of the recorder would count.
@@ -138,7 +138,7 @@ def _velocity_limit(record: Accelerogram, form: str) -> tuple[Remark, ...]:
         found = f"peak velocity is {fastest:.3g} m/s"
         _refuse_peak(record, found, f"the {LARGEST_VELOCITY:g} m/s that no ground has reached", form)
     if fastest > RARE_VELOCITY:
-        return (Remark.of(RecordKind.VELOCITY_RARE, velocity_m_s=fastest, rare_m_s=RARE_VELOCITY),)
+        return (RockingWarning.of(RecordKind.VELOCITY_RARE, velocity_m_s=fastest, rare_m_s=RARE_VELOCITY),)
     return ()
 
 
@@ -189,7 +189,7 @@ def agree_with_mean_square(record: Accelerogram, stated: float, unit: str, digit
     if stated <= 0 or abs(in_samples - stated) <= digit + _ROUNDING * stated:
         return record
     return record.warned(
-        Remark.of(RecordKind.MEAN_SQUARE_UNLIKE_HEADER, value=in_samples, stated=stated, unit=unit)
+        RockingWarning.of(RecordKind.MEAN_SQUARE_UNLIKE_HEADER, value=in_samples, stated=stated, unit=unit)
     )
 
 
@@ -233,21 +233,21 @@ def agree_with_velocity(record: Accelerogram, stated: np.ndarray) -> Accelerogra
         # Where most of the record is still, the usual error says nothing: what rounding explains is no damage.
         if errors[stray] > max(_STRAY * usual, _DIGITS_OFF * digit):
             time = (stray + _REACH) * record.time_step
-            return record.warned(Remark.of(RecordKind.VELOCITY_UNLIKE_THERE, time_s=time))
+            return record.warned(RockingWarning.of(RecordKind.VELOCITY_UNLIKE_THERE, time_s=time))
 
     times = np.linspace(-1, 1, size)
     differing = stated - integral(record.acceleration, record.time_step)
     differing = differing - differing.mean() - times * np.sum(times * differing) / np.sum(times * times)
     if differing.std() <= _VELOCITY_OFF * stated.std():
         return record
-    return record.warned(Remark(RecordKind.VELOCITY_UNLIKE))
+    return record.warned(RockingWarning(RecordKind.VELOCITY_UNLIKE))
 
 
 _ODDS = 100.0
 """The odds of damage against chance that a warning asks, over all samples of a record at which it could be."""
 
 
-def damage_warnings(record: Accelerogram) -> tuple[Remark, ...]:
+def damage_warnings(record: Accelerogram) -> tuple[RockingWarning, ...]:
     """Return a warning for each kind of damage in a record."""
     return (
         *_sample_alone(record),
@@ -262,10 +262,10 @@ _ALONE = 3.0, 2.0
 Of the strongest real records a peak reaches 2.6 and 1.1, or 1.7 and 1.6 times.
 """
 _SHORTEST = 100
-"""Samples below which a record is too short for a remark on its course."""
+"""Samples below which a record is too short for a warning on its course."""
 
 
-def _sample_alone(record: Accelerogram) -> tuple[Remark, ...]:
+def _sample_alone(record: Accelerogram) -> tuple[RockingWarning, ...]:
     """Return a warning on a sample alone far above all others."""
     magnitudes = np.abs(record.acceleration)
     if magnitudes.size < _SHORTEST or not magnitudes.any():
@@ -277,7 +277,7 @@ def _sample_alone(record: Accelerogram) -> tuple[Remark, ...]:
     if peak <= _ALONE[0] * near or peak <= _ALONE[1] * others.max():
         return ()
     return (
-        Remark.of(
+        RockingWarning.of(
             RecordKind.SAMPLE_ALONE,
             time_s=at * record.time_step,
             peak_g=peak / GRAVITY,
@@ -290,7 +290,7 @@ _ZEROS = 50
 """Exact zeros in a row that no recorder writes while the ground shakes; real files hold at most 14."""
 
 
-def _zeros_in_shaking(record: Accelerogram) -> tuple[Remark, ...]:
+def _zeros_in_shaking(record: Accelerogram) -> tuple[RockingWarning, ...]:
     """Return a warning on zeros within strong shaking, between 5 and 95 % of the energy."""
     magnitudes = np.abs(record.acceleration)
     if magnitudes.size < 2 * _ZEROS or not magnitudes.any():
@@ -301,7 +301,7 @@ def _zeros_in_shaking(record: Accelerogram) -> tuple[Remark, ...]:
     longest = int(np.diff(moving).max(initial=0)) - 1
     if longest < _ZEROS:
         return ()
-    return (Remark.of(RecordKind.ZEROS_IN_SHAKING, samples=longest),)
+    return (RockingWarning.of(RecordKind.ZEROS_IN_SHAKING, samples=longest),)
 
 
 _STEPS_AROUND = 100
@@ -312,7 +312,7 @@ _LIVELY = 0.5
 """Share of the steps next to a still stretch that must change the value: in files of few digits even noise is still."""
 
 
-def _still_stretch(record: Accelerogram) -> tuple[Remark, ...]:
+def _still_stretch(record: Accelerogram) -> tuple[RockingWarning, ...]:
     """Return a warning where the value stays what it is for longer than the samples on both sides allow.
 
     Where a share q of the steps next to it change the value, n steps in a row change nothing in (1 - q)ⁿ of cases.
@@ -334,7 +334,7 @@ def _still_stretch(record: Accelerogram) -> tuple[Remark, ...]:
         by_chance = (last - first) * math.log1p(-min(share, 1 - 1 / _STEPS_AROUND)) + math.log(values.size)
         if share >= _LIVELY and by_chance <= -3 * math.log(_ODDS):
             return (
-                Remark.of(
+                RockingWarning.of(
                     RecordKind.STILL_STRETCH, time_s=first * record.time_step, samples=last - first + 1
                 ),
             )
@@ -350,7 +350,7 @@ _STILL = 1 / 200
 """Least share of steps without a change that is believed of a channel, from the two hundred next to them."""
 
 
-def repeated_rows(records: Sequence[Accelerogram]) -> tuple[Remark, ...]:
+def repeated_rows(records: Sequence[Accelerogram]) -> tuple[RockingWarning, ...]:
     """Return a warning where a row of numbers, one of each of several channels, occurs twice in succession.
 
     By chance no channel changes in the product of the shares in which each does not, from the steps next to it.
@@ -369,7 +369,7 @@ def repeated_rows(records: Sequence[Accelerogram]) -> tuple[Remark, ...]:
     unlikely = places[np.prod(shares, axis=0) * steps < 1 / _ODDS]
     if not unlikely.size:
         return ()
-    return (Remark.of(RecordKind.ROW_REPEATED, time_s=float(unlikely[0] + 1) * records[0].time_step),)
+    return (RockingWarning.of(RecordKind.ROW_REPEATED, time_s=float(unlikely[0] + 1) * records[0].time_step),)
 
 
 def same_motion(first: Accelerogram, second: Accelerogram) -> bool:
@@ -404,21 +404,21 @@ def is_down_hole(place: str) -> bool:
     return max(depths) >= BURIED if depths else bool(re.search(r"(?i)(down|bore)-?hole", place))
 
 
-def site_warnings(place: str) -> tuple[Remark, ...]:
+def site_warnings(place: str) -> tuple[RockingWarning, ...]:
     """Return a warning when the `place` of an instrument is in a structure or below the ground."""
     if _DOWN_HOLE.search(place) and (is_down_hole(place) or not _DEPTH.search(place)):
-        return (Remark.of(RecordKind.DOWN_HOLE, place=place),)
+        return (RockingWarning.of(RecordKind.DOWN_HOLE, place=place),)
     if _STRUCTURE.search(place) and not _FREE.search(place):
-        return (Remark.of(RecordKind.IN_A_STRUCTURE, place=place),)
+        return (RockingWarning.of(RecordKind.IN_A_STRUCTURE, place=place),)
     return ()
 
 
-def channel_warnings(component: str) -> tuple[Remark, ...]:
+def channel_warnings(component: str) -> tuple[RockingWarning, ...]:
     """Return a warning when a channel code is that of a seismometer (BH?, HH?, HL?), not of an accelerometer (?N?)."""
     code = _CODE.fullmatch(component.strip().upper())
     if not code:
         return ()
     if other := _NO_MOTION.get(code[1] or code[2]):
-        return (Remark.of(RecordKind.CHANNEL_NO_MOTION, component.strip(), sensor=other),)
+        return (RockingWarning.of(RecordKind.CHANNEL_NO_MOTION, component.strip(), sensor=other),)
     kind = {"H": "high-gain seismometer", "L": "low-gain seismometer", "M": "mass position", "P": "geophone"}
-    return (Remark.of(RecordKind.CHANNEL_OF_VELOCITY, component.strip(), sensor=kind[code[1]]),)
+    return (RockingWarning.of(RecordKind.CHANNEL_OF_VELOCITY, component.strip(), sensor=kind[code[1]]),)

@@ -23,9 +23,9 @@ from rocking.records.archive import archive_of, is_archive, member_bytes, member
 from rocking.records.claims import refuse_spectrum, says_made, vertical_in_name, without_end
 from rocking.records.direction import (
     contradiction,
-    doubts_of_channel,
     names_no_direction,
-    vertical_doubt,
+    vertical_warning,
+    warnings_of_channel,
 )
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.formats.format import Response, plain
@@ -43,10 +43,10 @@ from rocking.records.plausibility import (
     site_warnings,
 )
 from rocking.records.sheet import table_of_workbook
-from rocking.remarks import Remark
 from rocking.signal.accelerogram import Accelerogram, Source
 from rocking.tables import read_whole
 from rocking.tables.sheets import is_workbook
+from rocking.warnings import RockingWarning
 
 LARGEST_FILE = 8 * 2**20
 """Bytes, unpacked: three channels of ten minutes at 100 Hz as text; the worst content of that size reads in seconds."""
@@ -132,7 +132,7 @@ def _read_archive(path: Path, options: Options) -> list[Accelerogram]:
             raise next((error for error in reasons if isinstance(error, UndeclaredError)), reasons[0])
     if refused:
         names = listed([printable(name) for name, _ in refused])
-        records[0] = records[0].warned(Remark.of(RecordKind.FILES_NOT_READ, names=names))
+        records[0] = records[0].warned(RockingWarning.of(RecordKind.FILES_NOT_READ, names=names))
     return records
 
 
@@ -173,7 +173,7 @@ def read_content(
                 "the file holds no channel of acceleration; use the acceleration file.", channels=0
             )
         is_doubled = b"\r\r\n" in content[:2000] and text is not content
-        notes = (Remark(RecordKind.LINE_ENDS_DOUBLED),) if is_doubled else ()
+        notes = (RockingWarning(RecordKind.LINE_ENDS_DOUBLED),) if is_doubled else ()
         return checked_channels(records, notes, options.scale_factor)
 
 
@@ -192,7 +192,7 @@ def signature_in(raw: bytes, name: str, folder: str) -> Signature | None:
 
 
 def checked_channels(
-    records: Sequence[Accelerogram], notes: tuple[Remark, ...] = (), scale_factor: float = 1.0
+    records: Sequence[Accelerogram], notes: tuple[RockingWarning, ...] = (), scale_factor: float = 1.0
 ) -> list[Accelerogram]:
     """Return the channels of a file or a stream, with names of their own and all that is doubtful of their samples.
 
@@ -204,8 +204,8 @@ def checked_channels(
     for record in channels:
         limited = record if abs(scale_factor) >= 1 else record.scaled(scale_factor)
         limits = pass_limits(limited, record.source.format)
-        doubts = (*record.warnings, *notes, *limits, *damage_warnings(record), *of_rows)
-        checked.append(replace(record, warnings=tuple(dict.fromkeys(doubts))))
+        warnings = (*record.warnings, *notes, *limits, *damage_warnings(record), *of_rows)
+        checked.append(replace(record, warnings=tuple(dict.fromkeys(warnings))))
     return checked
 
 
@@ -373,11 +373,11 @@ def _named_by_file(records: list[Accelerogram], name: str) -> list[Accelerogram]
         return records
     (record,) = records
     if record.azimuth is not None and not record.vertical:
-        return [record.warned(Remark.of(RecordKind.VERTICAL_IN_NAME, record.component, word=word))]
+        return [record.warned(RockingWarning.of(RecordKind.VERTICAL_IN_NAME, record.component, word=word))]
     is_open = record.azimuth is None and not record.vertical and not record.borehole
     if not is_open or not names_no_direction(record.component):
         return records
-    return [replace(record, vertical=True).warned(Remark.of(RecordKind.VERTICAL_BY_NAME, word=word))]
+    return [replace(record, vertical=True).warned(RockingWarning.of(RecordKind.VERTICAL_BY_NAME, word=word))]
 
 
 def distinct_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
@@ -386,7 +386,7 @@ def distinct_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
     One without a name is called after its place, "channel 1"; those that share a name get their place as well.
     Raises RecordError when one channel is in the file twice: it was appended to itself.
     """
-    copies: dict[int, Remark] = {}
+    copies: dict[int, RockingWarning] = {}
     for (i, a), (k, b) in combinations(enumerate(records, 1), 2):
         same = a.component == b.component and a.peak_acceleration > 0
         if same and np.array_equal(a.acceleration, b.acceleration):
@@ -396,25 +396,25 @@ def distinct_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
             )
         if a.peak_acceleration > 0 and same_motion(a, b):
             other = a.component or f"channel {i}"
-            copies[k] = Remark.of(RecordKind.SAME_MOTION, b.component or f"channel {k}", other=other)
+            copies[k] = RockingWarning.of(RecordKind.SAME_MOTION, b.component or f"channel {k}", other=other)
     shared = Counter(record.component for record in records if record.component)
     named = [
         record if record.component else replace(record, component=f"channel {place}")
         for place, record in enumerate(records, 1)
     ]
-    upwards = vertical_doubt(named)
+    upwards = vertical_warning(named)
     channels = []
     for place, record in enumerate(records, 1):
         name = record.component or f"channel {place}"
         name += f" (channel {place})" if shared[record.component] > 1 else ""
-        doubts = (
+        warnings = (
             *record.warnings,
             *channel_warnings(record.component),
             *contradiction(record),
             *([copies[place]] if place in copies else []),
             *site_warnings(record.station),
             *site_warnings(record.component),
-            *([upwards] if upwards else doubts_of_channel(record)),
+            *([upwards] if upwards else warnings_of_channel(record)),
         )
-        channels.append(replace(record, component=name, warnings=tuple(dict.fromkeys(doubts))))
+        channels.append(replace(record, component=name, warnings=tuple(dict.fromkeys(warnings))))
     return channels

@@ -279,7 +279,7 @@ def compared_in_words(moving: Moving, structure: Structure, several: bool) -> Co
     """Return the texts at the strip of a structure. several: whether its component is to be named."""
     case = moving.case
     both_fall = case.predicted_rotation_ratio == case.integrated_rotation_ratio == math.inf
-    crack = case.crack or moving.conclusion.verdict.crack
+    crack = case.crack or moving.conclusion.row.crack
     period = case.support_period_s
     notes = [
         f"under {case.component}" if several and case.component else "",
@@ -394,9 +394,9 @@ def _at_rest(resting: Sequence[Conclusion]) -> str:
     if not resting:
         return ""
     names = [
-        f"{conclusion.verdict.structure} (closed form {in_words(conclusion.ratios[0])})"
+        f"{conclusion.row.structure} (closed form {in_words(conclusion.ratios[0])})"
         if conclusion.ratios[0] > NEGLIGIBLE
-        else conclusion.verdict.structure
+        else conclusion.row.structure
         for conclusion in resting
     ]
     return f"At rest under the record: {listed(names, _MOST_NAMED)}."

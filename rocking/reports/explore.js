@@ -515,7 +515,7 @@
     at("moves").hidden = failed;
     const still = !failed && !each.history ? "It does not lift enough to be drawn, or its motion was not kept." : "";
     // A number keeps its unit on its line
-    const facts = [each.text || verdictOf(each) + ".", ...structure.remarks, still, ...record.warnings, ""].join(" ");
+    const facts = [each.text || verdictOf(each) + ".", ...structure.warnings, still, ...record.warnings, ""].join(" ");
     at("facts").textContent = facts.replace(/(\d) (?=[%×]|m\/s|[gms]\b)/g, "$1\u00a0");
     if (!record.lost) add(at("facts"), "a", { href: `../${encodeURIComponent(record.id)}/report.pdf` }, "report.pdf");
     if (failed) return;

@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 from rocking.assessment.case import PeriodResult, RecordResult
 from rocking.assessment.conclusion import conclusion_in_words, conclusions, worst_cases
 from rocking.assessment.decide import ONE_RUN, Verdict, worse, worst_first
-from rocking.assessment.rows import ComparisonRow, RecordRow, RecordRows, RemarkRow
+from rocking.assessment.rows import ComparisonRow, RecordRow, RecordRows, WarningRow
 from rocking.assessment.scene import placed
 from rocking.errors import FaultError, one_structure
 from rocking.quantities import GRAVITY, counted
@@ -154,10 +154,10 @@ def _where(components: Sequence[RecordRow]) -> Content:
     return where
 
 
-def _remarks_of(name: str, structures: Collection[str], remarks: Iterable[RemarkRow]) -> list[str]:
-    """The remarks on one structure, and those on the settings, which are about no structure."""
+def _warnings_of(name: str, structures: Collection[str], warnings: Iterable[WarningRow]) -> list[str]:
+    """The warnings on one structure, and those on the settings, which are about no structure."""
     sentences = []
-    for row in remarks:
+    for row in warnings:
         about = row.about.partition(": ")[0]
         if about == name or about not in structures:
             sentences.append(row.sentence)
@@ -171,13 +171,13 @@ def explore_page(
     conclusions: Sequence[str] = (),
     notes: Mapping[str, Sequence[str]] = MappingProxyType({}),
     strips: Sequence[Strip] = (),
-    remarks: Sequence[RemarkRow] = (),
+    warnings: Sequence[WarningRow] = (),
 ) -> bytes:
     """Return the page as UTF-8 HTML; it stands in a folder beside those of the records, and loads their RECORD_SCRIPT.
 
     records: their `cells_of`, or their whole `record_content`, in the order of the catalogue. title: of the study.
     conclusions, notes: of the products over all records, and on each structure by its name. strips: of the variants of
-    structures. remarks: on the study itself.
+    structures. warnings: on the study itself.
     """
     of_records = list(records)
     of_structures = [
@@ -186,10 +186,10 @@ def explore_page(
             "size": structure.described.size,
             "below": sizes_of(name, structure),
             "type": structure.described.type_name,
-            "remarks": [
+            "warnings": [
                 *(f"{sentence(known)}." for known in [known_crack(structure)] if known),
                 *notes.get(name, ()),
-                *_remarks_of(name, structures, remarks),
+                *_warnings_of(name, structures, warnings),
             ],
             "frames": _frames(name, structure),
         }
@@ -215,8 +215,8 @@ def explore_page(
         for verdict, (_, fill, ink, hatch) in LOOKS.items()
     )
     legend = (
-        f'<span><span class="cell {_css(word)}">{sign}</span> {word}</span>'
-        for word, (sign, *_) in LOOKS.items()
+        f'<span><span class="cell {_css(verdict)}">{sign}</span> {verdict}</span>'
+        for verdict, (sign, *_) in LOOKS.items()
     )
     pieces = {
         "title": escape(title or "Rocking of structures under recorded earthquakes"),
@@ -294,11 +294,11 @@ def _case(period_result: PeriodResult, row: ComparisonRow | None) -> Content:
     place = placed("", period_result.support_period_s).removeprefix(", ")
     place = f"At its worst, {place}: " if place else ""
     share = f", {decision.share_in_words}" if decision.share_in_words else ""
-    doubts = f" Warning: {'; '.join(map(str, decision.doubts))}." if decision.doubts else ""
+    warnings = f" Warning: {'; '.join(map(str, decision.warnings))}." if decision.warnings else ""
     case: Content = {
-        "verdict": str(decision.word),
+        "verdict": str(decision.verdict),
         "cell": cell_text(decision),
-        "text": f"{place}{decision.word}{share}: {decision.why}.{doubts} As given: "
+        "text": f"{place}{decision.verdict}{share}: {decision.why}.{warnings} As given: "
         f"{ratio(period_result.rotation_ratio, 2)}{band}; by the closed form: {closed} "
         "(rotation over the critical one)."
         f"{crack}{reserve}",

@@ -1,12 +1,12 @@
-"""The kinds of remarks that only a page makes, with the sentence of each."""
+"""The kinds of warnings that only a page makes, with the sentence of each."""
 
 from enum import auto
 
-from rocking.remarks import Kind
+from rocking.warnings import Kind
 
 
 class ReportKind(Kind):
-    """A kind of remark that only a page makes."""
+    """A kind of warning that only a page makes."""
 
     # fmt: off
     # What explains a decision that nothing more would settle.

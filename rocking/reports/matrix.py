@@ -17,13 +17,13 @@ MOST_RECORDS = 12
 MOST_STRUCTURES = 20
 """Structures below each other, the worst first; verdicts.csv holds all."""
 MOST_IN_WORDS = 2
-"""Records up to which a cell has room for its word and a range; of more it holds the share alone on the word's colour,
-with a legend."""
+"""Records up to which a cell has room for its verdict and a range; of more it holds the share alone on the colour of
+the verdict, with a legend."""
 MOST_WITH_ALL = 5
 """Records up to which a page has room for their peaks, for what there is to know of each structure, and for the cells
 of what (probably) stands or cannot be told, which beyond it the colour and the hatch say alone."""
 _UNSAID = (AssessmentKind.STRENGTHEN, *UNSAID)
-"""Remarks that the word itself says."""
+"""Warnings that the verdict itself says."""
 
 
 def matrix(made: Sequence[Conclusion], records: Sequence[RecordRow], pulses: Sequence[PulseRow]) -> Matrix:
@@ -32,21 +32,21 @@ def matrix(made: Sequence[Conclusion], records: Sequence[RecordRow], pulses: Seq
     Without rows where there are more records than stand next to each other. made: the conclusions on all. The legend is
     empty where the cells hold their words.
     """
-    every = worst_first((conclusion.verdict.record, conclusion.severity) for conclusion in made)
-    turned = {conclusion.verdict.record for conclusion in made if conclusion.verdict.rotation_ratio != 0}
+    every = worst_first((conclusion.row.record, conclusion.severity) for conclusion in made)
+    turned = {conclusion.row.record for conclusion in made if conclusion.row.rotation_ratio != 0}
     columns = [record for record in every if record in turned] or every
     still = [record for record in every if record not in columns]
-    by_pair = {(conclusion.verdict.record, conclusion.verdict.structure): conclusion for conclusion in made}
-    worst = {conclusion.verdict.structure: conclusion for conclusion in worst_of_each(made)}
-    names = worst_first((conclusion.verdict.structure, conclusion.severity) for conclusion in made)
+    by_pair = {(conclusion.row.record, conclusion.row.structure): conclusion for conclusion in made}
+    worst = {conclusion.row.structure: conclusion for conclusion in worst_of_each(made)}
+    names = worst_first((conclusion.row.structure, conclusion.severity) for conclusion in made)
     if not 0 < len(every) <= MOST_RECORDS:
         return Matrix()
     shown = names[:MOST_STRUCTURES]
     has_room = len(columns) <= MOST_WITH_ALL
     in_words = len(columns) <= MOST_IN_WORDS
-    present = {by_pair[pair].verdict.decision.word for pair in by_pair if pair[1] in shown}
+    present = {by_pair[pair].row.decision.verdict for pair in by_pair if pair[1] in shown}
     return Matrix(
-        legend=() if in_words else tuple(chip(word) for word in ORDER if word in present),
+        legend=() if in_words else tuple(chip(verdict) for verdict in ORDER if verdict in present),
         upright=not has_room,
         heads=tuple(
             MatrixHead(name=name, below=_head(name, records, pulses, in_words) if has_room else "")
@@ -56,7 +56,7 @@ def matrix(made: Sequence[Conclusion], records: Sequence[RecordRow], pulses: Seq
             MatrixRow(
                 name,
                 tuple(_cell(by_pair.get((record, name)), len(columns)) for record in columns),
-                _remark(worst[name]) if has_room else "",
+                _warning(worst[name]) if has_room else "",
             )
             for name in shown
         ),
@@ -87,19 +87,19 @@ def _head(record: str, records: Sequence[RecordRow], pulses: Sequence[PulseRow],
 
 def _cell(conclusion: Conclusion | None, records: int) -> Chip:
     if conclusion is None:
-        return Chip(word="", share="", fill="#ffffff", ink="#000000", hatched=False)
-    decision = conclusion.verdict.decision
-    unknown = decision.word is Verdict.CANNOT_BE_TOLD
+        return Chip(verdict="", share="", fill="#ffffff", ink="#000000", hatched=False)
+    decision = conclusion.row.decision
+    unknown = decision.verdict is Verdict.CANNOT_BE_TOLD
     if records > MOST_IN_WORDS:
         share = decision.share_in_a_cell.removesuffix("\u00a0%").replace("≥ ", "≥")
-        if records > MOST_WITH_ALL and decision.word.badness <= Verdict.PROBABLY_STANDS.badness:
+        if records > MOST_WITH_ALL and decision.verdict.badness <= Verdict.PROBABLY_STANDS.badness:
             share = ""
         elif not share and records <= MOST_WITH_ALL:
             share = "?" if unknown else NOTHING
-        return replace(chip(decision.word, share), word="")
-    return chip(decision.word, "" if unknown else decision.share_in_words)
+        return replace(chip(decision.verdict, share), verdict="")
+    return chip(decision.verdict, "" if unknown else decision.share_in_words)
 
 
-def _remark(conclusion: Conclusion) -> str:
-    remark = conclusion.remark
-    return "" if remark.kind in _UNSAID else remark.brief
+def _warning(conclusion: Conclusion) -> str:
+    warning = conclusion.warning
+    return "" if warning.kind in _UNSAID else warning.brief

@@ -78,9 +78,9 @@ class CaptionedTable:
 
 @dataclass(frozen=True, kw_only=True)
 class Chip:
-    """A word on its colour, with a share at its right; hatched: within a dashed edge."""
+    """A verdict on its colour, with a share at its right; hatched: within a dashed edge."""
 
-    word: str
+    verdict: str
     share: str
     fill: str
     ink: str
@@ -118,7 +118,7 @@ class Page:
 
 @dataclass(frozen=True)
 class VariantCell:
-    """One variant of a structure: its drawing, its word and what else is known of it, each "" where it is not."""
+    """One variant of a structure: its drawing, its verdict and what else is known of it, each "" where it is not."""
 
     drawing: Picture
     name: str
@@ -232,14 +232,14 @@ class PageOneRow:
     marks: Marks
     reserve: str
     alone: bool
-    remark: str
+    warning: str
 
 
 @dataclass(frozen=True, kw_only=True)
 class Others:
-    """The structures of one word that have no row."""
+    """The structures of one verdict that have no row."""
 
-    word: str
+    verdict: str
     names: str
 
 
@@ -358,7 +358,7 @@ class MatrixRow:
 
     name: str
     cells: tuple[Chip, ...]
-    remark: str
+    warning: str
 
 
 @dataclass(frozen=True)
@@ -375,7 +375,7 @@ class Matrix:
 
 @dataclass(frozen=True, kw_only=True)
 class MapCell:
-    """Sign and share of one case on the colour of its word."""
+    """Sign and share of one case on the colour of its verdict."""
 
     text: str
     fill: str

@@ -208,7 +208,7 @@ def _plot_assessment(assessment: StructureAssessment, axes: Axes) -> None:
     of_all += [f"{assessment.stacks.runs} {followed_as}"] if assessment.stacks else []
     share = " of ".join(filter(None, [assessment.decision.share_in_words, " and ".join(of_all)]))
     axes.set(xlabel=TIME, ylabel="rotation / critical rotation [-]", ylim=(-1.15, 1.15))
-    axes.set_title(f"{assessment.decision.word}: overturns in {share}")
+    axes.set_title(f"{assessment.decision.verdict}: overturns in {share}")
     axes.legend()
 
 

@@ -138,13 +138,13 @@ def ratio(value: float | None, digits: int = 3) -> str:
 def chip(verdict: Verdict, share: str = "", text: str = "") -> Chip:
     """Return a verdict on its colour with a share at its right, as the templates set it. text: in another language."""
     _, fill, ink, hatch = LOOKS[verdict]
-    word = f"{'? ' * bool(hatch)}{text or verdict}"
-    return Chip(word=word, share=share, fill=fill, ink=ink, hatched=bool(hatch))
+    shown = f"{'? ' * bool(hatch)}{text or verdict}"
+    return Chip(verdict=shown, share=share, fill=fill, ink=ink, hatched=bool(hatch))
 
 
 def cell_text(decision: "Decision | None") -> str:
     """Return a case in a map: its sign and the share behind it; "≥ 12 %" where that is only the least."""
-    sign = LOOKS[decision.word if decision else Verdict.CANNOT_BE_TOLD][0]
+    sign = LOOKS[decision.verdict if decision else Verdict.CANNOT_BE_TOLD][0]
     share = decision.share_in_a_cell if decision else ""
     return f"{sign} {share}".strip()
 
@@ -183,8 +183,8 @@ def sentence(text: str) -> str:
 
 def known_crack(structure: Structure | None) -> str:
     """Return that the crack of a structure is known, and at what height; "" where it is not."""
-    remark = structure.known_crack if isinstance(structure, Crackable) else None
-    return str(remark) if remark else ""
+    warning = structure.known_crack if isinstance(structure, Crackable) else None
+    return str(warning) if warning else ""
 
 
 def strong(text: str, really: bool = True) -> TableCell:

@@ -28,8 +28,8 @@ from rocking.assessment.rows import (
     ComparisonRow,
     PulseRow,
     RecordRows,
-    RemarkRow,
     VerdictRow,
+    WarningRow,
 )
 from rocking.assessment.scene import variants_of
 from rocking.assessment.variants import variants
@@ -37,7 +37,6 @@ from rocking.errors import FaultError, one_structure
 from rocking.floors.kinds import FloorKind
 from rocking.quantities import GRAVITY, counted, listed, percent, percents
 from rocking.records.formats.text import day_of
-from rocking.remarks import Kind, Remark
 from rocking.reports import printing
 from rocking.reports.against import against, comparison_of, least_uplift, sizes_of, traces_of
 from rocking.reports.drawings import Trace, drawn_by_hand, sine_lines, sketch, svg_path, thinned
@@ -75,6 +74,7 @@ from rocking.reports.supports import SupportPanel, floor_sentences, support_pane
 from rocking.structures import Structure
 from rocking.structures.crackable import Crackable
 from rocking.structures.kinds import StructureKind
+from rocking.warnings import Kind, RockingWarning
 
 if TYPE_CHECKING:
     from rocking.codes.design_spectrum import DesignSpectrum
@@ -86,13 +86,13 @@ MOVED = 0.1
 MOST_NOTICED = 3
 """Failures that stand above everything; failures.csv holds all."""
 TOLD_FIRST = (StructureKind.RESTITUTION_TYPED, ReportKind.CRUSHING_WOULD_TELL)
-"""Remarks on the models that page one says briefly, before their sentences."""
+"""Warnings on the models that page one says briefly, before their sentences."""
 MOST_ROWS = 12
 """Structures that have a row, the worst first; the others are named by their words below."""
 _MOST_UNCERTAIN = 2
 """Structures of which page one says why they are uncertain."""
 _MOST_NAMED = 20
-"""Names of a word below the rows."""
+"""Names of a verdict below the rows."""
 _UNIT = 27.0
 """Length of a rotation ratio of 1 on the scale, mm."""
 _FARTHEST = 1.2
@@ -117,7 +117,7 @@ class RecordReport:
 
     Every number of a table is a cell of `tables`, the rows of `result`, or of the structures table, rounded.
     structures: by name. level: the design level; None where the study has none.
-    of_study: the remarks on the study itself, besides those on the record in `tables`.
+    of_study: the warnings on the study itself, besides those on the record in `tables`.
     """
 
     result: RecordResult
@@ -125,7 +125,7 @@ class RecordReport:
     structures: Mapping[str, Structure]
     settings: PageSettings
     level: "DesignSpectrum | None" = None
-    of_study: Sequence[RemarkRow] = ()
+    of_study: Sequence[WarningRow] = ()
 
     def pdf(self) -> bytes:
         """Return the document."""
@@ -149,7 +149,7 @@ class RecordReport:
                 running=f"{self.result.record}.{self.scale_note}" if self.scale_note else self.result.record,
                 conclusion=conclusion_in_words(
                     {
-                        conclusion.verdict.structure: conclusion.verdict.decision.word
+                        conclusion.row.structure: conclusion.row.decision.verdict
                         for conclusion in self.conclusions
                     },
                     fallen=fallen_in_one_run(self.conclusions),
@@ -173,9 +173,9 @@ class RecordReport:
         )
 
     @cached_property
-    def left_out(self) -> dict[Remark, list[str]]:
+    def left_out(self) -> dict[RockingWarning, list[str]]:
         """What the models of structures that lift leave out, or take from what was typed, with the structures."""
-        concerned: dict[Remark, list[str]] = {}
+        concerned: dict[RockingWarning, list[str]] = {}
         for period_result in self.result.worst_first:
             for caution in period_result.scene.structure.cautions if period_result.rotation_ratio > 0 else ():
                 if caution.kind is StructureKind.FRAME_CONTACTS and period_result.structure in self.as_stones:
@@ -187,13 +187,15 @@ class RecordReport:
             if _would_crush(period_result)
         ]
         if would_crush:
-            concerned[Remark(ReportKind.CRUSHING_WOULD_TELL)] = [self.called(name) for name in would_crush]
-        of_one_leaf = [remark for remark in concerned if remark.kind is StructureKind.ONE_LEAF]
+            concerned[RockingWarning(ReportKind.CRUSHING_WOULD_TELL)] = [
+                self.called(name) for name in would_crush
+            ]
+        of_one_leaf = [warning for warning in concerned if warning.kind is StructureKind.ONE_LEAF]
         if len(of_one_leaf) > 1:  # one line of all thicknesses
-            thicknesses = ", ".join(str(remark["thickness"]) for remark in of_one_leaf)
-            names = [name for remark in of_one_leaf for name in concerned.pop(remark)]
-            concerned[Remark.of(StructureKind.ONE_LEAF, thickness=thicknesses)] = names
-        return {remark: list(dict.fromkeys(names)) for remark, names in concerned.items()}
+            thicknesses = ", ".join(str(warning["thickness"]) for warning in of_one_leaf)
+            names = [name for warning in of_one_leaf for name in concerned.pop(warning)]
+            concerned[RockingWarning.of(StructureKind.ONE_LEAF, thickness=thicknesses)] = names
+        return {warning: list(dict.fromkeys(names)) for warning, names in concerned.items()}
 
     @cached_property
     def scale_note(self) -> str:
@@ -202,9 +204,9 @@ class RecordReport:
         return f" Accelerations ×\u00a0{factors}, declared." if factors else ""
 
     @property
-    def remarks(self) -> list[RemarkRow]:
+    def warnings(self) -> list[WarningRow]:
         """What there is to say of the study and of the record."""
-        return [*self.of_study, *self.tables.remarks]
+        return [*self.of_study, *self.tables.warnings]
 
     @cached_property
     def conclusions(self) -> list[Conclusion]:
@@ -263,10 +265,10 @@ def _against(report: RecordReport) -> tuple[Against, ...]:
 
 
 def _vertical_in_words(report: RecordReport) -> str:
-    """Return what the vertical component does; "" where a remark above says that there is none which could act."""
+    """Return what the vertical component does; "" where a warning above says that there is none which could act."""
     if acting := _unique(row.vertical_component for row in report.tables.record):
         return f"The vertical component {acting} acts on the integrations, not on the closed form."
-    missing = any(row.kind is AssessmentKind.VERTICAL_MISSING for row in report.remarks)
+    missing = any(row.kind is AssessmentKind.VERTICAL_MISSING for row in report.warnings)
     return "" if missing else "The vertical component is left out."
 
 
@@ -354,17 +356,16 @@ def page_one(report: RecordReport) -> PageOne:
         peaks=_peaks(report),
         sine=Sine(share=percents(pulse.explained_energy) if pulse else "", clause=_rings_beside_dots(drawn)),
         rows=tuple(
-            structure_row(conclusion, report.structures.get(conclusion.verdict.structure))
-            for conclusion in drawn
+            structure_row(conclusion, report.structures.get(conclusion.row.structure)) for conclusion in drawn
         ),
         others=tuple(
-            Others(word=str(word), names=listed(names, _MOST_NAMED))
-            for word in ORDER
+            Others(verdict=str(verdict), names=listed(names, _MOST_NAMED))
+            for verdict in ORDER
             if (
                 names := [
-                    conclusion.verdict.structure
+                    conclusion.row.structure
                     for conclusion in others
-                    if conclusion.verdict.decision.word is word
+                    if conclusion.row.decision.verdict is verdict
                 ]
             )
         ),
@@ -396,12 +397,12 @@ def _legend(report: RecordReport, drawn: Sequence[Conclusion]) -> str:
         _reserve_in_words(drawn),
         "Members vary motion and restitution; a range: cracks disagree; grey: mechanism alone.",
     ]
-    if any(conclusion.verdict.decision.word is Verdict.CANNOT_BE_TOLD for conclusion in report.conclusions):
+    if any(conclusion.row.decision.verdict is Verdict.CANNOT_BE_TOLD for conclusion in report.conclusions):
         sentences.append("Hatched: what was left out may decide.")
     explained = "; ".join(
-        replace(remark, about=listed(names, 1)).brief
-        for remark, names in report.left_out.items()
-        if remark.kind in TOLD_FIRST
+        replace(warning, about=listed(names, 1)).brief
+        for warning, names in report.left_out.items()
+        if warning.kind in TOLD_FIRST
     )
     sentences.append(f"Page 2 on {explained}." if explained else "")
     return " ".join(filter(None, sentences))
@@ -429,28 +430,28 @@ def ground_strip(motion: Trace) -> Picture:
 
 
 def structure_row(conclusion: Conclusion, structure: Structure | None) -> PageOneRow:
-    """The row of a structure: drawn at _DRAWN of its critical rotation and dashed at rest, its word and its marks."""
-    verdict = conclusion.verdict
-    decision = verdict.decision
+    """The row of a structure: drawn at _DRAWN of its critical rotation and dashed at rest, its verdict and marks."""
+    row = conclusion.row
+    decision = row.decision
     drawing: tuple[Picture, ...] = ()
     # One that cannot be drawn keeps its row.
-    with suppress(FaultError), one_structure(verdict.structure):
-        drawing = (_turned(verdict, structure),) if structure is not None else ()
+    with suppress(FaultError), one_structure(row.structure):
+        drawing = (_turned(row, structure),) if structure is not None else ()
 
     closed_form, block, whole = conclusion.ratios
-    low, high = (_place(ratio) for ratio in (verdict.rotation_ratio_low, verdict.rotation_ratio_high))
-    period = verdict.support_period_s
+    low, high = (_place(ratio) for ratio in (row.rotation_ratio_low, row.rotation_ratio_high))
+    period = row.support_period_s
     place = "" if period is None else f"T_b {period:.3g}\u00a0s" if period else "on the ground"
-    sizes = sizes_of(verdict.structure, structure) if structure is not None else ""
+    sizes = sizes_of(row.structure, structure) if structure is not None else ""
     case = conclusion.case
     of_uplift = [f"λ\u00a0{number(case.uplift_multiplier)}", case.crack] if case else []
     of_uplift += [least_uplift(case, structure)] if case and structure else []
     uplift = ", ".join(filter(None, of_uplift))
     return PageOneRow(
-        name=verdict.structure,
-        below="; ".join(filter(None, (sizes, uplift, place, _known_crack(structure, verdict)))),
+        name=row.structure,
+        below="; ".join(filter(None, (sizes, uplift, place, _known_crack(structure, row)))),
         drawing=drawing,
-        chip=chip(decision.word, decision.share_in_words),
+        chip=chip(decision.verdict, decision.share_in_words),
         odds=decision.odds,
         marks=Marks(
             form=_place(closed_form),
@@ -458,53 +459,53 @@ def structure_row(conclusion: Conclusion, structure: Structure | None) -> PageOn
             whole=_place(whole),
             line=() if low is None or high is None else (low, high),
         ),
-        reserve=verdict.reserve.in_figures if verdict.reserve else "",
-        alone=bool(verdict.reserve_doubts),
-        remark=_beside_the_word(conclusion, structure),
+        reserve=row.reserve.in_figures if row.reserve else "",
+        alone=bool(row.reserve_warnings),
+        warning=_beside_the_word(conclusion, structure),
     )
 
 
 def _beside_the_word(conclusion: Conclusion, structure: Structure | None) -> str:
     """The text at the end of a row; "" where there is nothing to say."""
-    remark = conclusion.remark
-    if remark.kind in UNSAID:
+    warning = conclusion.warning
+    if warning.kind in UNSAID:
         return ""
     stands = structure is not None and structure.joints.friction >= structure.joints.stand_on_friction
-    if remark.kind is AssessmentKind.CONTACT_SLIDES and stands and conclusion.case is not None:
-        remark = Remark.of(ReportKind.STANDS_AS_VOUSSOIRS, needed=conclusion.case.required_friction)
-    return remark.brief
+    if warning.kind is AssessmentKind.CONTACT_SLIDES and stands and conclusion.case is not None:
+        warning = RockingWarning.of(ReportKind.STANDS_AS_VOUSSOIRS, needed=conclusion.case.required_friction)
+    return warning.brief
 
 
-def _turned(verdict: VerdictRow, structure: Structure) -> Picture:
+def _turned(row: VerdictRow, structure: Structure) -> Picture:
     """A structure with the crack that governs, turned to the side of its largest rotation."""
-    broken = cracked(structure, verdict.crack)
-    sign = -1 if verdict.peak_side == -1 else 1
+    broken = cracked(structure, row.crack)
+    sign = -1 if row.peak_side == -1 else 1
     side = broken.mechanism().sides[0 if sign > 0 else -1]
-    rest = structure.beside(part_cracked(structure, verdict.crack))
+    rest = structure.beside(part_cracked(structure, row.crack))
     shapes = sketch(broken, sign * _DRAWN * side.critical_rotation, *_ROOM, rest=rest)
-    return drawn_by_hand(shapes, *_ROOM, f"{verdict.structure}, turned, and at rest.")
+    return drawn_by_hand(shapes, *_ROOM, f"{row.structure}, turned, and at rest.")
 
 
-def _known_crack(structure: Structure | None, verdict: VerdictRow) -> str:
+def _known_crack(structure: Structure | None, row: VerdictRow) -> str:
     """That the crack of a structure is known, and what the worst other one would do; "" where it is not."""
     known = known_crack(structure)
     if not known or not isinstance(structure, Crackable):
         return known
-    if not verdict.statics_crack or verdict.statics_crack == structure.crack_in_words:
-        return f"{known}; no other is in doubt" if verdict.members else known
-    falls = f"{verdict.statics_overturning_members} of {verdict.statics_members}"
-    return f"{known}; {verdict.statics_crack}: {falls} fall"
+    if not row.statics_crack or row.statics_crack == structure.crack_in_words:
+        return f"{known}; no other is in doubt" if row.members else known
+    falls = f"{row.statics_overturning_members} of {row.statics_members}"
+    return f"{known}; {row.statics_crack}: {falls} fall"
 
 
 def _uncertain(report: RecordReport) -> list[str]:
     """Say of the structures that are uncertain why, and what then."""
     uncertain = []
     for conclusion in report.conclusions:
-        decision = conclusion.verdict.decision
-        if decision.word is Verdict.UNCERTAIN:
+        decision = conclusion.row.decision
+        if decision.verdict is Verdict.UNCERTAIN:
             reasons = [f"{decision.share_in_words} fall" if not math.isnan(decision.share) else decision.why]
-            reasons += [remark.brief for remark in (*decision.doubts, *decision.would_settle)[:1]]
-            uncertain.append(f"{conclusion.verdict.structure} ({'; '.join(reasons)})")
+            reasons += [warning.brief for warning in (*decision.warnings, *decision.would_settle)[:1]]
+            uncertain.append(f"{conclusion.row.structure} ({'; '.join(reasons)})")
     if not uncertain:
         return []
     verb, subject = ("is", "it") if len(uncertain) == 1 else ("are", "they")
@@ -513,7 +514,7 @@ def _uncertain(report: RecordReport) -> list[str]:
 
 def _reserve_in_words(drawn: Sequence[Conclusion]) -> str:
     """Say what the factors of the column are, by those of the first structure that has both; "" without one."""
-    reserves = [conclusion.verdict.reserve for conclusion in drawn if conclusion.verdict.reserve is not None]
+    reserves = [conclusion.row.reserve for conclusion in drawn if conclusion.row.reserve is not None]
     both = next((reserve for reserve in reserves if reserve.median > reserve.low), None)
     if both is None:
         return ""
@@ -631,22 +632,22 @@ def _known(report: RecordReport) -> Section:
         if not corrected and any(map(math.isinf, ratios)) and any(map(math.isfinite, ratios)):
             depends.append(report.called(period_result.structure))
     depends = list(dict.fromkeys(depends))
-    remark = f"The processing of the record decides whether these overturn: {listed(depends)}."
+    warning = f"The processing of the record decides whether these overturn: {listed(depends)}."
     carried = sorted(report.result.carried, key=lambda scene: scene.worst.severity, reverse=True)
     topics = {
-        "Dominant sine": _pulse_doubts(report),
-        "Closed form": _doubts(report.tables.comparison, several=len(report.motions) > 1),
+        "Dominant sine": _pulse_warnings(report),
+        "Closed form": _warnings(report.tables.comparison, several=len(report.motions) > 1),
         "Supports": [
             *(f"{scene.sentence}." for scene in carried[:MOST_CARRIED]),
             *(floor_sentences(report.support_panels) if carried else []),
-            *_said(report.remarks, FloorKind.HEAVY_ON_SUPPORT),
+            *_said(report.warnings, FloorKind.HEAVY_ON_SUPPORT),
         ],
         "Contacts": _contacts(report),
         "Models": [
-            *(str(replace(remark, about=listed(names))) for remark, names in report.left_out.items()),
-            *_held_at_ceiling(report.remarks),
+            *(str(replace(warning, about=listed(names))) for warning, names in report.left_out.items()),
+            *_held_at_ceiling(report.warnings),
         ],
-        "Processing": [remark] if depends else [],
+        "Processing": [warning] if depends else [],
         "Warnings": [
             sentence for sentence, kind in warnings_of(report.tables).items() if kind not in TO_CHECK
         ],
@@ -681,7 +682,7 @@ def _contacts(report: RecordReport) -> list[str]:
     texts = [f"{name} ({' and '.join(sorted(kinds, reverse=True))})" for name, kinds in failing.items()]
     sentences = [f"The model does not hold, because a contact fails, for {listed(texts)}."] if texts else []
     return sentences + [
-        str(Remark.of(ReportKind.STANDS_AS_VOUSSOIRS, name, needed=largest))
+        str(RockingWarning.of(ReportKind.STANDS_AS_VOUSSOIRS, name, needed=largest))
         for name, largest in needed.items()
         if name not in failing
     ]
@@ -709,10 +710,10 @@ def _advice(report: RecordReport) -> Section:
     """Return what would settle the cases that are not sure, each thing to do once with its structures."""
     to_do: dict[str, list[str]] = {}
     for period_result in report.result.worst_first:
-        if period_result.decision.word.is_sure:
+        if period_result.decision.verdict.is_sure:
             continue
-        for remark in period_result.decision.would_settle:
-            to_do.setdefault(str(remark), []).append(report.called(period_result.structure))
+        for warning in period_result.decision.would_settle:
+            to_do.setdefault(str(warning), []).append(report.called(period_result.structure))
     sentences = [
         f"To learn more of {listed(list(dict.fromkeys(names)))}: {thing}." for thing, names in to_do.items()
     ]
@@ -721,18 +722,18 @@ def _advice(report: RecordReport) -> Section:
 
 def warnings_of(tables: RecordRows) -> dict[str, Kind]:
     """Return what file and integrations warn of, each once, with its kind."""
-    return {row.sentence: row.kind for row in tables.remarks}
+    return {row.sentence: row.kind for row in tables.warnings}
 
 
-def _said(remarks: Iterable[RemarkRow], kind: Kind) -> list[str]:
-    """The remarks of one kind in words."""
-    return [row.sentence for row in remarks if row.kind is kind]
+def _said(warnings: Iterable[WarningRow], kind: Kind) -> list[str]:
+    """The warnings of one kind in words."""
+    return [row.sentence for row in warnings if row.kind is kind]
 
 
-def _held_at_ceiling(remarks: Iterable[RemarkRow]) -> list[str]:
+def _held_at_ceiling(warnings: Iterable[WarningRow]) -> list[str]:
     """What walls are taken for, in one sentence on all of them."""
-    walls = [row.about for row in remarks if row.kind is AssessmentKind.HELD_AT_CEILING]
-    return [str(Remark(AssessmentKind.HELD_AT_CEILING, listed(walls, _MOST_NAMED)))] if walls else []
+    walls = [row.about for row in warnings if row.kind is AssessmentKind.HELD_AT_CEILING]
+    return [str(RockingWarning(AssessmentKind.HELD_AT_CEILING, listed(walls, _MOST_NAMED)))] if walls else []
 
 
 def _notices(report: RecordReport) -> list[Notice]:
@@ -762,26 +763,26 @@ def _notices(report: RecordReport) -> list[Notice]:
         failed[MOST_NOTICED - 1 :] = [
             f"Another {counted(len(failed) - MOST_NOTICED + 1, 'failure')} in failures.csv."
         ]
-    return [*notices, *map(Notice, [*to_check(report.remarks), *failed])]
+    return [*notices, *map(Notice, [*to_check(report.warnings), *failed])]
 
 
-def _pulse_doubts(report: RecordReport) -> list[str]:
+def _pulse_warnings(report: RecordReport) -> list[str]:
     """Say what makes a dominant pulse doubtful, each doubt once with the components that it is about."""
-    of_doubt: dict[str, list[str]] = {}
+    of_warning: dict[str, list[str]] = {}
     for row in report.tables.record:
         pulse = report.dominant(row.component)
-        doubts = [str(Remark(kind)) for kind in pulse.flags] if pulse else []
+        warnings = [str(RockingWarning(kind)) for kind in pulse.flags] if pulse else []
         if row.pulse_periods_unlike:
-            doubts.append(
+            warnings.append(
                 "Its period differs from T_p by more than a factor of two: sine and velocity pulse are two features."
             )
-        for doubt in doubts:
-            of_doubt.setdefault(doubt, []).append(words(row.component))
+        for warning in warnings:
+            of_warning.setdefault(warning, []).append(words(row.component))
     several = len(report.tables.record) > 1
-    return [f"{listed(names)}: {doubt}" if several else doubt for doubt, names in of_doubt.items()]
+    return [f"{listed(names)}: {warning}" if several else warning for warning, names in of_warning.items()]
 
 
-def _doubts(rows: Sequence[ComparisonRow], several: bool) -> list[str]:
+def _warnings(rows: Sequence[ComparisonRow], several: bool) -> list[str]:
     """Say where the closed form predicts less than happens, and which of its two simplifications is the reason."""
     reasons: dict[str, dict[str, list[str]]] = {}
     compared = [row for row in rows if row.agreement is not Agreement.UNKNOWN]

@@ -1,4 +1,4 @@
-"""Sentences, remarks, numbers and descriptions as a document prints them in English or another language.
+"""Sentences, warnings, numbers and descriptions as a document prints them in English or another language.
 
 The law and the office that takes the pages to sign are Italian; every other document is English. English is written
 where it is said; what the pages to sign print is in the other language in its catalogue of messages, `it.po`, in which
@@ -14,11 +14,11 @@ from typing import Any
 
 from rocking import quantities
 from rocking.assessment.decide import Verdict
-from rocking.remarks import Phrase, Remark
 from rocking.reports import printing
 from rocking.reports.pages import Language
 from rocking.reports.printing import unit_of
 from rocking.structures.description import Given
+from rocking.warnings import Phrase, RockingWarning
 
 
 @cache
@@ -67,13 +67,13 @@ class Sentences:
         }
         return self(words.text, **values)
 
-    def of(self, remark: Remark) -> str:
-        """Return a remark in words."""
-        return str(remark) if self.language == "en" else self.reason(remark)
+    def of(self, warning: RockingWarning) -> str:
+        """Return a warning in words."""
+        return str(warning) if self.language == "en" else self.reason(warning)
 
-    def reason(self, why: str | Remark) -> str:
-        """Return why something was refused. What is no remark is English, and a page in another language says so."""
-        if isinstance(why, Remark):
+    def reason(self, why: str | RockingWarning) -> str:
+        """Return why something was refused. What is no warning is English, and a page in another language says so."""
+        if isinstance(why, RockingWarning):
             return self(why.kind.sentence, about=why.about, **dict(why.values))
         return self("{text}", text=why)
 

@@ -28,10 +28,10 @@ from rocking.assessment.rows import (
     FailureRow,
     PulseRow,
     RecordRow,
-    RemarkRow,
     StructureRow,
     SupportRow,
     VerdictRow,
+    WarningRow,
     counted_apart,
     counted_cases,
     made_records,
@@ -147,8 +147,7 @@ def _page(
     recorded, _ = counted_apart(comparison, made_records(rows_of(RecordRow, rows)))
     concluded = conclusions(verdicts, comparison)
     words_of_all = {
-        conclusion.verdict.structure: conclusion.verdict.decision.word
-        for conclusion in worst_of_each(concluded)
+        conclusion.row.structure: conclusion.row.decision.verdict for conclusion in worst_of_each(concluded)
     }
     judged = {row.record for row in shown}
     many = len(judged) > MOST_RECORDS_BESIDE
@@ -164,7 +163,7 @@ def _page(
         title="Summary over the records",
         about=settings.about,
         footer=printing.footer_of(settings),
-        strips_title="The variants: word and share under the worst record of each" if strips else "",
+        strips_title="The variants: verdict and share under the worst record of each" if strips else "",
         strips=tuple(strips),
         subtitle=f"{counted(len(judged), 'record')}, "
         f"{counted(len(rows_of(StructureRow, rows)), 'structure')}",
@@ -176,7 +175,7 @@ def _page(
         matrix=matrix(concluded, records, pulses),
         notices=(
             *_notices(records, comparison, len(failures)),
-            *map(Notice, to_check(rows_of(RemarkRow, rows))),
+            *map(Notice, to_check(rows_of(WarningRow, rows))),
         ),
         outcomes=Section(
             pictures=pictures(
@@ -436,7 +435,7 @@ def severity_map(
 
 def _cell(verdict_row: VerdictRow | None) -> MapCell:
     decision = verdict_row.decision if verdict_row else None
-    _, fill, ink, _ = printing.LOOKS[decision.word if decision else Verdict.CANNOT_BE_TOLD]
+    _, fill, ink, _ = printing.LOOKS[decision.verdict if decision else Verdict.CANNOT_BE_TOLD]
     text = printing.cell_text(decision)
     if verdict_row and verdict_row.support_period_s:  # of a support the period that is worst
         text += f" at\u00a0{verdict_row.support_period_s:.2g}\u00a0s"

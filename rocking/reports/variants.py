@@ -1,4 +1,4 @@
-"""The strip of the variants of a structure: on one scale, with word, reserve, notes, and difference to the first."""
+"""The strip of the variants of a structure: on one scale, with verdict, reserve, notes, and difference to the first."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from rocking.errors import FaultError, one_structure
-from rocking.remarks import Remark
 from rocking.reports.drawings import drawn_by_hand, room, sketch
 from rocking.reports.kinds import ReportKind
 from rocking.reports.pages import Chip, Strip, VariantCell
 from rocking.reports.printing import chip
 from rocking.reports.sentences import Sentences
+from rocking.warnings import RockingWarning
 
 if TYPE_CHECKING:
     from rocking.assessment.variants import Variant
@@ -90,23 +90,27 @@ def _cell(
 ) -> VariantCell:
     conclusion = variant.conclusion
     shapes = sketch(structure, rotation, _WIDTH, _HEIGHT, scale)
-    word = Chip(
-        word=words.of(Remark(ReportKind.NOT_JUDGED)), share="", fill="#ffffff", ink="#000000", hatched=False
+    verdict = Chip(
+        verdict=words.of(RockingWarning(ReportKind.NOT_JUDGED)),
+        share="",
+        fill="#ffffff",
+        ink="#000000",
+        hatched=False,
     )
     reserve = ""
     if conclusion is not None:
-        decision = conclusion.verdict.decision
+        decision = conclusion.row.decision
         share = words.decimal(decision.share_in_words) if not math.isnan(decision.share) else ""
-        word = chip(decision.word, share, words.verdict(decision.word))
-        figures = words.decimal(conclusion.verdict.reserve.in_figures if conclusion.verdict.reserve else "")
+        verdict = chip(decision.verdict, share, words.verdict(decision.verdict))
+        figures = words.decimal(conclusion.row.reserve.in_figures if conclusion.row.reserve else "")
         if figures:
-            alone = bool(conclusion.verdict.reserve_doubts)
+            alone = bool(conclusion.row.reserve_warnings)
             kind = ReportKind.RESERVE_OF_MECHANISM if alone else ReportKind.RESERVE_OF_VARIANT
-            reserve = words.of(Remark.of(kind, reserve=figures))
+            reserve = words.of(RockingWarning.of(kind, reserve=figures))
     return VariantCell(
         drawing=drawn_by_hand(shapes, _WIDTH, _HEIGHT, f"{variant.name}, turned, and at rest."),
         name=variant.variant_name,
-        chip=word,
+        chip=verdict,
         reserve=reserve,
         notes=tuple(notes),
         difference=_difference(variant, words),
@@ -128,19 +132,21 @@ def _changes(first: Structure | None, own: Structure, words: Sentences) -> Itera
 def _difference(variant: Variant, words: Sentences) -> str:
     """By how much the share and the reserve differ from those of the first, where both are known."""
     if variant.first is None:
-        return words.of(Remark(ReportKind.THE_FIRST))
+        return words.of(RockingWarning(ReportKind.THE_FIRST))
     differences = []
     if not math.isnan(variant.reserve_ratio):
         ratio = words.number(variant.reserve_ratio, 2)
-        differences.append(Remark.of(ReportKind.RESERVE_DIFFERS, ratio=ratio))
+        differences.append(RockingWarning.of(ReportKind.RESERVE_DIFFERS, ratio=ratio))
     if not math.isnan(variant.share_difference):
         points = round(100 * variant.share_difference)
         signed = f"{points:+d}".replace("-", "−")
         is_shown = points and variant.shows_difference
         differences.append(
-            Remark.of(ReportKind.SHARE_DIFFERS, points=signed) if is_shown else Remark(ReportKind.SAME_SHARE)
+            RockingWarning.of(ReportKind.SHARE_DIFFERS, points=signed)
+            if is_shown
+            else RockingWarning(ReportKind.SAME_SHARE)
         )
-    return ", ".join(map(words.of, differences or [Remark(ReportKind.NO_DIFFERENCE)]))
+    return ", ".join(map(words.of, differences or [RockingWarning(ReportKind.NO_DIFFERENCE)]))
 
 
 def strips_in_html(made: Sequence[Strip]) -> str:
@@ -149,13 +155,13 @@ def strips_in_html(made: Sequence[Strip]) -> str:
     for strip in made:
         parts.append(f'<h3>{escape(strip.name)}</h3><div class="strip">')
         for cell in strip.cells:
-            word = cell.chip.word
-            css = word.removeprefix("? ").replace(" ", "-")
+            verdict = cell.chip.verdict
+            css = verdict.removeprefix("? ").replace(" ", "-")
             lines = [cell.reserve, *cell.notes, cell.difference]
             texts = "".join(f"<p>{escape(line)}</p>" for line in lines if line)
             parts.append(
                 f"<figure>{cell.drawing.svg}<figcaption><strong>{escape(cell.name)}</strong>"
-                f'<p><span class="cell {css}">{escape(word)} {escape(cell.chip.share)}</span></p>{texts}'
+                f'<p><span class="cell {css}">{escape(verdict)} {escape(cell.chip.share)}</span></p>{texts}'
                 "</figcaption></figure>"
             )
         parts.append("</div>")

@@ -11,8 +11,8 @@ from rocking.drawn import Drawn
 from rocking.errors import RecordError, about
 from rocking.hashes import sha256_of_bytes
 from rocking.quantities import GRAVITY, UNPRINTABLE, finite, four_digits, positive
-from rocking.remarks import Remark
 from rocking.signal.kinds import SignalKind
+from rocking.warnings import RockingWarning
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -29,7 +29,7 @@ SHORTEST_STEP = 1e-4
 LONGEST_STEP = 0.1
 """s; a longer one leaves out what makes a structure rock."""
 _AT_BIRTH = (SignalKind.STEP_UNUSUAL, SignalKind.PEAK_IMPOSSIBLE)
-"""The doubts that an accelerogram has by its own step and peak."""
+"""The warnings that an accelerogram has by its own step and peak."""
 
 SAME_STEP = 1e-6
 """Share by which the time steps of one station's components may differ: the rounding of their headers."""
@@ -76,7 +76,7 @@ class Accelerogram(Drawn):
         What the file's numbers were multiplied by, beyond their unit.
     processing : tuple of str, optional
         Steps that made these numbers from those of the file, in order.
-    warnings : tuple of Remark, optional
+    warnings : tuple of RockingWarning, optional
         What the reader noticed that a user must know.
     high_pass_frequency : float or None, optional
         Corner of a high-pass that is known to have been applied, Hz.
@@ -131,7 +131,7 @@ class Accelerogram(Drawn):
     source: Source = field(default_factory=Source)
     scale_factor: float = 1.0
     processing: tuple[str, ...] = ()
-    warnings: tuple[Remark, ...] = ()
+    warnings: tuple[RockingWarning, ...] = ()
     high_pass_frequency: float | None = None
     network: str = ""
     location: str = ""
@@ -167,15 +167,17 @@ class Accelerogram(Drawn):
                     f"smooth_steps is {self.smooth_steps!r}, but must be a whole number from 1 on.",
                     smooth_steps=self.smooth_steps,
                 )
-        doubts = []
+        warnings = []
         if not SHORTEST_STEP <= self.time_step <= LONGEST_STEP:
             limits = {"shortest_s": SHORTEST_STEP, "longest_s": LONGEST_STEP}
-            doubts.append(Remark.of(SignalKind.STEP_UNUSUAL, "", time_step_s=self.time_step, **limits))
+            warnings.append(
+                RockingWarning.of(SignalKind.STEP_UNUSUAL, "", time_step_s=self.time_step, **limits)
+            )
         if self.peak_acceleration > LARGEST_PEAK:
-            doubts.append(Remark(SignalKind.PEAK_IMPOSSIBLE))
+            warnings.append(RockingWarning(SignalKind.PEAK_IMPOSSIBLE))
         # A copy with another factor or step keeps no doubt of the first one's.
-        still = [warning for warning in self.warnings if warning.kind not in _AT_BIRTH or warning in doubts]
-        new = (doubt for doubt in doubts if doubt not in still)
+        still = [warning for warning in self.warnings if warning.kind not in _AT_BIRTH or warning in warnings]
+        new = (warning for warning in warnings if warning not in still)
         object.__setattr__(self, "warnings", (*still, *new))
 
     def __repr__(self) -> str:
@@ -239,9 +241,9 @@ class Accelerogram(Drawn):
         changes = {"smooth_steps": 1} | changes
         return replace(self, acceleration=acceleration, processing=(*self.processing, step), **changes)
 
-    def warned(self, *remarks: Remark) -> "Accelerogram":
+    def warned(self, *warnings: RockingWarning) -> "Accelerogram":
         """Return a copy with more warnings."""
-        return replace(self, warnings=(*self.warnings, *remarks))
+        return replace(self, warnings=(*self.warnings, *warnings))
 
     @classmethod
     def from_obspy(

@@ -1,12 +1,12 @@
-"""The kinds of remarks on the samples of a record and on what is made of them."""
+"""The kinds of warnings on the samples of a record and on what is made of them."""
 
 from enum import auto
 
-from rocking.remarks import Kind
+from rocking.warnings import Kind
 
 
 class SignalKind(Kind):
-    """A kind of remark on the samples of a record."""
+    """A kind of warning on the samples of a record."""
 
     # fmt: off
     STEP_UNUSUAL = auto(), """The time step is {time_step_s:g} s: accelerographs sample strong motion at steps

@@ -7,9 +7,9 @@ import numpy as np
 
 from rocking.errors import RecordError
 from rocking.quantities import finite, instance
-from rocking.remarks import Remark
 from rocking.signal.accelerogram import Accelerogram
 from rocking.signal.kinds import SignalKind
+from rocking.warnings import RockingWarning
 
 _FLATTEST = np.sin(np.radians(30.0))
 
@@ -56,7 +56,7 @@ def rotate(first: Accelerogram, second: Accelerogram, angle: float) -> Accelerog
     changes: dict[str, Any] = {"component": f"{degrees:.0f}° from {one}"}
     changes["azimuth"] = azimuth_of_axis(first=first.azimuth, second=second.azimuth, angle=angle)
     short, long = sorted((first.acceleration.size, second.acceleration.size))
-    cut = [Remark.of(SignalKind.CUT_TO_THE_SHORTER, short=short, long=long)] if short < long else []
+    cut = [RockingWarning.of(SignalKind.CUT_TO_THE_SHORTER, short=short, long=long)] if short < long else []
     warnings = dict.fromkeys((*first.warnings, *second.warnings, *cut))
     changes["warnings"] = tuple(warnings)
     for name in ("initial_velocity", "initial_displacement"):

@@ -10,10 +10,10 @@ import numpy as np
 from rocking.described import number_hint
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY, VELOCITY_UNITS, acceleration_factor, is_number, shown
-from rocking.remarks import Remark
 from rocking.signal.accelerogram import RARE_PEAK, Accelerogram
 from rocking.signal.kinds import SignalKind
 from rocking.signal.processing import velocity
+from rocking.warnings import RockingWarning
 
 FORM = "a measure, pga or pgv, a number and its unit, as in pga 0.35 g or pgv 50 cm/s"
 _SPELLING = re.compile(r"(pga|pgv)\s+([-+.,\d]+(?:e[-+]?\d+)?|nan|inf)\s*([a-z].*)", re.I)
@@ -89,10 +89,12 @@ def scaled_to(
     )
 
     is_far = not 1 / LARGEST_FACTOR <= factor <= LARGEST_FACTOR
-    doubt = [Remark.of(SignalKind.SCALED_FAR, factor=factor, largest=LARGEST_FACTOR)] if is_far else []
+    warning = (
+        [RockingWarning.of(SignalKind.SCALED_FAR, factor=factor, largest=LARGEST_FACTOR)] if is_far else []
+    )
 
     def enlarged(record: Accelerogram) -> Accelerogram:
-        larger = scaled(record, factor).warned(*doubt)
+        larger = scaled(record, factor).warned(*warning)
         return replace(larger, processing=(*larger.processing, sentence))
 
     return [enlarged(record) for record in horizontal], None if vertical is None else enlarged(vertical)
@@ -104,4 +106,6 @@ def scaled(record: Accelerogram, factor: float) -> Accelerogram:
     peak = enlarged.peak_acceleration
     if peak <= max(RARE_PEAK, record.peak_acceleration):
         return enlarged
-    return enlarged.warned(Remark.of(SignalKind.PEAK_RARE_BY_FACTOR, factor=factor, peak_g=peak / GRAVITY))
+    return enlarged.warned(
+        RockingWarning.of(SignalKind.PEAK_RARE_BY_FACTOR, factor=factor, peak_g=peak / GRAVITY)
+    )

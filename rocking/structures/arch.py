@@ -16,7 +16,6 @@ from typing import Annotated, Any, ClassVar, Literal
 import numpy as np
 
 from rocking.errors import DoesNotStandError, StructureError, StructureWarning
-from rocking.remarks import Phrase
 from rocking.structures.arch_mechanism import (
     FourBar,
     NoMechanism,
@@ -35,6 +34,7 @@ from rocking.structures.fields import OptionalUnitWeight, Value, count, length, 
 from rocking.structures.linkage import PRESSED, STILL, Restitution, momentum_balance
 from rocking.structures.stones import Stones, chain, counted_voussoirs
 from rocking.structures.structure import Candidate
+from rocking.warnings import Phrase
 
 _CRUSHINGS = 60
 _CRUSHED_ALIKE = 1e-14

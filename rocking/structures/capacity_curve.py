@@ -13,7 +13,6 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, shown
-from rocking.remarks import Remark
 from rocking.structures.capacity import StaticCapacity, StaticCurve
 from rocking.structures.description import Description
 from rocking.structures.drawing import rectangle
@@ -23,6 +22,7 @@ from rocking.structures.linkage import Parts, Turning
 from rocking.structures.mechanism import Side
 from rocking.structures.structure import Structure
 from rocking.tables.files import read_whole
+from rocking.warnings import RockingWarning
 
 _LARGEST = 1_000_000
 """Bytes of a file; a curve of a hundred points takes about two thousand."""
@@ -186,9 +186,9 @@ class CapacityCurve(Structure):
         return Description.of(self)
 
     @property
-    def _leaves_out(self) -> Remark:
+    def _leaves_out(self) -> RockingWarning:
         """What a curve leaves out."""
-        return Remark(StructureKind.CURVE_ALONE)
+        return RockingWarning(StructureKind.CURVE_ALONE)
 
     @cached_property
     def _reach(self) -> float:
@@ -267,7 +267,7 @@ class CapacityCurve(Structure):
 
     def static_capacity(self, side: int = 1) -> StaticCapacity:
         """Raise StructureError: no virtual displacements are known."""
-        raise StructureError.saying(Remark(StructureKind.CURVE_HAS_NO_GEOMETRY))
+        raise StructureError.saying(RockingWarning(StructureKind.CURVE_HAS_NO_GEOMETRY))
 
     def _linkage(self, mirrored: bool) -> Turning:
         """The slender body as which it is drawn."""

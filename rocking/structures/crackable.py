@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 import numpy as np
 
 from rocking.errors import DoesNotStandError, StructureError, StructureWarning
-from rocking.remarks import Phrase, Remark
 from rocking.structures.fields import CompressiveStrength, Value
 from rocking.structures.kinds import StructureKind
 from rocking.structures.linkage import HIGHEST_SHARE
 from rocking.structures.structure import CRACKS, Candidate, Structure, by_multiplier
+from rocking.warnings import Phrase, RockingWarning
 
 USUAL_WEIGHT = 20e3
 """Weight of masonry where none is given, N/m³."""
@@ -91,13 +91,13 @@ class Crackable(Crushable):
         return self.crack == "known"
 
     @property
-    def known_crack(self) -> Remark | None:
+    def known_crack(self) -> RockingWarning | None:
         """That its crack is known, and at what height where one locates it; None of one that may crack anywhere."""
         if not self.crack_is_known:
             return None
         if not math.isfinite(self.crack_position):
-            return Remark(StructureKind.CRACK_KNOWN)
-        return Remark.of(StructureKind.CRACK_KNOWN_AT, height_m=float(self.crack_position))
+            return RockingWarning(StructureKind.CRACK_KNOWN)
+        return RockingWarning.of(StructureKind.CRACK_KNOWN_AT, height_m=float(self.crack_position))
 
     def _cracked(self, count: int) -> tuple[Candidate, ...]:
         others = self._may_form(count)

@@ -11,10 +11,10 @@ import numpy as np
 
 from rocking.errors import ConfigurationError, SizeError, StructureError
 from rocking.quantities import shown
-from rocking.remarks import Remark
 from rocking.structures.drawing import Dimension, Path, span
 from rocking.structures.fields import Field, Form, constructor, forms
 from rocking.structures.kinds import StructureKind
+from rocking.warnings import RockingWarning
 
 S = TypeVar("S")
 """A structure: its class stands above this module, as each describes itself."""
@@ -128,8 +128,8 @@ class Description:
         return ", ".join(" × ".join(texts) + unit for unit, texts in by_unit.items())
 
     @property
-    def remarks(self) -> tuple[Remark, ...]:
-        """A remark on each size beyond its plausible range, and on a body that is broader than it is tall."""
+    def warnings(self) -> tuple[RockingWarning, ...]:
+        """A warning on each size beyond its plausible range, and on a body that is broader than it is tall."""
         unusual = []
         for given in self.values:
             low, high = given.field.value.usual or (-np.inf, np.inf)
@@ -140,13 +140,17 @@ class Description:
             if beyond:
                 usual = {"value": beyond[0], "low": float(low), "high": float(high)}
                 words = {"unit": given.field.suffix, "type": article(self.form.type_name)}
-                unusual.append(Remark.of(StructureKind.SIZE_UNUSUAL, given.field.key, **usual, **words))
+                unusual.append(
+                    RockingWarning.of(StructureKind.SIZE_UNUSUAL, given.field.key, **usual, **words)
+                )
         sizes = {given.field.name: given for given in self.values}
         if "storey_heights" in sizes and _are_levels(sizes["storey_heights"].value):
             storeys = sizes["storey_heights"]
             total = float(sum(storeys.value))
             unusual.append(
-                Remark.of(StructureKind.LEVELS_TYPED, storeys.field.key, typed=storeys.text, total_m=total)
+                RockingWarning.of(
+                    StructureKind.LEVELS_TYPED, storeys.field.key, typed=storeys.text, total_m=total
+                )
             )
         heights = [sizes[name] for name in ("height", "column_height") if name in sizes]
         across = [sizes[name] for name in _ROCKS_OVER if name in sizes]
@@ -156,7 +160,7 @@ class Description:
                 "height_m": heights[0].value,
                 "across_m": across[0].value,
             }
-            unusual.append(Remark.of(StructureKind.BROADER_THAN_TALL, across[0].field.key, **names))
+            unusual.append(RockingWarning.of(StructureKind.BROADER_THAN_TALL, across[0].field.key, **names))
         return tuple(unusual)
 
     @property

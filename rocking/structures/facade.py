@@ -14,7 +14,6 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, counted, whole
-from rocking.remarks import Remark
 from rocking.structures.crackable import unplaced
 from rocking.structures.drawing import Path, span
 from rocking.structures.fields import Lean, Value, restitution_value, stated
@@ -35,6 +34,7 @@ from rocking.structures.stack import (
     slab,
 )
 from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight
+from rocking.warnings import RockingWarning
 
 _MOST_STOREYS = 50
 _SIZES = {"ge": 1e-4, "le": 1000}
@@ -248,11 +248,11 @@ class Facade(Tied):
         return False
 
     @property
-    def _leaves_out(self) -> Remark | None:
-        """A remark where floors stand behind it through which the model lets it rock."""
+    def _leaves_out(self) -> RockingWarning | None:
+        """A warning where floors stand behind it through which the model lets it rock."""
         if self.behind or not (any(self.floor_loads) or self.tie_heights):
             return None
-        return Remark(StructureKind.FLOORS_BEHIND)
+        return RockingWarning(StructureKind.FLOORS_BEHIND)
 
     @property
     def _storeys(self) -> tuple[Storey, ...]:

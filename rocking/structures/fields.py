@@ -41,7 +41,7 @@ class Value:
     """The declaration of a parameter in addition to its type.
 
     example: of a structure that stands; None of what stands in place of other parameters. unit: of the file; lengths m,
-    angles °, forces kN. usual: plausible range in that unit; beyond it a remark, not a refusal. letter: in drawings.
+    angles °, forces kN. usual: plausible range in that unit; beyond it a warning, not a refusal. letter: in drawings.
     phrase: how the description says it, of {name} and {value}, which has its unit. bounds: any of ge, gt, le, lt.
     names: of what may stand in place of a number. dimension: the line of a drawing that measures it, where that has
     another name than the parameter.

@@ -6,7 +6,6 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 
 from rocking.errors import StructureError
-from rocking.remarks import Remark
 from rocking.structures.block import Block
 from rocking.structures.crackable import Crushable
 from rocking.structures.drawing import Path, plane, rectangle, span
@@ -26,6 +25,7 @@ from rocking.structures.linkage import (
     keeps_last,
 )
 from rocking.structures.stones import Stones, chain
+from rocking.warnings import RockingWarning
 
 Columns = Annotated[int, count("How many columns", 4, 2, 1000)]
 BeamMassRatio = Annotated[
@@ -88,9 +88,9 @@ class Frame(Crushable):
         return cls(column, columns, beam_mass_ratio, restitution, **options)
 
     @property
-    def _leaves_out(self) -> Remark:
+    def _leaves_out(self) -> RockingWarning:
         """What nobody knows of its contacts."""
-        return Remark(StructureKind.FRAME_CONTACTS)
+        return RockingWarning(StructureKind.FRAME_CONTACTS)
 
     @property
     def column_breadth(self) -> float:

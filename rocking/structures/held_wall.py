@@ -15,7 +15,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rocking.remarks import Phrase
 from rocking.structures.drawing import rectangle
 from rocking.structures.joints import Joints
 from rocking.structures.linkage import (
@@ -34,6 +33,7 @@ from rocking.structures.linkage import (
     keeps_last,
 )
 from rocking.structures.mechanism import Tie
+from rocking.warnings import Phrase
 
 _MARGIN = 0.9
 """Share of the reach of either body that the motion may use: where one of them lies flat the linkage locks."""

@@ -1,12 +1,12 @@
-"""The kinds of remarks on a structure, with the sentence of each."""
+"""The kinds of warnings on a structure, with the sentence of each."""
 
 from enum import auto
 
-from rocking.remarks import Kind
+from rocking.warnings import Kind
 
 
 class StructureKind(Kind):
-    """A kind of remark on a structure."""
+    """A kind of warning on a structure."""
 
     # fmt: off
     # What a model leaves out.

@@ -9,11 +9,11 @@ from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 import numpy as np
 
 from rocking.errors import DoesNotStandError, StructureWarning
-from rocking.remarks import Remark
 from rocking.structures.drawing import Mark, Path, plane, rectangle, span
 from rocking.structures.fields import Value, length
 from rocking.structures.kinds import StructureKind
 from rocking.structures.structure import LeafAlone, Structure
+from rocking.warnings import RockingWarning
 
 LEAVES = {2: ("outer leaf", "inner leaf"), 3: ("outer leaf", "middle leaf", "inner leaf")}
 """What leaves are called from outside in, by their number."""
@@ -158,13 +158,13 @@ class Leaved(Structure):
         return {"one_sided": False, "restitution": None}
 
     @property
-    def assumptions(self) -> tuple[Remark, ...]:
+    def assumptions(self) -> tuple[RockingWarning, ...]:
         """What is taken for granted, and that its leaves do not part where nothing is said of them."""
         if self.leaves or "leaves" not in {key.name for key in self.described.form.fields}:
             return super().assumptions
         thicknesses = sorted({outer - inner for _, _, inner, outer in self._sections}, reverse=True)
         shown = ", ".join(f"{thickness:.4g}" for thickness in thicknesses)
-        return (*super().assumptions, Remark.of(StructureKind.ONE_LEAF, "", thickness=shown))
+        return (*super().assumptions, RockingWarning.of(StructureKind.ONE_LEAF, "", thickness=shown))
 
     def marks(self, rotation: float = 0.0) -> tuple[Mark, ...]:
         """Return also, at rest, the faces between its leaves and the bonders that hold these."""

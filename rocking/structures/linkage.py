@@ -21,9 +21,9 @@ from numpy.typing import ArrayLike
 
 from rocking.errors import DoesNotStandError, StructureError
 from rocking.quantities import GRAVITY
-from rocking.remarks import Remark
 from rocking.structures.kinds import StructureKind
 from rocking.structures.mechanism import Side, SideTie, Tie
+from rocking.warnings import RockingWarning
 
 
 class UnknownContacts(StructureError):
@@ -300,7 +300,7 @@ class Linkage(ABC):
     def side(self, restitution: float) -> Side:
         """Return the side of rocking. Raises DoesNotStandError where nothing restores at rest."""
         if not self.gravity(0.0) > 0:
-            raise DoesNotStandError.saying(Remark(StructureKind.FALLS_AT_REST))
+            raise DoesNotStandError.saying(RockingWarning(StructureKind.FALLS_AT_REST))
         critical = self._first_zero() if self.critical is None else self.critical
         return Side(
             inertia=self.inertia,
@@ -563,7 +563,7 @@ class Restraint:
         return self.ties if self.ties < float("inf") else IMPACTS * self.needed
 
     @property
-    def remarks(self) -> tuple[Remark, ...]:
+    def warnings(self) -> tuple[RockingWarning, ...]:
         """What it needs and gives, per metre and of each tie, and whether its anchor may slide out."""
         each = []
         if self.spacing is not None:
@@ -572,33 +572,33 @@ class Restraint:
                 "grip_kN": self.grip * self.spacing / 1e3,
             }
             about = {"height_m": self.height, "spacing_m": self.spacing}
-            each.append(Remark.of(StructureKind.EACH_TIE, self.holds, **about, **forces))
-        return (self.remark, *each, *filter(None, [self.slides_out]))
+            each.append(RockingWarning.of(StructureKind.EACH_TIE, self.holds, **about, **forces))
+        return (self.warning, *each, *filter(None, [self.slides_out]))
 
     @property
-    def slides_out(self) -> Remark | None:
-        """A remark where a tie may get more than the wall around it gives; None where not."""
+    def slides_out(self) -> RockingWarning | None:
+        """A warning where a tie may get more than the wall around it gives; None where not."""
         if not self.most > self.grip:
             return None
         facts = {"height_m": self.height, "most_kN_m": self.most / 1e3, "grip_kN_m": self.grip / 1e3}
-        return Remark.of(StructureKind.ANCHOR_SLIDES, self.holds, **facts, friction=self.coefficient)
+        return RockingWarning.of(StructureKind.ANCHOR_SLIDES, self.holds, **facts, friction=self.coefficient)
 
     @property
-    def remark(self) -> Remark:
+    def warning(self) -> RockingWarning:
         """The two forces, and what follows from them."""
         about = self.holds
         facts = {"height_m": self.height, "needed_kN_m": self.needed / 1e3}
         given = facts | {"gives_kN_m": self.gives / 1e3}
         if self.kind == "tie":
             if self.ties == float("inf"):
-                return Remark.of(StructureKind.TIE_MUST_BEAR, about, **facts)
-            return Remark.of(
+                return RockingWarning.of(StructureKind.TIE_MUST_BEAR, about, **facts)
+            return RockingWarning.of(
                 StructureKind.TIE_YIELDS if self.lets_go else StructureKind.TIE_BEARS, about, **given
             )
         if self.gives == float("inf"):
             if self.weight == 1.0:
-                return Remark.of(StructureKind.TOP_TAKEN_AS_HELD, about, share=self.needed)
-            return Remark.of(StructureKind.TOP_MUST_BE_HELD, about, **facts)
+                return RockingWarning.of(StructureKind.TOP_TAKEN_AS_HELD, about, share=self.needed)
+            return RockingWarning.of(StructureKind.TOP_MUST_BE_HELD, about, **facts)
         kind = StructureKind.TOP_SLIPS if self.lets_go else StructureKind.TOP_HOLDS
         more = {"tie_kN_m": (self.needed - self.friction) / 1e3} if self.lets_go else {}
-        return Remark.of(kind, about, **given, friction=self.coefficient, **more)
+        return RockingWarning.of(kind, about, **given, friction=self.coefficient, **more)

@@ -15,7 +15,6 @@ from numpy.typing import ArrayLike
 
 from rocking.errors import SizeError, StructureError, StructureWarning
 from rocking.quantities import GRAVITY, within
-from rocking.remarks import Phrase, Remark
 from rocking.structures.capacity import StaticCapacity, StaticCurve
 from rocking.structures.description import Description
 from rocking.structures.drawing import Dimension, Mark, Path, plane
@@ -38,6 +37,7 @@ from rocking.structures.linkage import (
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.stack import Course, Held, Stack, stops_behind
 from rocking.structures.stones import Stones
+from rocking.warnings import Phrase, RockingWarning
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -54,7 +54,7 @@ CRACKS = 11
 TYPED_LOWER = 0.05
 """Difference by which a typed restitution may lie below that of the geometry before both are followed."""
 TYPED_ABOVE = 0.02
-"""Difference by which a typed restitution may lie above that of the geometry, as more than rounding, unremarked."""
+"""Difference by which a typed restitution may lie above that of the geometry, as more than rounding, unwarned."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -117,8 +117,10 @@ class Structure(ABC):
             raise SizeError.of(name, shown, said)
 
     def __repr__(self) -> str:
-        """The description, and the first remark on unusual values."""
-        return " ".join([f"{type(self).__name__}({self.description})", *map(str, self.described.remarks[:1])])
+        """The description, and the first warning on unusual values."""
+        return " ".join(
+            [f"{type(self).__name__}({self.description})", *map(str, self.described.warnings[:1])]
+        )
 
     @property
     def _joints_do(self) -> dict[str, Any]:
@@ -216,7 +218,7 @@ class Structure(ABC):
         return "overturns"
 
     @property
-    def cautions(self) -> tuple[Remark, ...]:
+    def cautions(self) -> tuple[RockingWarning, ...]:
         """What its model leaves out or takes for granted, and a typed restitution unlike that of the geometry."""
         cautions = [*([] if self._leaves_out is None else [self._leaves_out]), *self.assumptions]
         typed = self._typed_restitutions.values()
@@ -225,20 +227,22 @@ class Structure(ABC):
             balanced = self.restitution_of_geometry
             most = max(self._momentum_balance(mirrored) for mirrored in (False, True))
             if balanced is not None:
-                cautions.append(Remark.of(StructureKind.RESTITUTION_TYPED, typed=min(typed), own=balanced[0]))
+                cautions.append(
+                    RockingWarning.of(StructureKind.RESTITUTION_TYPED, typed=min(typed), own=balanced[0])
+                )
             elif max(typed) - most > TYPED_ABOVE:
                 cautions.append(
-                    Remark.of(StructureKind.RESTITUTION_ABOVE, typed=max(typed), own=max(most, 0.0))
+                    RockingWarning.of(StructureKind.RESTITUTION_ABOVE, typed=max(typed), own=max(most, 0.0))
                 )
         return tuple(cautions)
 
     @property
-    def assumptions(self) -> tuple[Remark, ...]:
+    def assumptions(self) -> tuple[RockingWarning, ...]:
         """What is taken for granted where its description says nothing of it."""
         return ()
 
     @property
-    def _leaves_out(self) -> Remark | None:
+    def _leaves_out(self) -> RockingWarning | None:
         """What the model of this structure leaves out; None where nothing."""
         return None
 

@@ -14,7 +14,6 @@ from numpy.typing import ArrayLike
 
 from rocking.errors import DoesNotStandError, StructureError, StructureWarning
 from rocking.quantities import GRAVITY
-from rocking.remarks import Phrase, Remark
 from rocking.structures.crackable import CrackedAtHeight
 from rocking.structures.drawing import Mark, plane
 from rocking.structures.fields import Value
@@ -34,6 +33,7 @@ from rocking.structures.linkage import (
 from rocking.structures.mechanism import Tie
 from rocking.structures.stack import Course, Held, Stop, course_at, courses_between, joints_between
 from rocking.structures.structure import Candidate, Structure, every
+from rocking.warnings import Phrase, RockingWarning
 
 UnitWeight = Annotated[float, Value("Weight of the masonry", 20.0, "kN/m³", (8, 30), bounds={"ge": 1e-6})]
 Eccentricity = Annotated[
@@ -277,11 +277,11 @@ class Tied(CrackedAtHeight, Leaved):
             )
 
     @property
-    def assumptions(self) -> tuple[Remark, ...]:
+    def assumptions(self) -> tuple[RockingWarning, ...]:
         """What is taken for granted of how far apart its ties stand, and how rods are spread over the metre."""
         assumed = []
         if self.tie_heights and self.tie_spacing is None and not self.held_between:
-            assumed.append(Remark(StructureKind.TIES_ALL_ALONG))
+            assumed.append(RockingWarning(StructureKind.TIES_ALL_ALONG))
         if self.rod_diameter and self.rod_length and self.tie_spacing:
             rods: dict[str, float] = {
                 "diameter_mm": self.rod_diameter * 1e3,
@@ -290,7 +290,7 @@ class Tied(CrackedAtHeight, Leaved):
                 "stiffness_kN_m2": self.tie_stiffness / 1e3,
                 "strength_kN_m": (self.tie_strength or math.inf) / 1e3,
             }
-            assumed.append(Remark.of(StructureKind.RODS_SPREAD, "", **rods))
+            assumed.append(RockingWarning.of(StructureKind.RODS_SPREAD, "", **rods))
         return (*super().assumptions, *assumed)
 
     @cached_property

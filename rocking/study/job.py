@@ -20,7 +20,7 @@ from rocking.assessment.rows import (
     FailureRow,
     HistoryRow,
     RecordRows,
-    RemarkRow,
+    WarningRow,
     history_rows,
     rows_of_record,
 )
@@ -39,7 +39,7 @@ from rocking.structures import Structure
 from rocking.study.apart import tell
 from rocking.study.kept import Kept, keep, kept_in
 from rocking.study.outputs import STEPS, TABLES, kept_of, outcome_of, sums_of
-from rocking.study.plan import MADE_FROM, Plan, scenes_of, study_remarks
+from rocking.study.plan import MADE_FROM, Plan, scenes_of, study_warnings
 from rocking.study.products import BY_NAME
 from rocking.study.settings import Settings, settings_sha256
 from rocking.study.terminal import record_line
@@ -82,9 +82,9 @@ class Study:
         return {name: scene.structure for name, scene in self.scenes.items()}
 
     @cached_property
-    def remarks(self) -> list[RemarkRow]:
+    def warnings(self) -> list[WarningRow]:
         """The rows of what there is to say of settings and structures before they meet a record."""
-        return RemarkRow.of_study(study_remarks(self.settings, self.scenes))
+        return WarningRow.of_study(study_warnings(self.settings, self.scenes))
 
     @cached_property
     def assessment(self) -> AssessmentSettings:
@@ -273,7 +273,7 @@ def write_report(result: RecordResult, rows: RecordRows, study: Study, folder: P
     if rows.comparison:
         level = study.settings.design_spectrum.spectrum()
         page: Page = RecordReport(
-            result, rows, study.structures, study.settings.for_pages, level, study.remarks
+            result, rows, study.structures, study.settings.for_pages, level, study.warnings
         ).page()
     else:
         page = failure_page(result.record, " ".join(failure.message for failure in rows.failures))

@@ -1,16 +1,16 @@
-"""The kinds of remarks on a study and on its files, with the sentence of each."""
+"""The kinds of warnings on a study and on its files, with the sentence of each."""
 
 from enum import auto
 
-from rocking.remarks import Kind
+from rocking.warnings import Kind
 
 
 class StudyKind(Kind):
-    """A kind of remark on a study and on its files."""
+    """A kind of warning on a study and on its files."""
 
     # fmt: off
     # A structure, and where it stands.
-    REMARKS_MORE = auto(), "{number} more warnings on the study are in summary/remarks.csv."
+    WARNINGS_MORE = auto(), "{number} more warnings on the study are in summary/warnings.csv."
 
     # A catalogue and its folder, and a study before its run.
     FILE_APART = auto(), "{about}: {why}"

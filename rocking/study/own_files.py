@@ -14,8 +14,8 @@ from rocking.assessment.conclusion import to_check
 from rocking.assessment.rows import (
     RECORD_TABLES,
     CapacityRow,
-    RemarkRow,
     StructureRow,
+    WarningRow,
     capacity_rows,
     structure_rows,
 )
@@ -30,7 +30,6 @@ from rocking.records import Accelerogram
 from rocking.records.archive import archive_of, is_archive, members
 from rocking.records.formats import Options
 from rocking.records.read import bytes_of, read_raw
-from rocking.remarks import Remark
 from rocking.study.kinds import StudyKind
 from rocking.study.settings import Settings, settings_sha256
 from rocking.tables import (
@@ -43,6 +42,7 @@ from rocking.tables import (
     write_whole,
     written_together,
 )
+from rocking.warnings import RockingWarning
 
 if TYPE_CHECKING:  # as in `assess_stations`
     from rocking.assessment.case import PeriodResult
@@ -80,14 +80,14 @@ class OwnStation:
 class OwnFiles:
     """What the files of a command hold, in their order.
 
-    channels: of each file that was read, by its path. refused: the errors of those that were not. remarks: what there
+    channels: of each file that was read, by its path. refused: the errors of those that were not. warnings: what there
     is to say of how they were joined.
     """
 
     channels: dict[Path, list[Accelerogram]]
     refused: tuple[RecordError, ...]
     stations: tuple[OwnStation, ...] = ()
-    remarks: tuple[Remark, ...] = ()
+    warnings: tuple[RockingWarning, ...] = ()
 
 
 def read_files(paths: Sequence[Path], declared: Declared) -> OwnFiles:
@@ -146,8 +146,8 @@ def stations_of(paths: Sequence[Path], declared: Declared) -> OwnFiles:
         found.append(OwnStation(record, tuple(channels)))
     if not found:
         raise RecordError("; ".join(f"{file.file}: {file.refusal}" for file in listed))
-    remarks = [*_apart(listed), *_siblings(listed, own.channels, folder, declared)]
-    return OwnFiles(own.channels, own.refused, tuple(found), tuple(remarks))
+    warnings = [*_apart(listed), *_siblings(listed, own.channels, folder, declared)]
+    return OwnFiles(own.channels, own.refused, tuple(found), tuple(warnings))
 
 
 def _named(paths: Sequence[Path]) -> tuple[list[Path], tuple[Path, ...]]:
@@ -170,13 +170,13 @@ def _listed(path: Path, channels: Sequence[Accelerogram], folder: Path) -> Liste
     return listed_file(reading_of(channels), where, folder, {})
 
 
-def _apart(listed: Sequence[ListedFile]) -> Iterator[Remark]:
+def _apart(listed: Sequence[ListedFile]) -> Iterator[RockingWarning]:
     """Yield why files of one station are records of their own, and which files are none."""
     for file in listed:
         if file.separated:
-            yield Remark.of(StudyKind.FILE_APART, file.file, why=file.separated)
+            yield RockingWarning.of(StudyKind.FILE_APART, file.file, why=file.separated)
         if file.refusal:
-            yield Remark.of(StudyKind.FILE_WITHOUT_RECORD, file.file, why=file.refusal)
+            yield RockingWarning.of(StudyKind.FILE_WITHOUT_RECORD, file.file, why=file.refusal)
 
 
 _LIKE = 0.7
@@ -187,8 +187,8 @@ _LOOKED_AT = 8
 
 def _siblings(
     listed: Sequence[ListedFile], given: Iterable[Path], folder: Path, declared: Declared
-) -> Iterator[Remark]:
-    """Yield a remark on each file beside those given that is a component of the same station, and is not used."""
+) -> Iterator[RockingWarning]:
+    """Yield a warning on each file beside those given that is a component of the same station, and is not used."""
     known = {path.resolve() for path in given}
     for file, path in zip(listed, given, strict=True):
         if len(file.channels) != 1 or not file.record or archive_of(path) is not None:
@@ -210,7 +210,7 @@ def _siblings(
             together = next((group for group in stations([replace(file), sibling]) if len(group) == 2), None)
             if together:
                 known.add(other.resolve())
-                yield Remark.of(StudyKind.SIBLING_NOT_USED, file.file, other=other.name)
+                yield RockingWarning.of(StudyKind.SIBLING_NOT_USED, file.file, other=other.name)
 
 
 REPORT = Document(
@@ -270,7 +270,7 @@ def assess_stations(
         for own in found:
             check_target(output / own.record.id / "report.pdf", REPORT)
             check_tables(RECORD_TABLES, output / own.record.id)
-        check_tables((RemarkRow, StructureRow, CapacityRow), output / "summary")
+        check_tables((WarningRow, StructureRow, CapacityRow), output / "summary")
     if pdf is not None and len(found) != 1:
         ids = ", ".join(own.record.id for own in found)
         raise ConfigurationError(
@@ -278,11 +278,11 @@ def assess_stations(
         )
     chosen = {structure: scene for structure, scene in scenes.items() if name in (None, structure)}
     study = Study(chosen, Settings(), settings_sha256(Settings(), scenes))
-    remarks = list(study.remarks)
+    warnings = list(study.warnings)
     for own in found:
         result = assess_catalogued(own.record, study, study.open(own.record, list(own.channels)))
         rows = rows_of(result, own.record, study)
-        remarks += rows.remarks
+        warnings += rows.warnings
         if output is not None:
             with written_together():
                 write_tables(rows.tables, output / own.record.id)
@@ -300,10 +300,10 @@ def assess_stations(
             yield from _lines_of(station, own.record.scale_factor)
         for failure in rows.failures:
             yield f"not assessed: {failure.structure or failure.stage}: {failure.message}"
-    yield from to_check(remarks)
+    yield from to_check(warnings)
     if output is not None:
         of_structures: dict[type[Row], Iterable[Row]] = {
-            RemarkRow: remarks,
+            WarningRow: warnings,
             StructureRow: structure_rows(study.structures, study.settings.acceleration_scale),
             CapacityRow: capacity_rows(study.structures),
         }
@@ -318,7 +318,7 @@ def _lines_of(station: "PeriodResult", scale_factor: float) -> Iterator[str]:
     """Yield the verdict on a structure with its count and reason, then what each component does by itself."""
     decision = station.decision
     share = f" ({decision.share_in_words})" if decision.share_in_words else ""
-    yield f"{placed(station.structure, station.support_period_s)}: {decision.word}{share}; {decision.why}"
+    yield f"{placed(station.structure, station.support_period_s)}: {decision.verdict}{share}; {decision.why}"
     for component, case in station.cases.items():
         if case.response is None:
             continue

@@ -27,7 +27,6 @@ from rocking.hashes import sha256_of, sha256_of_file
 from rocking.quantities import counted, shown
 from rocking.records.formats.layouts import NAME as ANSWERS
 from rocking.records.formats.layouts import Layouts
-from rocking.remarks import Remark
 from rocking.study.folder import check_links, results_folder
 from rocking.study.kinds import StudyKind
 from rocking.study.outputs import outcome_of
@@ -45,13 +44,14 @@ from rocking.study.settings import (
 )
 from rocking.tables import read_rows
 from rocking.tables.yaml_file import read_yaml
+from rocking.warnings import RockingWarning
 
 T = TypeVar("T")
 
 _NAMED = 8
-"""Remarks on settings and structures that the terminal shows; remarks.csv holds all."""
+"""Warnings on settings and structures that the terminal shows; warnings.csv holds all."""
 _ON_PAGES = (AssessmentKind.HELD_AT_CEILING,)
-"""Remarks on what a structure is taken for, which stand on its pages and ask nothing of who starts a run."""
+"""Warnings on what a structure is taken for, which stand on its pages and ask nothing of who starts a run."""
 _PLAIN = " ./,+=()[]'_-"
 """Next to letters and digits, what a param holds as it is: --report prints params, and no text of a study is markup."""
 _DOCUMENTS = (*NUMBERS, *TOLD, "reports", "figures", "histories", "design_spectrum")
@@ -74,10 +74,10 @@ NAMED_FILES: Mapping[str, tuple[str, ...]] = {
 """Those of them that name a file which the job reads."""
 
 
-def study_remarks(settings: Settings, scenes: Mapping[str, Scene]) -> tuple[Remark, ...]:
+def study_warnings(settings: Settings, scenes: Mapping[str, Scene]) -> tuple[RockingWarning, ...]:
     """Return what there is to say of the settings and the structures of a study before it meets a record."""
-    level = settings.design_spectrum.remark
-    of_scenes = [remark for scene in scenes.values() for remark in scene.remarks]
+    level = settings.design_spectrum.warning
+    of_scenes = [warning for scene in scenes.values() for warning in scene.warnings]
     return (*([level] if level else []), *of_scenes)
 
 
@@ -114,15 +114,15 @@ class Plan:
         return [outcome_of(self.results, record) for record in self.records]
 
     @property
-    def doubts(self) -> tuple[Remark, ...]:
+    def warnings(self) -> tuple[RockingWarning, ...]:
         """The warnings before the run."""
         of_study = [
-            remark for remark in study_remarks(self.settings, self.scenes) if remark.kind not in _ON_PAGES
+            warning for warning in study_warnings(self.settings, self.scenes) if warning.kind not in _ON_PAGES
         ]
         more = len(of_study) - _NAMED
         return (
             *of_study[:_NAMED],
-            *([Remark.of(StudyKind.REMARKS_MORE, number=more)] if more > 0 else []),
+            *([RockingWarning.of(StudyKind.WARNINGS_MORE, number=more)] if more > 0 else []),
             *repeated(self.records.values()),
             *unlisted(Path(self.settings.catalogue)),
         )

@@ -15,8 +15,8 @@ from rocking.assessment.rows import (
     ExpectedFallsRow,
     FailureRow,
     RecordRow,
-    RemarkRow,
     VerdictRow,
+    WarningRow,
     made_records,
 )
 from rocking.errors import ConfigurationError, RockingError
@@ -71,9 +71,9 @@ def run(folder: Path, options: Sequence[str]) -> int:
         return _snakemake(arguments)
     log = folder / plan.results / "summary" / "logs" / "run.log"
     with contextlib.chdir(folder):
-        doubts = plan.doubts
+        warnings = plan.warnings
     print(
-        *doubts,
+        *warnings,
         f"{counted(len(plan.records), 'record')}; log of the scheduler: {log}",
         "Numbers: members of the ensemble that overturn, or the largest rotation over the critical rotation.",
         sep="\n",
@@ -135,9 +135,9 @@ def _print_outcome(folder: Path, plan: Plan) -> int:
     verdicts = [row for rows in of_records for row in rows_of(VerdictRow, rows)]
     comparison = read_rows(ComparisonRow, results / "summary" / ComparisonRow.table.file_name)
     falls = read_table(ExpectedFallsRow, results / "summary")
-    remarks = read_rows(RemarkRow, results / "summary" / RemarkRow.table.file_name)
+    warnings = read_rows(WarningRow, results / "summary" / WarningRow.table.file_name)
     not_recorded = made_records(read_rows(RecordRow, results / "summary" / RecordRow.table.file_name))
-    lines = [*closing_lines(verdicts, comparison, failures, falls, remarks, not_recorded)]
+    lines = [*closing_lines(verdicts, comparison, failures, falls, warnings, not_recorded)]
     for product in made:
         lines += conclusion_lines(kept_in(kept_of(results, product.name), ()).conclusion)
     opened = {

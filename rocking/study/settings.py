@@ -24,7 +24,6 @@ from rocking.described import (
 from rocking.errors import ConfigurationError, RecordError
 from rocking.hashes import sha256_of, sha256_of_sources
 from rocking.quantities import GRAVITY
-from rocking.remarks import Remark
 from rocking.reports.pages import Fact, PageSettings
 from rocking.signal.processing import Processing
 from rocking.signal.scaling import ScalingTarget
@@ -32,13 +31,14 @@ from rocking.structures.joints import USUAL, Joints
 from rocking.structures.kinds import StructureKind
 from rocking.structures.structure import CRACKS
 from rocking.tables.yaml_file import scalar_value
+from rocking.warnings import RockingWarning
 
 if TYPE_CHECKING:
     from rocking.assessment.scene import Scene
     from rocking.codes.design_spectrum import DesignSpectrum
 
 _LARGEST_USUAL = 0.6
-"""a_g beyond which a remark asks for the unit, g: what maps of hazard give for rock lies below nearly everywhere."""
+"""a_g beyond which a warning asks for the unit, g: what maps of hazard give for rock lies below nearly everywhere."""
 
 
 @dataclass(frozen=True)
@@ -81,11 +81,11 @@ class StudyDesign:
         return self.points is not None or self.ag is not None
 
     @property
-    def remark(self) -> Remark | None:
-        """A remark on an a_g beyond what codes map, as one that was typed in m/s² is; None within."""
+    def warning(self) -> RockingWarning | None:
+        """A warning on an a_g beyond what codes map, as one that was typed in m/s² is; None within."""
         if self.ag is None or self.ag <= _LARGEST_USUAL:
             return None
-        return Remark.of(
+        return RockingWarning.of(
             StructureKind.SIZE_UNUSUAL,
             "design_spectrum.ag_g",
             value=self.ag,

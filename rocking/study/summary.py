@@ -77,7 +77,7 @@ def summarise(job: Job) -> None:
         instead,
         faults,
         study.settings.unnamed_events == "each",
-        study.remarks,
+        study.warnings,
         study.settings.acceleration_scale,
     )
     paths: dict[type[Row], str | list[str]] = {
@@ -156,7 +156,7 @@ def _documents(
     faults += made_or_failed(
         page,
         lambda: write_whole(
-            page, explore_page(pages, study.structures, title, findings, notes, drawn, study.remarks)
+            page, explore_page(pages, study.structures, title, findings, notes, drawn, study.warnings)
         ),
         job.log,
     )

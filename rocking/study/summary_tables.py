@@ -15,10 +15,10 @@ from rocking.assessment.rows import (
     FailureRow,
     PulseRow,
     RecordRow,
-    RemarkRow,
     StructureRow,
     SupportRow,
     VerdictRow,
+    WarningRow,
     agreement_rows,
     capacity_rows,
     counted_cases,
@@ -41,7 +41,7 @@ from rocking.tables import (
     written_together,
 )
 
-ON_PAGES = (RecordRow, PulseRow, ComparisonRow, SupportRow, VerdictRow, FailureRow, RemarkRow)
+ON_PAGES = (RecordRow, PulseRow, ComparisonRow, SupportRow, VerdictRow, FailureRow, WarningRow)
 """The tables of records that the documents over all of them show; the others, far longer, are in no memory whole."""
 
 
@@ -53,7 +53,7 @@ def write_summary(
     variants: Collection[str] = (),
     faults: Collection[Row] = (),
     each_unnamed: bool = False,
-    remarks: Collection[Row] = (),
+    warnings: Collection[Row] = (),
     scale: Scale = "exact_at_rest",
 ) -> tuple[dict[type[Row], list[Row]], list[dict[str, Any]], list[Sequence[float]], dict[str, str]]:
     """Write the tables of the summary into `target`, record by record.
@@ -61,7 +61,7 @@ def write_summary(
     reports: whether the rows of ON_PAGES, and what the page to explore and the spectra show of each record, are
     returned as well. variants: names of structures that
     stand for another one. faults: of what else stands over all records. each_unnamed: whether records that name no
-    earthquake are of one each. remarks: on the study itself. scale: the block that predicts. Returned as the last are
+    earthquake are of one each. warnings: on the study itself. scale: the block that predicts. Returned as the last are
     the hashes of the files of the records.
     """
     kept: dict[type[Row], list[Row]] = {row_class: [] for row_class in SUMMARY_TABLES}
@@ -77,8 +77,8 @@ def write_summary(
             row_class: stack.enter_context(rows_written(row_class, target / row_class.table.file_name))
             for row_class in of_records
         }
-        write[RemarkRow](remarks)  # what was typed, before what records say
-        kept[RemarkRow] += remarks if reports else ()
+        write[WarningRow](warnings)  # what was typed, before what records say
+        kept[WarningRow] += warnings if reports else ()
         for outcome in outcomes:
             for row_class in of_records:
                 write[row_class](outcome.rows[row_class])
@@ -102,9 +102,9 @@ def write_summary(
         write[FailureRow](failures)
         kept[FailureRow] += failures if reports else ()
         identifiers, sample = sample_of_records(read, each_unnamed)
-        of_sample = RemarkRow.of_study(sample.remarks)
-        write[RemarkRow](of_sample)
-        kept[RemarkRow] += of_sample if reports else ()
+        of_sample = WarningRow.of_study(sample.warnings)
+        write[WarningRow](of_sample)
+        kept[WarningRow] += of_sample if reports else ()
         names = dict(zip(identifiers, zip(sample.stations, sample.events, strict=True), strict=True))
         of_all = falls_over(falls_of_records, Sample.named(names[falls.record] for falls in falls_of_records))
         kept[ExpectedFallsRow] = [*falls_of_records, *([of_all] if of_all else [])]

@@ -21,8 +21,8 @@ from rocking.assessment.rows import (
     ComparisonRow,
     ExpectedFallsRow,
     FailureRow,
-    RemarkRow,
     VerdictRow,
+    WarningRow,
     counted_cases,
     worst_period_each,
 )
@@ -54,20 +54,20 @@ def record_line(scenes: Iterable["SceneResult"], failures: Iterable[FailureRow])
     reasons = (
         (f"{failure.structure}: " if failure.structure else "") + failure.message for failure in failures
     )
-    parts: dict[Verdict, list[str]] = {word: [] for word in ORDER}
+    parts: dict[Verdict, list[str]] = {verdict: [] for verdict in ORDER}
     scenes = sorted(scenes, key=lambda scene: scene.worst.severity, reverse=True)
     on_the_ground = [scene.worst for scene in scenes if not scene.scene.place.supports]
     for result in on_the_ground:
         decision = result.decision
         share = decision.share_in_words
         number = f" ({share})" if share else ""
-        if decision.word.stays_up:
+        if decision.verdict.stays_up:
             number = f" {result.rotation_ratio:.2g}" if rocks(result.rotation_ratio) else ""
         divided = "," in result.structure or ";" in result.structure
         name = f'"{result.structure}"' if divided else result.structure
-        parts[decision.word].append(name + number)
+        parts[decision.verdict].append(name + number)
     named = {"failed": " ".join(reasons)} | _named(parts, _NAMED)
-    lines = [f"{word}: {text}" for word, text in named.items() if text]
+    lines = [f"{verdict}: {text}" for verdict, text in named.items() if text]
     left = max(0, _NAMED - len(on_the_ground))
     carried = [scene.sentence for scene in scenes if scene.scene.place.supports]
     if len(carried) > left:
@@ -81,21 +81,19 @@ def closing_lines(
     comparison: Iterable[ComparisonRow],
     failures: Sequence[FailureRow],
     expected: Sequence[ExpectedFallsRow] = (),
-    remarks: Iterable[RemarkRow] = (),
+    warnings: Iterable[WarningRow] = (),
     made: Container[str] = (),
 ) -> Iterator[str]:
     """Yield the conclusion on all structures, the worst with closed form, block and integration, and the others' words.
 
     Below them stand what the closed form saw of the falls among `counted_cases`, the records that failed, and what has
     to be checked of what was typed. comparison: is gone through once, and not kept. expected: how many fall, by record
-    and of all. remarks: on the study and on its records, which are gone through once as well. made: the
+    and of all. warnings: on the study and on its records, which are gone through once as well. made: the
     records that nobody recorded. At most _NAMED structures are named.
     """
     worst = worst_of_each(conclusions(verdicts, []))
     records = len({verdict.record for verdict in verdicts})  # one that failed gives none
-    shown = {
-        (conclusion.verdict.record, conclusion.verdict.structure): conclusion for conclusion in worst[:_WORST]
-    }
+    shown = {(conclusion.row.record, conclusion.row.structure): conclusion for conclusion in worst[:_WORST]}
     taken = worst_period_each(verdicts)
     carried = any(verdict.support_period_s is not None for verdict in taken)
     of_shown: list[ComparisonRow] = []
@@ -106,7 +104,7 @@ def closing_lines(
         (of_made if row.record in made else of_recorded)[row.record, _end(row)] += 1
     if worst:
         count = f"{counted(records, 'record')}, {counted(len(worst), 'structure')}. "
-        words = {conclusion.verdict.structure: conclusion.verdict.decision.word for conclusion in worst}
+        words = {conclusion.row.structure: conclusion.row.decision.verdict for conclusion in worst}
         said_of_all = conclusion_in_words(words, records, fallen_in_one_run(worst))
         for said in (count + said_of_all, falls_in_words(expected)):
             yield from wrap(said, WIDTH)
@@ -117,19 +115,18 @@ def closing_lines(
     for conclusion in conclusions(own, of_shown):
         ratios = map(_rotation, conclusion.ratios)
         marks = "  ".join(f"{text:>{width}}" for text, width in zip(ratios, (6, 5, 10), strict=True))
-        reserve = conclusion.verdict.reserve.in_figures if conclusion.verdict.reserve else "–"
+        reserve = conclusion.row.reserve.in_figures if conclusion.row.reserve else "–"
         line = (
-            f"{_cut(conclusion.verdict.structure, 16):<16}  {_cut(conclusion.verdict.record, 18):<18}  {marks}  "
+            f"{_cut(conclusion.row.structure, 16):<16}  {_cut(conclusion.row.record, 18):<18}  {marks}  "
             f"{reserve:>10}  "
         )
-        yield f"{line}{conclusion.verdict.decision.word} {conclusion.verdict.decision.share_in_words}".rstrip()
-    if any("–" in conclusion.verdict.decision.share_in_words for conclusion in worst[:_WORST]):
+        yield f"{line}{conclusion.row.decision.verdict} {conclusion.row.decision.share_in_words}".rstrip()
+    if any("–" in conclusion.row.decision.share_in_words for conclusion in worst[:_WORST]):
         yield "A range: two cracks disagree."
     others = [
-        (conclusion.verdict.decision.word, _cut(conclusion.verdict.structure, 30))
-        for conclusion in worst[_WORST:]
+        (conclusion.row.decision.verdict, _cut(conclusion.row.structure, 30)) for conclusion in worst[_WORST:]
     ]
-    if names := {word: [name for its, name in others if its is word] for word, _ in others}:
+    if names := {verdict: [name for its, name in others if its is verdict] for verdict, _ in others}:
         text = "; ".join(map(": ".join, _named(names, _NAMED - _WORST).items()))
         yield from wrap(text, WIDTH, initial_indent="Others  ", subsequent_indent=" " * 8)
     of_what = COUNTED if carried else ""
@@ -137,7 +134,7 @@ def closing_lines(
         of_recorded or of_made, of_made if of_recorded else Counter(), records > 1, of_what
     )
     yield from failing_lines(failures)
-    for sentence in to_check(remarks):
+    for sentence in to_check(warnings):
         yield from wrap(sentence, WIDTH, subsequent_indent=" " * 8)
 
 
@@ -205,11 +202,13 @@ def _cut(name: str, width: int) -> str:
 
 
 def _named(by_word: Mapping[Verdict, Sequence[str]], left: int) -> dict[str, str]:
-    """By word the names, `left` of all together, and of each word how many more there are."""
+    """By verdict the names, `left` of all together, and of each verdict how many more there are."""
     texts: dict[str, str] = {}
-    for word, names in by_word.items():
+    for verdict, names in by_word.items():
         more = len(names) - left
-        texts[word] = ", ".join([*names[:left], f"{more} more" if left else str(more)] if more > 0 else names)
+        texts[verdict] = ", ".join(
+            [*names[:left], f"{more} more" if left else str(more)] if more > 0 else names
+        )
         left = max(0, -more)
     return texts
 

@@ -108,4 +108,4 @@ def write_catalogue(folder: Path, target: Path, unit: str | None, time_step: flo
     note = "{}: its row stays in the catalogue, but its file is not there; remove the row or add the file."
     lost = [note.format(path["id"]) for path in of_folder if path["id"] not in records]
     count = f"{target}: {counted(len(existing) + len(rows), 'record')}, {len(rows)} of them new"
-    return listing_text(files) + "\n".join(["", *map(str, found.remarks), *lost, *asked, count])
+    return listing_text(files) + "\n".join(["", *map(str, found.warnings), *lost, *asked, count])

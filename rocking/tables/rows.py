@@ -21,8 +21,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeVar, datacla
 from rocking.described import Described, described, described_values, number_hint
 from rocking.errors import RockingError
 from rocking.quantities import shown
-from rocking.remarks import Kind, every_kind, kind_of
 from rocking.tables.files import Document, check_target, regular_file, whole, write_whole
+from rocking.warnings import Kind, every_kind, kind_of
 
 _UNITS = {
     "n_per_m": "N/m",

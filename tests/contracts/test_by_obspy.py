@@ -81,7 +81,7 @@ def test_the_calibration_of_gse_leads_to_a_displacement_and_is_not_applied(tmp_p
     trace.write(str(tmp_path / "made"), format="GSE2")
     (record,) = read(tmp_path / "made", unit="mm/s2")
     assert np.allclose(record.acceleration, counts / 1000)
-    assert [remark.kind for remark in record.warnings] == [RecordKind.CALIBRATION_NOT_APPLIED]
+    assert [warning.kind for warning in record.warnings] == [RecordKind.CALIBRATION_NOT_APPLIED]
 
 
 @pytest.mark.parametrize("form", ["SLIST", "TSPAIR"])

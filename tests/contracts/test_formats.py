@@ -139,7 +139,7 @@ WARNED = {
 def test_no_real_file_is_warned_of_without_reason(series) -> None:
     assert series
     for file, (_, records) in series.items():
-        kinds = {remark.kind for record in records for remark in record.warnings}
+        kinds = {warning.kind for record in records for warning in record.warnings}
         assert kinds == WARNED.get(Path(file).name, set()), file
 
 

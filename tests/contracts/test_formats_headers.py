@@ -14,7 +14,7 @@ from rocking.records.formats import Options, by_obspy
 from rocking.records.formats.format import Layout, keyed
 from rocking.records.kinds import RecordKind
 from rocking.records.read import read_content
-from rocking.remarks import Remark
+from rocking.warnings import RockingWarning
 from tests.refusals import refused
 
 FIELDS = ("component", "azimuth", "station", "network", "event", "processed", "high_pass_frequency")
@@ -241,13 +241,13 @@ def test_codes_above_360_are_no_angles(code: str, vertical: bool) -> None:
 @pytest.mark.parametrize(
     ("code", "told"),
     [
-        ("HJ1", Remark.of(RecordKind.CHANNEL_NO_MOTION, "HJ1", sensor="rotational sensor")),
-        ("BDF", Remark.of(RecordKind.CHANNEL_NO_MOTION, "BDF", sensor="pressure sensor")),
-        ("HHE", Remark.of(RecordKind.CHANNEL_OF_VELOCITY, "HHE", sensor="high-gain seismometer")),
+        ("HJ1", RockingWarning.of(RecordKind.CHANNEL_NO_MOTION, "HJ1", sensor="rotational sensor")),
+        ("BDF", RockingWarning.of(RecordKind.CHANNEL_NO_MOTION, "BDF", sensor="pressure sensor")),
+        ("HHE", RockingWarning.of(RecordKind.CHANNEL_OF_VELOCITY, "HHE", sensor="high-gain seismometer")),
         ("HNE", None),
     ],
 )
-def test_the_code_of_a_channel_says_what_it_measures(code: str, told: Remark | None) -> None:
+def test_the_code_of_a_channel_says_what_it_measures(code: str, told: RockingWarning | None) -> None:
     (record,) = read_text(made_files.dyna().replace("HNE", code))
     assert told in record.warnings if told else not record.warnings
 

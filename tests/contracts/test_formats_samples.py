@@ -73,7 +73,7 @@ def test_values_step_and_one_recogniser(name: str) -> None:
     assert [form.name for form in owners] == [format_of(name)]
     records = read_content(content, "made", options)
     record = next(r for r in records if not r.vertical)
-    warned = [remark.kind for one_record in records for remark in one_record.warnings]
+    warned = [warning.kind for one_record in records for warning in one_record.warnings]
     assert warned == ([WARNED[name]] * len(records) if name in WARNED else [])
     expected = TRUE - TRUE.mean() if name in MEAN_REMOVED else TRUE
     assert record.time_step == pytest.approx(STEP, rel=1e-12)

@@ -18,7 +18,7 @@ import rocking
 
 PACKAGE = Path(rocking.__file__).parent
 FLOORS = [
-    {"remarks"},
+    {"warnings"},
     {"errors"},
     {"quantities", "drawn", "hashes", "progress"},
     {"described"},

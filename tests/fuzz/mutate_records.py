@@ -147,8 +147,8 @@ def silent_difference(whole: Whole, content: bytes, expected: list[Accelerogram]
         records = whole.read(content)
     except RecordError:
         return None
-    known = {remark for record in expected for remark in record.warnings}
-    if {remark for record in records for remark in record.warnings} - known:
+    known = {warning for record in expected for warning in record.warnings}
+    if {warning for record in records for warning in record.warnings} - known:
         return None
     if len(records) != len(expected):
         return "channels"

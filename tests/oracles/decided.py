@@ -17,7 +17,7 @@ from rocking.assessment.decide import (
     worse,
 )
 from rocking.assessment.kinds import AssessmentKind
-from rocking.remarks import Kind, Remark
+from rocking.warnings import Kind, RockingWarning
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,7 +25,7 @@ class AllFacts(Facts):
     """Facts of mechanisms and evidence together."""
 
     friction_needed: float = math.nan
-    doubts: tuple[Remark, ...] = ()
+    warnings: tuple[RockingWarning, ...] = ()
     held: bool = False
     beyond: Kind | None = None
     anchors_slide: bool = False
@@ -37,59 +37,68 @@ def decide(facts: AllFacts) -> Decision:
     risk = facts.risk
     followed = facts.followed
     governing = facts.governing
-    unsettled = facts.doubts if facts.stacks is None else ()
-    missing = (Remark(AssessmentKind.COMPONENT_MISSING),) if facts.failures else ()
+    unsettled = facts.warnings if facts.stacks is None else ()
+    missing = (RockingWarning(AssessmentKind.COMPONENT_MISSING),) if facts.failures else ()
     worse_other = _worse_than_known(facts)
-    doubts = (*unsettled, *missing, *([Remark(AssessmentKind.OTHER_CRACK_WORSE)] if worse_other else []))
+    warnings = (
+        *unsettled,
+        *missing,
+        *([RockingWarning(AssessmentKind.OTHER_CRACK_WORSE)] if worse_other else []),
+    )
     sliding = _slides_throughout(facts)
     crack_left_out = _worse_left_out(facts)
-    left_out = (Remark(AssessmentKind.SLIDES_FIRST),) if crack_left_out else ()
+    left_out = (RockingWarning(AssessmentKind.SLIDES_FIRST),) if crack_left_out else ()
     asks_for_stacks = facts.stackable and facts.stacks is None
-    contact_dynamics = (Remark(AssessmentKind.CONTACT_DYNAMICS),) if asks_for_stacks else ()
+    contact_dynamics = (RockingWarning(AssessmentKind.CONTACT_DYNAMICS),) if asks_for_stacks else ()
     if unsettled and not facts.stackable:
-        doubts = (*doubts, Remark(AssessmentKind.NO_STACK))
-    would_settle: tuple[Remark, ...]
+        warnings = (*warnings, RockingWarning(AssessmentKind.NO_STACK))
+    would_settle: tuple[RockingWarning, ...]
 
     # 1, 2, 3: what follows without any member.
-    if facts.never_overturns_because and not facts.doubts and not facts.anchors_slide:
-        would_settle = (Remark(AssessmentKind.TIE_STRENGTH),)
+    if facts.never_overturns_because and not facts.warnings and not facts.anchors_slide:
+        would_settle = (RockingWarning(AssessmentKind.TIE_STRENGTH),)
         return Decision(
             Verdict.CANNOT_OVERTURN,
             0.0,
             (0.0, 0.0),
             facts.never_overturns_because,
-            (*doubts, *left_out),
+            (*warnings, *left_out),
             would_settle,
         )
     # What swings on ties that give may fall though its mechanism, which takes them as rigid, rests: rows 8b and 9.
     if facts.rests and facts.beyond is not AssessmentKind.TIES_GIVE:
         why = "the ground never reaches the uplift acceleration"
         if facts.anchors_slide:
-            doubts = (*doubts, Remark(AssessmentKind.ANCHOR_GIVES))
+            warnings = (*warnings, RockingWarning(AssessmentKind.ANCHOR_GIVES))
         word = Verdict.PROBABLY_STANDS if facts.anchors_slide else Verdict.STANDS
-        would_settle = (Remark(AssessmentKind.ANCHORS),) if facts.anchors_slide else ()
-        return Decision(word, 0.0, (0.0, 0.0), why, (*doubts, *left_out), would_settle)
+        would_settle = (RockingWarning(AssessmentKind.ANCHORS),) if facts.anchors_slide else ()
+        return Decision(word, 0.0, (0.0, 0.0), why, (*warnings, *left_out), would_settle)
     if sliding and not (facts.as_stones and facts.stacks):
-        would_settle = (Remark(AssessmentKind.FRICTION), *(contact_dynamics if facts.as_stones else ()))
-        return Decision(Verdict.CANNOT_BE_TOLD, math.nan, (math.nan, math.nan), sliding, doubts, would_settle)
+        would_settle = (
+            RockingWarning(AssessmentKind.FRICTION),
+            *(contact_dynamics if facts.as_stones else ()),
+        )
+        return Decision(
+            Verdict.CANNOT_BE_TOLD, math.nan, (math.nan, math.nan), sliding, warnings, would_settle
+        )
 
     # 4
     if governing is None and math.isnan(facts.run_ratio):
         why = "; ".join(facts.failures) or "no component gave a result"
-        would_settle = (Remark(AssessmentKind.INPUT),)
-        return Decision(Verdict.CANNOT_BE_TOLD, math.nan, (math.nan, math.nan), why, doubts, would_settle)
+        would_settle = (RockingWarning(AssessmentKind.INPUT),)
+        return Decision(Verdict.CANNOT_BE_TOLD, math.nan, (math.nan, math.nan), why, warnings, would_settle)
 
     if governing is None:
         # 5: one run, whose scatter nobody knows.
         word = Verdict.PROBABLY_STANDS if facts.run_ratio <= FAR else Verdict.UNCERTAIN
         why = "one run as recorded, without an ensemble"
-        would_settle = (Remark(AssessmentKind.ENSEMBLE),)
+        would_settle = (RockingWarning(AssessmentKind.ENSEMBLE),)
         share = float(facts.run_ratio == math.inf)
         interval = share, share
     else:
         # 6: the worst crack; statics' own keeps a word in it.
         word = _envelope((crack, crack.step(risk)) for crack in followed)
-        would_settle = facts.remarks
+        would_settle = facts.settling
         # Not that of the worst step: by their error fewer members may have the worse word and the smaller share.
         share = max(crack.share for crack in followed)
         why = _counted(facts, worse_other)
@@ -98,7 +107,7 @@ def decide(facts: AllFacts) -> Decision:
             why = f"{why}; {would} if it did not slide first, at {crack_left_out.slides_at:.2g} g"
         if facts.top is not None:
             why = f"{why}; {facts.top.brief}"
-            would_settle = (*would_settle, Remark(AssessmentKind.TIE_THE_TOP))
+            would_settle = (*would_settle, RockingWarning(AssessmentKind.TIE_THE_TOP))
         of_part = [crack for crack in followed if crack.part == governing.part]
         first = next((crack for crack in of_part if not crack.bulges), governing)
         disagree = not governing.bulges and governing.step(risk) is not first.step(risk)
@@ -111,9 +120,9 @@ def decide(facts: AllFacts) -> Decision:
         )
         if open_ and falls_without.badness < Verdict.PROBABLY_OVERTURNS.badness:
             word = Verdict.CANNOT_BE_TOLD
-            would_settle = (Remark(AssessmentKind.TOLERANCE),)
+            would_settle = (RockingWarning(AssessmentKind.TOLERANCE),)
         if any(crack.failed for crack in followed):
-            doubts = (*doubts, Remark(AssessmentKind.MEMBERS_FAILED))
+            warnings = (*warnings, RockingWarning(AssessmentKind.MEMBERS_FAILED))
 
     if sliding:
         why = f"{sliding}; {why}"
@@ -127,48 +136,48 @@ def decide(facts: AllFacts) -> Decision:
 
     # 8
     if word is Verdict.OVERTURNS:
-        return Decision(word, share, interval, why, doubts)
+        return Decision(word, share, interval, why, warnings)
     # 8b, 9: what bounds the step of the mechanism.
-    limits = [Remark(facts.beyond)] if facts.held and facts.beyond else []
+    limits = [RockingWarning(facts.beyond)] if facts.held and facts.beyond else []
     slides = not math.isnan(facts.friction_needed)
     if slides:
-        limits.append(Remark(AssessmentKind.FRICTION_SHORT))
+        limits.append(RockingWarning(AssessmentKind.FRICTION_SHORT))
     if facts.needs_stones and facts.stacks is None:
-        limits.append(Remark(AssessmentKind.STONES_TELL))
+        limits.append(RockingWarning(AssessmentKind.STONES_TELL))
     if limits and (facts.stacks is None or facts.stacks[1] < UNANIMOUS):
         word = worse(word, Verdict.PROBABLY_STANDS)
-        doubts = (*doubts, *limits)
+        warnings = (*warnings, *limits)
         would_settle = (
             *would_settle,
             *contact_dynamics,
-            *([Remark(AssessmentKind.FRICTION)] if slides else []),
+            *([RockingWarning(AssessmentKind.FRICTION)] if slides else []),
         )
     if facts.anchors_slide:
         word = worse(word, Verdict.PROBABLY_STANDS)
-        doubts = (*doubts, Remark(AssessmentKind.ANCHOR_GIVES))
-        would_settle = (*would_settle, Remark(AssessmentKind.ANCHORS))
+        warnings = (*warnings, RockingWarning(AssessmentKind.ANCHOR_GIVES))
+        would_settle = (*would_settle, RockingWarning(AssessmentKind.ANCHORS))
     if facts.stacks is not None:
         of_stacks = step(falls=fallen, members=runs, risk=risk)
         if of_stacks.badness > word.badness and runs < UNANIMOUS and not fallen:
             would_settle = (
                 *would_settle,
-                Remark(AssessmentKind.CONTACT_DYNAMICS),
+                RockingWarning(AssessmentKind.CONTACT_DYNAMICS),
             )  # more runs of which none falls would say more
         word = worse(word, of_stacks)
     if word.badness < Verdict.PROBABLY_OVERTURNS.badness:
-        doubts = (*doubts, *left_out)
+        warnings = (*warnings, *left_out)
     # 10: a mechanism that stands says nothing of what it does not follow.
     if (unsettled or missing) and word.badness < Verdict.PROBABLY_OVERTURNS.badness:
         reasons = [*map(str, unsettled), *facts.failures]
         would_settle = contact_dynamics if unsettled else ()
-        would_settle += (Remark(AssessmentKind.COMPONENT),) if missing else ()
+        would_settle += (RockingWarning(AssessmentKind.COMPONENT),) if missing else ()
         at_least = interval[0], 1.0
         return Decision(
-            Verdict.CANNOT_BE_TOLD, math.nan, at_least, "; ".join([*reasons, why]), doubts, would_settle
+            Verdict.CANNOT_BE_TOLD, math.nan, at_least, "; ".join([*reasons, why]), warnings, would_settle
         )
     # 11
     printed = math.nan if word is Verdict.CANNOT_BE_TOLD else share
-    return Decision(word, printed, interval, why, doubts, would_settle)
+    return Decision(word, printed, interval, why, warnings, would_settle)
 
 
 def _slides_throughout(facts: AllFacts) -> str:

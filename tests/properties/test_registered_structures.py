@@ -253,7 +253,7 @@ def test_contacts_are_finite_or_refused_in_words(structure):
         found = structure.contact_forces(rotation, [0.1, -0.1], ground=[0.5, -0.5])
     except UnknownContacts as why:
         assert len(str(why).split()) > 4
-        told = {remark.kind for remark in structure.cautions}
+        told = {warning.kind for warning in structure.cautions}
         assert told & {StructureKind.FRAME_CONTACTS, StructureKind.CURVE_ALONE}
     else:
         assert np.isfinite(found.normal).all() and np.isfinite(found.tangential).all()

@@ -44,10 +44,10 @@ def test_a_column_is_the_block_that_it_is_cut_from():
 def test_the_rule_stands_only_where_every_joint_does():
     mechanisms = members(6)["column"].mechanisms
     lift = mechanisms[0].uplift_multiplier * GRAVITY
-    assert ruled(mechanisms, 0, pulse(0.9 * lift))[0].word is Verdict.STANDS
-    assert ruled(mechanisms, 0, pulse(12 * lift))[0].word is Verdict.OVERTURNS
+    assert ruled(mechanisms, 0, pulse(0.9 * lift))[0].verdict is Verdict.STANDS
+    assert ruled(mechanisms, 0, pulse(12 * lift))[0].verdict is Verdict.OVERTURNS
     decision, shares = ruled({0: mechanisms[0], 5: mechanisms[5]}, 5, pulse(3 * lift))
-    assert shares[0] == 1 and shares[5] == 0 and decision.word is Verdict.UNCERTAIN
+    assert shares[0] == 1 and shares[5] == 0 and decision.verdict is Verdict.UNCERTAIN
 
 
 def test_the_scores_count_what_they_name():

@@ -22,7 +22,7 @@ from rocking.assessment.decide import CrackFacts, Facts, Limit, Verdict
 from rocking.assessment.kinds import AssessmentKind
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
-from rocking.remarks import Remark
+from rocking.warnings import RockingWarning
 
 TIMES = np.arange(0, 3, 0.01)
 SINE = Accelerogram(3.0 * np.sin(2 * np.pi * TIMES / 0.8) * (TIMES < 1.6), 0.01)
@@ -44,14 +44,14 @@ def test_a_member_stays_whole_below_uplift_and_falls_far_above_it(kind):
 
 def test_contact_dynamics_decides_what_a_doubt_leaves_open():
     stands = Facts(cracks=(CrackFacts("", 0, 64, farthest=0.5),))
-    doubted = [Limit.untold(Remark(AssessmentKind.CONTACTS_OPEN))]
+    doubted = [Limit.untold(RockingWarning(AssessmentKind.CONTACTS_OPEN))]
     untold = Verdict.CANNOT_BE_TOLD
     assert words_of(replace(stands, stacks=(0, 64)), doubted) == (Verdict.STANDS, untold, Verdict.STANDS)
     assert words_of(replace(stands, stacks=(0, 6)), doubted)[-1] is Verdict.PROBABLY_STANDS
     assert words_of(replace(stands, stacks=(1, 6)), doubted)[-1] is Verdict.UNCERTAIN
     assert words_of(stands, doubted)[-1] is untold
     assert set(words_of(stands)) == {Verdict.STANDS}
-    short = [Limit(doubt=Remark(AssessmentKind.FRICTION_SHORT))]
+    short = [Limit(warning=RockingWarning(AssessmentKind.FRICTION_SHORT))]
     assert words_of(stands, short) == (Verdict.STANDS, Verdict.PROBABLY_STANDS, Verdict.PROBABLY_STANDS)
     assert words_of(replace(stands, stacks=(0, 64)), short)[-1] is Verdict.STANDS
 
@@ -78,7 +78,7 @@ def test_the_scores_count_what_they_name():
     rows = [
         StackRow(
             mechanism=mechanism,
-            doubt=doubt,
+            warning=warning,
             without=without,
             verdict=verdict,
             falls=fell,
@@ -88,7 +88,7 @@ def test_the_scores_count_what_they_name():
             earthquake=str(place),
             **base,
         )
-        for place, (mechanism, doubt, without, verdict, fell, turn, at_storey) in enumerate(cases)
+        for place, (mechanism, warning, without, verdict, fell, turn, at_storey) in enumerate(cases)
     ]
     found = {row.measure: (row.value, row.cases) for row in stack_scores(rows) if row.part == "spire"}
     assert found['falls among "stands" by mechanisms'] == (0.5, 4)

@@ -440,16 +440,16 @@ def test_drawing_and_traces_are_in_view(page, browser, width, height):
     assert browser.execute_script(edge.format("#mechanism", "right")) <= width
     assert browser.execute_script(edge.format("#matrix tbody button", "right")) <= width, "one whole cell"
     told = ("record", "closed form")
-    remarks = [
+    warnings = [
         one_element
         for one_element in page("#histories text")
         if any(word in one_element.text for word in told)
     ]
-    assert len(remarks) == 2
-    for remark in remarks:
+    assert len(warnings) == 2
+    for warning in warnings:
         frames = [element.rect for element in page("#histories rect")]
-        below = min(frame["y"] for frame in frames if frame["y"] > remark.rect["y"])
-        assert remark.rect["y"] + 0.8 * remark.rect["height"] <= below, "no trace runs through it"
+        below = min(frame["y"] for frame in frames if frame["y"] > warning.rect["y"])
+        assert warning.rect["y"] + 0.8 * warning.rect["height"] <= below, "no trace runs through it"
     browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
 

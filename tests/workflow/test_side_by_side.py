@@ -1,4 +1,4 @@
-"""One study, and what each of its documents says of it, side by side: order, counts, worst record and remarks."""
+"""One study, and what each of its documents says of it, side by side: order, counts, worst record and warnings."""
 
 import csv
 import html
@@ -186,9 +186,9 @@ def test_one_worst_record_and_one_word_and_share(made, pages, explored, told) ->
     assert compared == 5
 
 
-def test_one_stream_of_remarks(made, pages, explored, told) -> None:
+def test_one_stream_of_warnings(made, pages, explored, told) -> None:
     study, output = made
-    rows = table(study, "remarks.csv")
+    rows = table(study, "warnings.csv")
     sizes = [row["sentence"] for row in rows if row["kind"] == StructureKind.SIZE_UNUSUAL]
     assert len(sizes) == 2 and all("wall in millimetres" in sentence for sentence in sizes)
     missing = [row["sentence"] for row in rows if row["kind"] == AssessmentKind.VERTICAL_MISSING]
@@ -208,7 +208,7 @@ def test_one_stream_of_remarks(made, pages, explored, told) -> None:
         assert all(sentence in report for sentence in sizes)
         (row,) = (
             row
-            for row in table(study, "remarks.csv", record)
+            for row in table(study, "warnings.csv", record)
             if row["kind"] == AssessmentKind.VERTICAL_MISSING
         )
         own = (study.results / record / RECORD_SCRIPT).read_text(encoding="utf-8")

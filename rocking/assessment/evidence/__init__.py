@@ -1,9 +1,9 @@
-"""Evidence: what speaks against the word of the mechanisms, each kind a row, in the order of looking.
+"""Evidence: what speaks against the verdict of the mechanisms, each kind a row, in the order of looking.
 
-The word of the mechanisms comes first and is asked once. Each kind of evidence then says whether it is due, given the
-word so far, looks, and sets a limit: no safer than this, for this doubt, until so many runs of contact dynamics say
-otherwise. A limit only ever makes a word worse, so that the last word is that of the mechanisms, of every limit and of
-the runs together (`decide`).
+The verdict of the mechanisms comes first and is asked once. Each kind of evidence then says whether it is due, given
+the verdict so far, looks, and sets a limit: no safer than this, with this warning, until so many runs of contact
+dynamics say otherwise. A limit only ever makes a verdict worse, so that the last verdict is that of the mechanisms, of
+every limit and of the runs together (`decide`).
 """
 
 from dataclasses import replace
@@ -22,11 +22,11 @@ from rocking.assessment.evidence.walls import Anchors, NotFollowed, TiesGive, Tu
 class Evidence(Protocol):
     """One kind of evidence. Its docstring is its row in docs/pages/limits.md: what it is, a colon, what it says."""
 
-    def due(self, word: Verdict, asked: Asked) -> bool:
-        """Whether it is looked for, given the word so far: it may change that, and is worth what it costs."""
+    def due(self, verdict: Verdict, asked: Asked) -> bool:
+        """Whether it is looked for, given the verdict so far: it may change that, and is worth what it costs."""
 
     def look(self, asked: Asked) -> Limit | ContactShare | None:
-        """Return what was found; None where nothing speaks against the word."""
+        """Return what was found; None where nothing speaks against the verdict."""
 
 
 UNTOLD: tuple[Evidence, ...] = (NotFollowed(), Thrown(), ContactsOpen())
@@ -51,12 +51,12 @@ def gathered(asked: Asked) -> CaseResult:
     if asked.slides_throughout:
         case = replace(case, slides_at=slides_at(asked.counting[0]))
     asked.facts = case.facts(asked.structure)
-    word = decide(asked.facts).word
+    verdict = decide(asked.facts).verdict
     for evidence in EVIDENCE:
-        found = evidence.look(asked) if evidence.due(word, asked) else None
+        found = evidence.look(asked) if evidence.due(verdict, asked) else None
         if isinstance(found, Limit):
             asked.limits.append(found)
-            word = worse(word, found.at_best)
+            verdict = worse(verdict, found.at_best)
         elif found is not None:
             asked.contact = found
     return replace(case, limits=tuple(asked.limits), contact=asked.contact)

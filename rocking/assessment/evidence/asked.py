@@ -62,14 +62,14 @@ class Asked:
         """Whether nothing cheaper than contact dynamics is asked: it slides throughout, or its stones were followed."""
         return self.slides_throughout or bool(self.contact and self.contact.runs)
 
-    def may_be_untold(self, word: Verdict) -> bool:
+    def may_be_untold(self, verdict: Verdict) -> bool:
         """Whether something may show that nothing can be told of it, and nothing did so far."""
-        falls = word.badness >= Verdict.PROBABLY_OVERTURNS.badness
+        falls = verdict.badness >= Verdict.PROBABLY_OVERTURNS.badness
         return not (falls or self.slides_throughout or self.limits)
 
-    def moves(self, word: Verdict) -> bool:
+    def moves(self, verdict: Verdict) -> bool:
         """Whether it lifts, and its mechanisms leave open what becomes of it."""
-        return not self.facts.rests and word not in (Verdict.OVERTURNS, Verdict.CANNOT_OVERTURN)
+        return not self.facts.rests and verdict not in (Verdict.OVERTURNS, Verdict.CANNOT_OVERTURN)
 
     def contacts(self, structure: Structure | None = None) -> ContactShare:
         """Return how many runs of contact dynamics fall, of another `structure` in its place where one is given."""

@@ -19,10 +19,10 @@ from rocking.errors import RockingError
 from rocking.motion.integration import integrate, strict
 from rocking.motion.response import check_model
 from rocking.records import Accelerogram
-from rocking.remarks import Remark
 from rocking.structures import Structure
 from rocking.structures.leaves import parts_of
 from rocking.structures.linkage import Turning
+from rocking.warnings import RockingWarning
 
 
 class Thrown:
@@ -30,13 +30,13 @@ class Thrown:
     contact dynamics follows it.
     """
 
-    def due(self, word: Verdict, asked: Asked) -> bool:
-        return asked.may_be_untold(word)
+    def due(self, verdict: Verdict, asked: Asked) -> bool:
+        return asked.may_be_untold(verdict)
 
     def look(self, asked: Asked) -> Limit | None:
         tapering = (name for name, part in parts_of(asked.structure) if part.joints.courses_taper)
         lifts = any(asked.case.largest_of_part(name) > 0 for name in tapering)
-        return Limit.untold(Remark(AssessmentKind.COURSES_THROWN)) if lifts else None
+        return Limit.untold(RockingWarning(AssessmentKind.COURSES_THROWN)) if lifts else None
 
 
 LEAST_KEPT = 0.3
@@ -48,8 +48,8 @@ class ContactsOpen:
     *cannot be told* until contact dynamics follows it.
     """
 
-    def due(self, word: Verdict, asked: Asked) -> bool:
-        return asked.may_be_untold(word)
+    def due(self, verdict: Verdict, asked: Asked) -> bool:
+        return asked.may_be_untold(verdict)
 
     def look(self, asked: Asked) -> Limit | None:
         kinds = (
@@ -63,7 +63,7 @@ class ContactsOpen:
             for name, part in parts_of(asked.structure)
         )
         kind = next((kind for kind in kinds if kind is not None), None)
-        return None if kind is None else Limit.untold(Remark(kind))
+        return None if kind is None else Limit.untold(RockingWarning(kind))
 
 
 def why_open(
@@ -120,9 +120,9 @@ class Friction:
     friction say otherwise, or stones.
     """
 
-    def due(self, word: Verdict, asked: Asked) -> bool:
+    def due(self, verdict: Verdict, asked: Asked) -> bool:
         exempt = asked.structure.joints.friction >= asked.structure.joints.stand_on_friction
-        return word in (Verdict.STANDS, Verdict.PROBABLY_STANDS) and not exempt and not asked.is_settled
+        return verdict in (Verdict.STANDS, Verdict.PROBABLY_STANDS) and not exempt and not asked.is_settled
 
     def look(self, asked: Asked) -> Limit | None:
         lifting = next(candidate for candidate in asked.counting if candidate not in asked.sliding)
@@ -133,8 +133,8 @@ class Friction:
         if math.isnan(needed):
             return None
         return Limit(
-            doubt=Remark(AssessmentKind.FRICTION_SHORT),
-            settles=(Remark(AssessmentKind.FRICTION),),
+            warning=RockingWarning(AssessmentKind.FRICTION_SHORT),
+            settles=(RockingWarning(AssessmentKind.FRICTION),),
             # Stones stand or slide on what they have.
             lifted_by=1 if asked.structure.joints.as_stones else UNANIMOUS,
             value=needed,

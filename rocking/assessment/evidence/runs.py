@@ -4,7 +4,7 @@ from rocking.assessment.contacts import ContactShare
 from rocking.assessment.decide import Limit, Verdict
 from rocking.assessment.evidence.asked import Asked
 from rocking.assessment.kinds import AssessmentKind
-from rocking.remarks import Remark
+from rocking.warnings import RockingWarning
 
 
 class AsStones:
@@ -12,11 +12,11 @@ class AsStones:
     its runs as stones; with `fidelity: contact` always, unless it rests or overturns as a mechanism.
     """
 
-    def due(self, word: Verdict, asked: Asked) -> bool:
+    def due(self, verdict: Verdict, asked: Asked) -> bool:
         fidelity = asked.settings.fidelity
-        if fidelity == "quick" or not asked.structure.joints.as_stones or not asked.moves(word):
+        if fidelity == "quick" or not asked.structure.joints.as_stones or not asked.moves(verdict):
             return False
-        return fidelity == "contact" or asked.structure.joints.need_stones or word is not Verdict.STANDS
+        return fidelity == "contact" or asked.structure.joints.need_stones or verdict is not Verdict.STANDS
 
     def look(self, asked: Asked) -> ContactShare:
         return asked.contacts()
@@ -27,11 +27,11 @@ class StonesMissing:
     *probably stands*.
     """
 
-    def due(self, word: Verdict, asked: Asked) -> bool:
-        return asked.structure.joints.need_stones and asked.moves(word) and not asked.is_settled
+    def due(self, verdict: Verdict, asked: Asked) -> bool:
+        return asked.structure.joints.need_stones and asked.moves(verdict) and not asked.is_settled
 
     def look(self, asked: Asked) -> Limit:
-        return Limit(doubt=Remark(AssessmentKind.STONES_TELL), lifted_by=1)
+        return Limit(warning=RockingWarning(AssessmentKind.STONES_TELL), lifted_by=1)
 
 
 class Anchored:
@@ -39,8 +39,8 @@ class Anchored:
     `fidelity: contact` 64, and with `quick` none.
     """
 
-    def due(self, word: Verdict, asked: Asked) -> bool:
-        slides_out = any(limit.doubt.kind is AssessmentKind.ANCHOR_GIVES for limit in asked.limits)
+    def due(self, verdict: Verdict, asked: Asked) -> bool:
+        slides_out = any(limit.warning.kind is AssessmentKind.ANCHOR_GIVES for limit in asked.limits)
         return slides_out and asked.settings.fidelity != "quick" and not asked.is_settled
 
     def look(self, asked: Asked) -> ContactShare | None:
@@ -56,13 +56,13 @@ class Stacks:
     of it; with `fidelity: contact` 64 runs, and also of what *probably stands* for a limit above.
     """
 
-    def due(self, word: Verdict, asked: Asked) -> bool:
+    def due(self, verdict: Verdict, asked: Asked) -> bool:
         fidelity = asked.settings.fidelity
         would_settle = [limit for limit in asked.limits if limit.by_contacts]
         if fidelity == "quick" or asked.is_settled or asked.contact or not asked.facts.stackable:
             return False
         open_ = (Verdict.CANNOT_BE_TOLD, Verdict.PROBABLY_STANDS)[: 2 if fidelity == "contact" else 1]
-        return any(word in open_ or limit.value > 0 for limit in would_settle)
+        return any(verdict in open_ or limit.value > 0 for limit in would_settle)
 
     def look(self, asked: Asked) -> ContactShare:
         return asked.contacts()

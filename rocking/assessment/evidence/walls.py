@@ -12,9 +12,9 @@ from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import RockingError
 from rocking.floors.place import swinging
 from rocking.motion.integration import Members, integrate_members, strict
-from rocking.remarks import Remark
 from rocking.structures import Structure
 from rocking.structures.leaves import parts_of
+from rocking.warnings import RockingWarning
 
 BEYOND = 0.4
 """Share of the critical rotation beyond which a chain of a held wall may fall though its mechanism stands (theory:
@@ -26,15 +26,15 @@ class NotFollowed:
     dynamics follows it.
     """
 
-    def due(self, word: Verdict, asked: Asked) -> bool:
-        return asked.may_be_untold(word)
+    def due(self, verdict: Verdict, asked: Asked) -> bool:
+        return asked.may_be_untold(verdict)
 
     def look(self, asked: Asked) -> Limit | None:
         weakest = [weakest_not_followed(part) for _, part in parts_of(asked.structure)]
         reached = asked.motions.excitation * (1 + asked.settings.ensemble.amplitude_range)
         if not any(unknown and reached > unknown.uplift_multiplier for unknown in weakest):
             return None
-        return Limit.untold(Remark(AssessmentKind.NOT_FOLLOWED))
+        return Limit.untold(RockingWarning(AssessmentKind.NOT_FOLLOWED))
 
 
 class TurnsFar:
@@ -42,8 +42,8 @@ class TurnsFar:
     little: at best *probably stands*, until 64 stacks say otherwise.
     """
 
-    def due(self, word: Verdict, asked: Asked) -> bool:
-        return asked.moves(word) and not asked.slides_throughout and asked.case.ensembles is not None
+    def due(self, verdict: Verdict, asked: Asked) -> bool:
+        return asked.moves(verdict) and not asked.slides_throughout and asked.case.ensembles is not None
 
     def look(self, asked: Asked) -> Limit | None:
         held = {name for name, part in parts_of(asked.structure) if part.is_held}
@@ -52,7 +52,7 @@ class TurnsFar:
             crack.counts and crack.facts.farthest > BEYOND and crack.part in held
             for crack in asked.case.ensembles.followed
         )
-        return Limit(doubt=Remark(AssessmentKind.HELD_BEYOND)) if far else None
+        return Limit(warning=RockingWarning(AssessmentKind.HELD_BEYOND)) if far else None
 
 
 class Anchors:
@@ -60,14 +60,14 @@ class Anchors:
     stands*, until 64 stacks whose ties pull no more than their anchors give say otherwise.
     """
 
-    def due(self, word: Verdict, asked: Asked) -> bool:
-        return word.badness < Verdict.CANNOT_BE_TOLD.badness and not asked.is_settled
+    def due(self, verdict: Verdict, asked: Asked) -> bool:
+        return verdict.badness < Verdict.CANNOT_BE_TOLD.badness and not asked.is_settled
 
     def look(self, asked: Asked) -> Limit | None:
         if not anchors_slide(asked.structure, asked.motions):
             return None
-        settles = (Remark(AssessmentKind.ANCHORS),)
-        return Limit(doubt=Remark(AssessmentKind.ANCHOR_GIVES), settles=settles, at_rest=True)
+        settles = (RockingWarning(AssessmentKind.ANCHORS),)
+        return Limit(warning=RockingWarning(AssessmentKind.ANCHOR_GIVES), settles=settles, at_rest=True)
 
 
 def anchors_slide(structure: Structure, motions: GroundMotions) -> bool:
@@ -82,12 +82,12 @@ class TiesGive:
     otherwise.
     """
 
-    def due(self, word: Verdict, asked: Asked) -> bool:
-        return word is Verdict.STANDS and not asked.is_settled
+    def due(self, verdict: Verdict, asked: Asked) -> bool:
+        return verdict is Verdict.STANDS and not asked.is_settled
 
     def look(self, asked: Asked) -> Limit | None:
         gives = any(ties_give(part, asked.motions, asked.settings) for _, part in parts_of(asked.structure))
-        return Limit(doubt=Remark(AssessmentKind.TIES_GIVE), at_rest=True) if gives else None
+        return Limit(warning=RockingWarning(AssessmentKind.TIES_GIVE), at_rest=True) if gives else None
 
 
 def ties_give(structure: Structure, motions: GroundMotions, settings: AssessmentSettings) -> bool:

@@ -30,11 +30,11 @@ from rocking.assessment.rows.of_record import OfStructure as OfStructure
 from rocking.assessment.rows.of_record import PredictedCase as PredictedCase
 from rocking.assessment.rows.of_record import PredictionRow as PredictionRow
 from rocking.assessment.rows.of_record import RecordRows as RecordRows
-from rocking.assessment.rows.of_record import RemarkRow as RemarkRow
 from rocking.assessment.rows.of_record import SupportRow as SupportRow
 from rocking.assessment.rows.of_record import TimingRow as TimingRow
 from rocking.assessment.rows.of_record import VariationRow as VariationRow
 from rocking.assessment.rows.of_record import VerdictRow as VerdictRow
+from rocking.assessment.rows.of_record import WarningRow as WarningRow
 from rocking.assessment.rows.of_record import counted_cases as counted_cases
 from rocking.assessment.rows.of_record import history_rows as history_rows
 from rocking.assessment.rows.of_record import identities_of as identities_of

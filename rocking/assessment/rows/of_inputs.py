@@ -10,7 +10,6 @@ from rocking.catalogue.place import Coordinates
 from rocking.errors import StructureError
 from rocking.pulses import Pulse, PulseEvidence, VelocityPulse
 from rocking.pulses.pulse import PulseAnalysis
-from rocking.remarks import Kind
 from rocking.signal.measures import RecordMeasures, record_measures
 from rocking.structures import Side, Structure
 from rocking.structures.capacity import StaticCurve
@@ -18,6 +17,7 @@ from rocking.structures.crackable import WEAK_MASONRY
 from rocking.structures.equivalent_block import EquivalentBlock, Scale
 from rocking.structures.mechanism import PRINTED_SCALE
 from rocking.tables import Columns, RowOf, row
+from rocking.warnings import Kind
 
 if TYPE_CHECKING:  # else who reads a table would load numba
     from rocking.assessment.motions import Component

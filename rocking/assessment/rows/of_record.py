@@ -36,11 +36,11 @@ from rocking.assessment.rows.of_inputs import (
 from rocking.catalogue.place import Coordinates
 from rocking.errors import RockingError, one_structure
 from rocking.floors.place import FloorMeasures
-from rocking.remarks import Kind, Remark
 from rocking.sine_pulse import Regime
 from rocking.structures.linkage import Reaction
 from rocking.structures.structure import Candidate
 from rocking.tables import Columns, Row, column, row
+from rocking.warnings import Kind, RockingWarning
 
 if TYPE_CHECKING:  # else who reads a table would load numba
     from rocking.assessment.case import (
@@ -371,13 +371,13 @@ class VerdictRow(DecidedRow[OfStructure]):
         "Largest share that overturns, likewise", lambda decision: decision.share_high
     )
     why: str = of_decision("Reason for the verdict", lambda decision: decision.why)
-    doubts: tuple[Kind, ...] = of_decision(
+    warnings: tuple[Kind, ...] = of_decision(
         "Kinds of warning: what may make it worse",
-        lambda decision: tuple(doubt.kind for doubt in decision.doubts),
+        lambda decision: tuple(warning.kind for warning in decision.warnings),
     )
     would_settle: tuple[Kind, ...] = of_decision(
         "What would settle it, by kind",
-        lambda decision: tuple(remark.kind for remark in decision.would_settle),
+        lambda decision: tuple(warning.kind for warning in decision.would_settle),
     )
     overturning_members: int = of_ensemble(
         "Number of members that overturn", lambda ensemble: ensemble.overturning_members
@@ -446,10 +446,12 @@ class VerdictRow(DecidedRow[OfStructure]):
         "ground and at the worst period)",
         lambda reserve: reserve.limit,
     )
-    reserve_doubts: tuple[Kind, ...] = of_structure(
+    reserve_warnings: tuple[Kind, ...] = of_structure(
         "Kinds of warning for which the reserve may be too high: contact dynamics cannot follow it",
         lambda of: (
-            tuple(doubt.kind for doubt in of.period_result.reserve_doubts) if of.period_result.reserve else ()
+            tuple(warning.kind for warning in of.period_result.reserve_warnings)
+            if of.period_result.reserve
+            else ()
         ),
     )
     decided_by: str = of_structure(
@@ -750,8 +752,8 @@ class FailureRow(AnyCaseRow):
     message: str = column("Sentence: what is wrong, what is allowed, what to do")
 
 
-@row("remarks")
-class RemarkRow(Row):
+@row("warnings")
+class WarningRow(Row):
     """One row per warning on a record, a structure or a setting; those of the study itself name no record."""
 
     record: str = column(f"{RECORD}; empty: of the study itself")
@@ -760,14 +762,14 @@ class RemarkRow(Row):
     sentence: str = column("The warning in words")
 
     @classmethod
-    def on(cls, remark: Remark, record: str = "", about: str = "") -> "RemarkRow":
-        """Return the row of a remark. about: where this is not what the remark itself says."""
-        return cls(record=record, about=about or remark.about, kind=remark.kind, sentence=str(remark))
+    def on(cls, warning: RockingWarning, record: str = "", about: str = "") -> "WarningRow":
+        """Return the row of a warning. about: where this is not what the warning itself says."""
+        return cls(record=record, about=about or warning.about, kind=warning.kind, sentence=str(warning))
 
     @classmethod
-    def of_study(cls, remarks: Iterable[Remark]) -> "list[RemarkRow]":
+    def of_study(cls, warnings: Iterable[RockingWarning]) -> "list[WarningRow]":
         """Return the rows of what there is to say of a study before it meets a record."""
-        return [cls.on(remark) for remark in remarks]
+        return [cls.on(warning) for warning in warnings]
 
 
 @row("timings")
@@ -788,7 +790,7 @@ class RecordRows:
     comparison: Sequence[ComparisonRow] = ()
     variations: Sequence[VariationRow] = ()
     failures: Sequence[FailureRow] = ()
-    remarks: Sequence[RemarkRow] = ()
+    warnings: Sequence[WarningRow] = ()
     timings: Sequence[TimingRow] = ()
     verdicts: Sequence[VerdictRow] = ()
     supports: Sequence[SupportRow] = ()
@@ -805,7 +807,7 @@ class RecordRows:
             MechanismRow: self.mechanisms,
             SupportRow: self.supports,
             FailureRow: self.failures,
-            RemarkRow: self.remarks,
+            WarningRow: self.warnings,
             TimingRow: self.timings,
             VerdictRow: self.verdicts,
         }
@@ -836,22 +838,24 @@ def _as_failures(
         )
 
 
-def _remarked(result: "RecordResult", vertical: bool) -> list[RemarkRow]:
-    """The remarks on the files of a record and on what was integrated under it, each once."""
+def _warned(result: "RecordResult", vertical: bool) -> list[WarningRow]:
+    """The warnings on the files of a record and on what was integrated under it, each once."""
     record = result.record
-    remarked = [
-        RemarkRow.on(remark, record, remark.about or name)
+    warned = [
+        WarningRow.on(warning, record, warning.about or name)
         for name, accelerogram in zip(result.names, result.accelerograms, strict=True)
-        for remark in accelerogram.warnings
+        for warning in accelerogram.warnings
     ]
     if vertical and result.components and not any(component.vertical for component in result.components):
-        remarked.append(RemarkRow.on(Remark(AssessmentKind.VERTICAL_MISSING, record), record, "vertical"))
-    remarked += [
-        RemarkRow.on(response.warning, record, structure)
+        warned.append(
+            WarningRow.on(RockingWarning(AssessmentKind.VERTICAL_MISSING, record), record, "vertical")
+        )
+    warned += [
+        WarningRow.on(response.warning, record, structure)
         for (_, structure, _), response in result.responses.items()
         if response.warning
     ]
-    return list(dict.fromkeys(remarked))
+    return list(dict.fromkeys(warned))
 
 
 def identities_of(result: "RecordResult", settings_sha256: str = "") -> dict[str, Identity]:
@@ -928,7 +932,7 @@ def rows_of_record(
         comparison=comparison,
         variations=variations,
         failures=failures,
-        remarks=_remarked(result, vertical),
+        warnings=_warned(result, vertical),
         timings=[
             TimingRow(record=record, stage=stage, duration_s=cpu) for stage, cpu in result.durations.items()
         ],

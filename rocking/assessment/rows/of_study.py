@@ -217,7 +217,9 @@ def falls_under(
     if not worst:
         return None
     shares = [row.overturning_share for row in worst]
-    without_share = sum(math.isnan(row.overturning_share) and not row.decision.word.stays_up for row in worst)
+    without_share = sum(
+        math.isnan(row.overturning_share) and not row.decision.verdict.stays_up for row in worst
+    )
     still = all(row.rotation_ratio == 0 for row in worst)
     return ExpectedFallsRow(
         record=worst[0].record,
@@ -319,7 +321,7 @@ SUMMARY_TABLES: tuple[type[Row], ...] = (
     inputs.StructureRow,
     inputs.CapacityRow,
     rows.FailureRow,
-    rows.RemarkRow,
+    rows.WarningRow,
     rows.TimingRow,
 )
 """The rows of the tables of the summary folder."""

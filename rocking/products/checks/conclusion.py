@@ -9,7 +9,7 @@ from rocking.codes.check import Role, ratio_in_words, says_nothing
 from rocking.codes.kinds import CheckKind
 from rocking.products.checks.rows import CodeCheckRow
 from rocking.quantities import counted, percents
-from rocking.remarks import Remark
+from rocking.warnings import RockingWarning
 
 
 @dataclass(frozen=True)
@@ -45,19 +45,19 @@ class CodeConclusion:
         return (not self.verified, *ratios)
 
     @property
-    def remark(self) -> Remark:
+    def warning(self) -> RockingWarning:
         """The conclusion: "verified by C8.7.1.2.1.9"."""
         kind = CheckKind.VERIFIED if self.verified else CheckKind.NOT_VERIFIED
-        return Remark.of(kind, clause=self.decisive.clause)
+        return RockingWarning.of(kind, clause=self.decisive.clause)
 
     @property
-    def other_sets(self) -> Remark | None:
+    def other_sets(self) -> RockingWarning | None:
         """How many sets of other stations would meet the dynamic check, where one was made."""
         if self.other_share is None:
             return None
         if says_nothing(self.other_share):
-            return Remark(CheckKind.OTHER_SETS_UNKNOWN)
-        return Remark.of(CheckKind.OTHER_SETS, share=percents(*self.other_share))
+            return RockingWarning(CheckKind.OTHER_SETS_UNKNOWN)
+        return RockingWarning.of(CheckKind.OTHER_SETS, share=percents(*self.other_share))
 
     @property
     def other_share(self) -> tuple[float, float] | None:
@@ -81,7 +81,7 @@ class CodeConclusion:
         """The conclusion, and after "verified" what other stations would say of it."""
         others = self.other_sets
         in_brackets = f" ({others})" if self.verified and others else ""
-        return f"{self.remark}{in_brackets}"
+        return f"{self.warning}{in_brackets}"
 
     @property
     def name(self) -> str:

@@ -33,7 +33,7 @@ class SignWords:
         "is given for comparison only."
     )
     variants_title: str = (
-        "The variants, drawn on one scale: word and share under the worst record of each, ratios at the "
+        "The variants, drawn on one scale: verdict and share under the worst record of each, ratios at the "
         "design level."
     )
     records_title: str = "The records of the dynamic check"

@@ -32,7 +32,6 @@ from rocking.products.checks.figures import bars_figure, basis_figure, selection
 from rocking.products.checks.pages import Answer, Basis, SetFigure, Sheet, SignWords, StructuresPage, Sure
 from rocking.products.checks.rows import KINDS, code_check_rows
 from rocking.quantities import GRAVITY, percent
-from rocking.remarks import Kind, Phrase, Remark
 from rocking.reports.pages import Cell, Fact, Footer, PageSettings, PageTable, Strip
 from rocking.reports.printing import UNITS_IN_WORDS, displaying, stamp, strong, table, unit_of
 from rocking.reports.printing import words as or_a_dash
@@ -42,6 +41,7 @@ from rocking.reports.variants import strips
 from rocking.structures import Structure
 from rocking.structures.crackable import Crackable
 from rocking.structures.structure import AS_DESCRIBED, Candidate
+from rocking.warnings import Kind, Phrase, RockingWarning
 
 _OFTEN = 0.1
 """Share of the records beyond which a structure that is verified is said to contradict it."""
@@ -57,12 +57,12 @@ class CheckedStructure:
     checked: None where it could not be checked, and `refusal` then says why. overturning_share: mean over the stations
     of the study, of each the mean over its records, nan without any; share_interval: its 90 % interval by earthquakes;
     records, stations, earthquakes: how many there are, but for those of which that is unknown; still: stations at
-    which nothing lifts it. verdicts: stations by the worst verdict on it there, and doubts: what may make
-    one worse than said. reserves: under each record of the study under which one was sought; reserve_doubts: the kinds
-    of doubt for which they may be too high. mechanisms: all in which it may fall. mechanism_shares: of each that was
+    which nothing lifts it. verdicts: stations by the worst verdict on it there, and verdict_warnings: what may make
+    one worse than said. reserves: under each record of the study under which one was sought; reserve_warnings: kinds
+    of warning for which they may be too high. mechanisms: all in which it may fall. mechanism_shares: of each that was
     followed the share of its members that overturns, the mean over stations; largest_forces: the largest force of each
     of its holds over all records, N per metre, nan where it was not followed as recorded. peaks: the least and the
-    largest peak acceleration of the records of the study as they act, m/s². remarks: on the structure and on the design
+    largest peak acceleration of the records of the study as they act, m/s². warnings: on the structure and the design
     level.
     """
 
@@ -71,7 +71,7 @@ class CheckedStructure:
     checked: StructureCheck | None
     place: Place = GROUND
     support: Support | None = None
-    refusal: str | Remark = ""
+    refusal: str | RockingWarning = ""
     untied: StructureCheck | None = None
     variant_of: str = ""
     worst: Conclusion | None = None
@@ -82,14 +82,14 @@ class CheckedStructure:
     earthquakes: int = 0
     still: int = 0
     verdicts: Mapping[Verdict, int] = field(default_factory=dict)
-    doubts: Sequence[Kind] = ()
+    verdict_warnings: Sequence[Kind] = ()
     reserves: Sequence[Reserve] = ()
-    reserve_doubts: Sequence[Kind] = ()
+    reserve_warnings: Sequence[Kind] = ()
     mechanisms: Sequence[Candidate] = ()
     mechanism_shares: Mapping[Candidate, float] = field(default_factory=dict)
     largest_forces: Mapping[Candidate, Sequence[float]] = field(default_factory=dict)
     peaks: tuple[float, float] = (math.nan, math.nan)
-    remarks: Sequence[Remark] = ()
+    warnings: Sequence[RockingWarning] = ()
 
     @property
     def period(self) -> float | None:
@@ -108,16 +108,16 @@ def structures_data(
     settings: PageSettings,
     terms: CodeTerms | None = None,
     selection: Selection | None = None,
-    without_sets: str | Remark = "",
+    without_sets: str | RockingWarning = "",
     unread: Sequence[str] = (),
-    faults: list[Remark] | None = None,
+    faults: list[RockingWarning] | None = None,
 ) -> StructuresPage:
     """Return the pages.
 
     structures: those of one name, at the periods of its support, make one page. terms: what a structure that could not
     be checked would have been checked on. selection: the sets of the dynamic check, None without; without_sets: why
     there are none. unread: the records of the pool that could not be read, each with its reason. faults: takes a
-    remark on each structure whose page could not be made for a fault of this package.
+    warning on each structure whose page could not be made for a fault of this package.
     """
     words = Sentences(settings.language)
     with displaying(settings):
@@ -163,7 +163,7 @@ def _sheets(
     spectrum: DesignSpectrum,
     terms: CodeTerms,
     words: Sentences,
-    faults: list[Remark],
+    faults: list[RockingWarning],
 ) -> tuple[Sheet, ...]:
     """The page of each structure: at the worst period of its support, with the others as lines."""
     by_name: dict[str, list[CheckedStructure]] = {}
@@ -240,8 +240,8 @@ def _sheets(
                     )
                     continue
             except RockingError as error:
-                why = error.remark or str(error)
-        if isinstance(why, Remark) and why.kind is ErrorKind.FAULT:
+                why = error.warning or str(error)
+        if isinstance(why, RockingWarning) and why.kind is ErrorKind.FAULT:
             faults.append(why)
         pages.append(
             Sheet(
@@ -323,7 +323,7 @@ def _conclusion(
         )
     if dynamic is None:
         # Why there are no sets stands above the page.
-        if checked.remark is not None and checked.remark.kind is CheckKind.NO_DISPLACEMENT:
+        if checked.warning is not None and checked.warning.kind is CheckKind.NO_DISPLACEMENT:
             details.append(words("It cannot overturn, so that the linear check alone is made."))
     elif checked.part_of(dynamic) is Role.NO_ANSWER:
         details.append(
@@ -356,7 +356,7 @@ def _conclusion(
 
 def _to_check(page: CheckedStructure, words: Sentences) -> list[str]:
     """What has to be checked of what was typed, before anything else is read."""
-    return [words.of(remark) for remark in page.remarks if remark.kind in TO_CHECK]
+    return [words.of(warning) for warning in page.warnings if warning.kind in TO_CHECK]
 
 
 def _were_it_unknown(checked: StructureCheck, words: Sentences) -> list[str]:
@@ -484,7 +484,7 @@ def _reserve(page: CheckedStructure, words: Sentences) -> tuple[str, str]:
     lows = np.array([reserve.low for reserve in page.reserves])
     reached = lows[~np.isnan(lows)]
     limit = max(reserve.limit for reserve in page.reserves)
-    doubts = ""
+    warnings = ""
     of_all = words.counted(lows.size, "record")
     if lows.size < page.records:  # on a support it is searched at the worst period of each record
         of_all = words(
@@ -493,18 +493,18 @@ def _reserve(page: CheckedStructure, words: Sentences) -> tuple[str, str]:
     if reached.size and lows.size > 1:
         middle = float(np.quantile(np.where(np.isnan(lows), np.inf, lows), 0.5, method="lower"))
         value = f"> {limit:g}\u00a0×" if math.isinf(middle) else f"{words.number(middle, 2)}\u00a0×"
-        doubts += words("; the median over {count} is {value}", count=of_all, value=value)
-    if page.reserve_doubts:
-        reasons = words.listed([words.of(Remark(kind)) for kind in page.reserve_doubts])
-        doubts += words(
+        warnings += words("; the median over {count} is {value}", count=of_all, value=value)
+    if page.reserve_warnings:
+        reasons = words.listed([words.of(RockingWarning(kind)) for kind in page.reserve_warnings])
+        warnings += words(
             "; this is the reserve of the mechanism alone, and too high where {reasons}", reasons=reasons
         )
     if not reached.size:
         return f"{limit:g}\u00a0×", words(
-            "applied to any record lets fewer than 5 % of the members overturn{doubts}.", doubts=doubts
+            "applied to any record lets fewer than 5 % of the members overturn{warnings}.", warnings=warnings
         )
     return f"{words.number(reached.min(), 2)}\u00a0×", words(
-        "applied to the most demanding record lets 5 % of the members overturn{doubts}.", doubts=doubts
+        "applied to the most demanding record lets 5 % of the members overturn{warnings}.", warnings=warnings
     )
 
 
@@ -521,7 +521,7 @@ def _assumptions(page: CheckedStructure, mechanism: CodeCapacity, words: Sentenc
     if isinstance(structure, Crackable) and structure.known_crack:
         known = words.of(structure.known_crack)
         lines.append(f"{known[:1].upper()}{known[1:]}.")
-    lines += [words.of(remark) for remark in page.remarks if remark.kind not in TO_CHECK]
+    lines += [words.of(warning) for warning in page.warnings if warning.kind not in TO_CHECK]
     lines.append(words("Joints do not slide; each part between its cracks stays one body."))
     if getattr(structure, "compressive_strength", None) is None:
         lines.append(words("The masonry does not crush at its edges."))
@@ -764,9 +764,9 @@ def _sentences(page: CheckedStructure, checked: StructureCheck, words: Sentences
                 factor=words.number(static.participating_mass_ratio / letter),
             )
         )
-    if checked.remark and checked.remark.kind is CheckKind.NO_DISPLACEMENT:
-        lines.append(words.of(checked.remark))
-    lines += [words.of(remark) for restraint in checked.restraints for remark in restraint.remarks]
+    if checked.warning and checked.warning.kind is CheckKind.NO_DISPLACEMENT:
+        lines.append(words.of(checked.warning))
+    lines += [words.of(warning) for restraint in checked.restraints for warning in restraint.warnings]
     lines += _lowered(checked, page.untied, words)
     dynamic = checked.dynamic
     if dynamic is not None:
@@ -845,17 +845,21 @@ def _period_table(
 
 
 def _share(page: CheckedStructure, words: Sentences) -> str:
-    """What the study says of the structure there: its words by station, with their doubts."""
+    """What the study says of the structure there: its words by station, with their warnings."""
     counts = ", ".join(
         words(
             "{predicate} under {count}",
-            predicate=words(word.predicate),
-            count=words.counted(page.verdicts[word], "station"),
+            predicate=words(verdict.predicate),
+            count=words.counted(page.verdicts[verdict], "station"),
         )
-        for word in ORDER
-        if page.verdicts.get(word)
+        for verdict in ORDER
+        if page.verdicts.get(verdict)
     )
-    reasons = f" ({'; '.join(words.of(Remark(kind)) for kind in page.doubts)})" if page.doubts else ""
+    reasons = (
+        f" ({'; '.join(words.of(RockingWarning(kind)) for kind in page.verdict_warnings)})"
+        if page.verdict_warnings
+        else ""
+    )
     if not page.stations:
         return words(
             "No record of the study shows whether it overturns{told}.",

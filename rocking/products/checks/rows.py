@@ -101,7 +101,7 @@ def code_check_rows(
             limit_displacement_m=_where_it_is(limit.displacement) if limit else math.nan,
             secant_period_s=limit.period if limit else math.nan,
             confidence_factor=governing.confidence_factor,
-            why=str(check.refusal or checked.remark or ""),
+            why=str(check.refusal or checked.warning or ""),
         )
 
 

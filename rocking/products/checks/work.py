@@ -25,7 +25,6 @@ from rocking.floors.support import Support
 from rocking.products.checks.conclusion import CodeConclusion, code_conclusion_in_words, code_conclusions
 from rocking.products.checks.report import CheckedStructure, structures_data
 from rocking.products.checks.rows import KINDS, CodeCheckRow, code_check_rows
-from rocking.remarks import Remark
 from rocking.reports.pages import Panel, Section
 from rocking.reports.printing import sentence, strong, table_of, words, write_document
 from rocking.structures.structure import Candidate
@@ -36,6 +35,7 @@ from rocking.study.products import CHECKS
 from rocking.study.selection import pool_of, select_for
 from rocking.study.work import Made, Work
 from rocking.tables import rows_of, write_tables
+from rocking.warnings import RockingWarning
 
 
 class Checks(Work):
@@ -87,7 +87,7 @@ def checks_panel(concluded: Sequence[CodeConclusion]) -> Panel:
             (sentence(kind), "0.7", "r", lambda conclusion, kind=kind: conclusion.ratios.get(kind, "–"))
             for kind in kinds
         ),
-        ("Conclusion", "1.5", "l", lambda conclusion: str(conclusion.remark)),
+        ("Conclusion", "1.5", "l", lambda conclusion: str(conclusion.warning)),
         (
             "Met by sets of other stations",
             "1.2",
@@ -124,9 +124,7 @@ def write_checks(
     spectrum = design.spectrum()
     if spectrum is None:
         raise ConfigurationError(CHECKS.refusal(study.settings), design_spectrum=None)
-    worst = {
-        conclusion.verdict.structure: conclusion for conclusion in worst_of_each(conclusions(verdicts, []))
-    }
+    worst = {conclusion.row.structure: conclusion for conclusion in worst_of_each(conclusions(verdicts, []))}
     selection, without_sets, unread = _sets(study)
     of_records = list(records)
     names = named_records(of_records, study.settings.unnamed_events == "each")
@@ -147,7 +145,7 @@ def write_checks(
         records=selection,
     )
     pages = []
-    level = [remark for remark in (design.remark,) if remark]
+    level = [warning for warning in (design.warning,) if warning]
     for name, scene in study.scenes.items():
         own = [row for row in verdicts if row.structure == name]
         for support in scene.place.axis:
@@ -157,7 +155,7 @@ def write_checks(
                 _checked(scene, support, check_at, there, names),
                 worst=worst.get(name),
                 peaks=peaks,
-                remarks=(*level, *scene.remarks),
+                warnings=(*level, *scene.warnings),
             )
             of_scene = [
                 mechanism
@@ -169,7 +167,7 @@ def write_checks(
                     if page.checked:
                         page = _with_mechanisms(page, of_scene, station_of)
             except RockingError as error:
-                page = replace(page, checked=None, refusal=error.remark or str(error))
+                page = replace(page, checked=None, refusal=error.warning or str(error))
             pages.append(page)
             tell(f"{placed(name, period)}: {page.refusal or _checks_in_words(page.checked)}")
     rows = [
@@ -181,7 +179,7 @@ def write_checks(
     write_tables({CodeCheckRow: rows}, folder, "rocking-code-checks", "code_checks.json")
     pdf = folder / "structures.pdf"
     figures = study.settings.figures
-    of_pages: list[Remark] = []
+    of_pages: list[RockingWarning] = []
 
     def write() -> None:
         terms = CodeTerms(limit_state=asked.limit_state, confidence_factor=asked.confidence_factor)
@@ -191,7 +189,7 @@ def write_checks(
 
     faults = made_or_failed(pdf, write, "the log", figures)
     faults += [
-        FailureRow(structure=remark.about, stage="document", message=str(remark)) for remark in of_pages
+        FailureRow(structure=warning.about, stage="document", message=str(warning)) for warning in of_pages
     ]
     for fault in faults:
         tell(fault.message)
@@ -212,7 +210,7 @@ def _checked(
     """
     checked: StructureCheck | None = None
     untied: StructureCheck | None = None
-    refusal: str | Remark = ""
+    refusal: str | RockingWarning = ""
     check_here = partial(
         check_at,
         support=support,
@@ -227,7 +225,7 @@ def _checked(
                 untied = None if alone is None else check_here(alone)
     except RockingError as error:
         checked = None
-        refusal = error.remark or str(error)
+        refusal = error.warning or str(error)
     known = [row for row in verdicts if not math.isnan(row.overturning_share)]
     sample = Sample.named(names[row.record] for row in known)
     shares = sample.by_station(np.array([row.overturning_share for row in known]))
@@ -249,9 +247,9 @@ def _checked(
         earthquakes=sample.earthquakes if known else 0,
         still=int((lifts == 0).sum()),
         verdicts=verdicts_by_station(verdicts, {record: station for record, (station, _) in names.items()}),
-        doubts=sorted({kind for row in verdicts for kind in row.doubts}),
+        verdict_warnings=sorted({kind for row in verdicts for kind in row.warnings}),
         reserves=[row.reserve for row in verdicts if row.reserve is not None],
-        reserve_doubts=sorted({kind for row in verdicts for kind in row.reserve_doubts}),
+        reserve_warnings=sorted({kind for row in verdicts for kind in row.reserve_warnings}),
     )
 
 
@@ -294,13 +292,13 @@ def _checks_in_words(checked: StructureCheck | None) -> str:
     """The checks in a line."""
     checks = checked.checks if checked else ()
     words = ", ".join(f"{KINDS[check.clause]} {check.outcome} ({check.ratio_in_words})" for check in checks)
-    return f"{words}. {checked.remark}" if checked and checked.remark else words
+    return f"{words}. {checked.warning}" if checked and checked.warning else words
 
 
-def _sets(study: Study) -> tuple[Selection | None, str | Remark, list[str]]:
+def _sets(study: Study) -> tuple[Selection | None, str | RockingWarning, list[str]]:
     """The sets of records for the dynamic check, or why there are none; and the records that could not be read."""
     try:
         selection, reasons = select_for(study, load_catalogue(pool_of(study.settings)))
     except RockingError as error:
-        return None, error.remark or str(error), []
+        return None, error.warning or str(error), []
     return selection, "", list(reasons)

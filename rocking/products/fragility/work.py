@@ -139,7 +139,7 @@ def _curves_of(
         for record, component in zip(of_records, accelerograms, strict=True)
     ]
     sample = Sample.of(accelerograms, rows=of_records, each_unnamed=study.settings.unnamed_events == "each")
-    reasons += map(str, sample.remarks)
+    reasons += map(str, sample.warnings)
     curves: dict[tuple[str, float | None], Fragility] = {}
     rows: list[Row] = []
     for support in scene.place.axis:

@@ -13,16 +13,16 @@ Properties = dict[str, Any]
 
 
 def geojson(stations: Sequence[StationRow], verdicts: Sequence[VerdictRow]) -> bytes:
-    """Return a point for each station, with its row and word and share of each structure, and one for each epicentre.
+    """Return a point for each station, with its row, verdict and share of each structure, and one for each epicentre.
 
     verdicts: of each record and structure one. Longitude and latitude stand in this order, in degrees (WGS 84); what is
-    not known is null. A share is the largest of those that make the word.
+    not known is null. A share is the largest of those that make the verdict.
     """
     properties_of: dict[str, Properties] = {}
-    for verdict in verdicts:
-        of_record = properties_of.setdefault(verdict.record, {})
-        of_record[f"{verdict.structure}: word"] = str(verdict.decision.word)
-        of_record[f"{verdict.structure}: share"] = _number(verdict.overturning_share)
+    for row in verdicts:
+        of_record = properties_of.setdefault(row.record, {})
+        of_record[f"{row.structure}: verdict"] = str(row.decision.verdict)
+        of_record[f"{row.structure}: share"] = _number(row.overturning_share)
     features = [
         _point(
             longitude=station.station_longitude_deg,

@@ -119,19 +119,19 @@ def _draw(axes: Axes, stations: Sequence[StationRow], verdicts: Sequence[Verdict
     labels: list[tuple[float, float]] = []
     worst_first = sorted(range(len(stations)), key=lambda place: -_badness(verdicts[place]))
     for place in worst_first:
-        verdict = verdicts[place]
+        row = verdicts[place]
         here = float(east[place]), float(north[place])
-        on_top = 2 + (_badness(verdict) + 1) / 100
-        if verdict is None:
+        on_top = 2 + (_badness(row) + 1) / 100
+        if row is None:
             axes.plot(*here, "x", color="0.5", markersize=4, zorder=on_top)
             continue
-        _, fill, _, hatch = LOOKS[verdict.decision.word]
+        _, fill, _, hatch = LOOKS[row.decision.verdict]
         edge = (0, (1.5, 1)) if hatch else "-"
         axes.scatter(*here, s=38, c=fill, edgecolors="black", linewidths=0.6, linestyle=edge, zorder=on_top)
         near = (max(abs(there[k] - here[k]) / extent / _LABEL[k] for k in (0, 1)) < 1 for there in labels)
         if not any(near):
             labels.append(here)
-            label = cell_text(verdict.decision)
+            label = cell_text(row.decision)
             axes.annotate(label, here, (4, 3), textcoords="offset points", fontsize=6, bbox=_PAPER, zorder=3)
     for _, longitude, latitude in epicentres(stations):
         there = plane(np.array([longitude]), np.array([latitude]), origin)
@@ -150,5 +150,5 @@ def _draw(axes: Axes, stations: Sequence[StationRow], verdicts: Sequence[Verdict
     axes.set_ylabel("north [km]")
 
 
-def _badness(verdict: VerdictRow | None) -> float:
-    return -1.0 if verdict is None else float(verdict.decision.word.badness)
+def _badness(row: VerdictRow | None) -> float:
+    return -1.0 if row is None else float(row.decision.verdict.badness)

@@ -25,8 +25,8 @@ from rocking.records.formats.format import (
     typed_magnitude,
 )
 from rocking.records.kinds import RecordKind
-from rocking.remarks import Remark
 from rocking.signal.accelerogram import Accelerogram
+from rocking.warnings import RockingWarning
 
 _UNAM_HEADER = 160  # lines of the longest header
 _UNAM = Layout("gal", {
@@ -61,7 +61,9 @@ def _read_unam(content: bytes, options: Options) -> list[Accelerogram]:
     return [_unam_channel(own, values, options, notes + surplus) for own, values in channels]
 
 
-def _unam_channel(head: str, values: np.ndarray, options: Options, notes: tuple[Remark, ...]) -> Accelerogram:
+def _unam_channel(
+    head: str, values: np.ndarray, options: Options, notes: tuple[RockingWarning, ...]
+) -> Accelerogram:
     step = text.number("INTERVALO DE MUESTREO", _UNAM.required("step", head))
     keys = "VEL. DE MUESTREO", "FACTOR DE DECIMACION", "ACEL. MAX."
     rate, decimation, place = (optional_number(key(name) + "$", head) for name in keys)
@@ -95,7 +97,7 @@ def _of_channel(head: Sequence[str], channel: int) -> str:
     return "\n".join(own)
 
 
-def _without_repeats(table: np.ndarray, declared: int) -> tuple[np.ndarray, tuple[Remark, ...]]:
+def _without_repeats(table: np.ndarray, declared: int) -> tuple[np.ndarray, tuple[RockingWarning, ...]]:
     """Return `table` without one or two surplus lines at its end that repeat the lines before, and a warning if so."""
     surplus = len(table) - declared
     if not 1 <= surplus <= _REPEATED or declared < 2:
@@ -104,10 +106,10 @@ def _without_repeats(table: np.ndarray, declared: int) -> tuple[np.ndarray, tupl
     before = table[declared - surplus : declared]
     if not (np.array_equal(last, before) or np.all(last == table[declared - 1])):
         return table, ()
-    remark = Remark.of(RecordKind.LINE_SURPLUS, declared=declared)
+    warning = RockingWarning.of(RecordKind.LINE_SURPLUS, declared=declared)
     if surplus > 1:
-        remark = Remark.of(RecordKind.LINES_SURPLUS, declared=declared, lines=surplus)
-    return table[:declared], (remark,)
+        warning = RockingWarning.of(RecordKind.LINES_SURPLUS, declared=declared, lines=surplus)
+    return table[:declared], (warning,)
 
 
 _SMC = Layout("cm/s2", {
@@ -196,17 +198,19 @@ _SMC_TAIL = 8
 
 def _smc_points(
     numbers: np.ndarray, samples: int, is_cut: bool
-) -> tuple[np.ndarray, np.ndarray, tuple[Remark, ...]] | None:
-    """Return (times s, accelerations, remarks) of points of film, None of an uncorrected file of even samples.
+) -> tuple[np.ndarray, np.ndarray, tuple[RockingWarning, ...]] | None:
+    """Return (times s, accelerations, warnings) of points of film, None of an uncorrected file of even samples.
 
     Every other number of such a file is a time: they rise from first to last, as no acceleration does. The header
     counts points or numbers, without the last line where that is of another trace. is_cut: whether a line of comment
     parted the numbers from more of them. Times are printed so coarsely that some points share one.
     """
-    notes: tuple[Remark, ...] = (Remark.of(RecordKind.SEAM_CUT, declared=samples),) if is_cut else ()
+    notes: tuple[RockingWarning, ...] = (
+        (RockingWarning.of(RecordKind.SEAM_CUT, declared=samples),) if is_cut else ()
+    )
     if numbers.size == samples + _SMC_TAIL or numbers.size == 2 * samples + _SMC_TAIL:
         numbers = numbers[:-_SMC_TAIL]
-        notes = (Remark.of(RecordKind.SEAM_CUT, declared=samples),)
+        notes = (RockingWarning.of(RecordKind.SEAM_CUT, declared=samples),)
     is_counted = is_cut or samples in (numbers.size, numbers.size // 2)
     if numbers.size % 2 or numbers.size < 8 or not is_counted:
         return None

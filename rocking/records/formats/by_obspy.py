@@ -25,8 +25,8 @@ from rocking.records.obspy import workspace
 from rocking.records.obspy.inventories import inventory_for
 from rocking.records.obspy.one_trace import as_stated, from_traces, header, stated_by_sac
 from rocking.records.obspy.traces import first_line, joined, printed
-from rocking.remarks import Remark
 from rocking.signal.accelerogram import Accelerogram
+from rocking.warnings import RockingWarning
 
 _DAMAGE = re.compile(r"integrity|not a SEED record|unexpected end|will not be read|corrupt|mismatch", re.I)
 """The warnings of libmseed when the numbers are not those that were written."""
@@ -52,11 +52,13 @@ def _stream(content: bytes, form: str, **options: Any) -> Any:
     if form == "MSEED" and (damage := [text for text in messages if _DAMAGE.search(text)]):
         raise RecordError(f"damaged {form} file, {damage[0]}; fetch it again.", format=form)
     _check_size(result)
-    notes += [Remark.of(RecordKind.WARNING_OF_OBSPY, text=text) for text in messages]
+    notes += [RockingWarning.of(RecordKind.WARNING_OF_OBSPY, text=text) for text in messages]
     for _, station, _, channel, _, begin, length, _ in result.get_gaps():
         if length < 0:
             of = f"{station} {channel}"
-            notes.append(Remark.of(RecordKind.BLOCKS_OVERLAP, of, overlap_s=float(-length), time=str(begin)))
+            notes.append(
+                RockingWarning.of(RecordKind.BLOCKS_OVERLAP, of, overlap_s=float(-length), time=str(begin))
+            )
     whole = joined(result)
     if not any(trace.stats.npts for trace in whole):
         raise RecordError(f"the {form} file holds no samples.", samples=0)
@@ -73,7 +75,7 @@ def _check_size(stream: Any) -> None:
         )
 
 
-def _check_blocks(content: bytes) -> list[Remark]:
+def _check_blocks(content: bytes) -> list[RockingWarning]:
     """Check by the heads of its blocks that a miniSEED file is whole and not too large; a warning of a leap."""
     import obspy  # which takes a second to import
     from obspy.io.mseed.util import get_record_information
@@ -100,7 +102,7 @@ def _check_blocks(content: bytes) -> list[Remark]:
         return []
     before = int(numbers[leaps[0]])
     after = int(numbers[leaps[0] + 1])
-    return [Remark.of(RecordKind.BLOCKS_LEAP, before=before, after=after)]
+    return [RockingWarning.of(RecordKind.BLOCKS_LEAP, before=before, after=after)]
 
 
 _KNET_KEYS = (
@@ -174,7 +176,7 @@ def _read_sac(content: bytes, options: Options) -> list[Accelerogram]:
 
 
 def _taken(
-    traces: Any, inventory: Any, unit: str | None, options: Options, warnings: tuple[Remark, ...]
+    traces: Any, inventory: Any, unit: str | None, options: Options, warnings: tuple[RockingWarning, ...]
 ) -> list[Accelerogram]:
     """Return the accelerograms of traces as the file holds them, with what obspy warned of."""
     records = []

@@ -37,8 +37,8 @@ from rocking.records.plausibility import (
     is_down_hole,
     site_warnings,
 )
-from rocking.remarks import Remark
 from rocking.signal.accelerogram import LARGEST_PEAK, Accelerogram, Source
+from rocking.warnings import RockingWarning
 
 Response = Literal["sensitivity", "full"]
 
@@ -327,7 +327,7 @@ class Layout:
         announced = optional_number(r"\(\s*(\d+)\s+Chns\s+of", head) or 0.0
         if total < announced < 1e4:
             record = record.warned(
-                Remark.of(RecordKind.CHANNELS_UNLIKE_HEADER, announced=announced, held=total)
+                RockingWarning.of(RecordKind.CHANNELS_UNLIKE_HEADER, announced=announced, held=total)
             )
         record = record.warned(*site_warnings(self.text("location", head)))
         if duration := self.text("duration", head):

@@ -21,8 +21,8 @@ from rocking.records.formats.format import (
 )
 from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import agree_with_velocity
-from rocking.remarks import Remark
 from rocking.signal.accelerogram import Accelerogram
+from rocking.warnings import RockingWarning
 
 _CWB_HEADER = 60  # lines of the longest header
 _CWB = Layout("gal", {"unit": key("AMPLITUDEUNIT", WORD)} | keyed(
@@ -112,7 +112,7 @@ After GNS accelerogram data files, Standard Format (2008).
 
 
 def _geonet_channel(block: list[str], options: Options, total: int) -> Accelerogram:
-    note = Remark.of(RecordKind.CHANNELS_OF_GEONET, held=total)
+    note = RockingWarning.of(RecordKind.CHANNELS_OF_GEONET, held=total)
     head = "\n".join(block[:_TEXT])
     samples = _GEONET.count(head)
     rows = [row for row in block[_HEADER:] if row.strip()]

@@ -19,8 +19,8 @@ from rocking.records.claims import (
 from rocking.records.formats.format import Format, Layout, Options
 from rocking.records.formats.text import after_lines, count, lines, number, numbers, whole
 from rocking.records.kinds import RecordKind
-from rocking.remarks import Remark
 from rocking.signal.accelerogram import Accelerogram
+from rocking.warnings import RockingWarning
 
 _STEPS = (
     re.compile(
@@ -86,14 +86,14 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     sensor = azimuth_of_sensor(head)
     named = _component(title)
     if point_apart(sensor, named):
-        warnings += (Remark.of(RecordKind.DIRECTION_SAID_TWICE, sensor, other=named),)
+        warnings += (RockingWarning.of(RecordKind.DIRECTION_SAID_TWICE, sensor, other=named),)
     facts: dict[str, Any] = {
         "component": sensor or named,
         "processed": True,
         "warnings": warnings,
     }
     if re.search(r"\bmatched\b", head[0], re.I):
-        facts["warnings"] += (Remark(RecordKind.MATCHED_TO_SPECTRUM),)
+        facts["warnings"] += (RockingWarning(RecordKind.MATCHED_TO_SPECTRUM),)
     facts["warnings"] += factor_warnings(head)
     if len(parts) >= 3:
         undated = _DATE_AT_END.sub("", parts[0])

@@ -23,13 +23,13 @@ from rocking.records.claims import (
     Where,
     agreed,
     claims_of_name,
-    doubts_of_claims,
     factor_warnings,
     meaning,
     of_another,
     point_apart,
     refuse_other_table,
     speaks_of_factor,
+    warnings_of_claims,
 )
 from rocking.records.direction import Direction, directed, names_acceleration
 from rocking.records.formats import dialect, text
@@ -46,8 +46,8 @@ from rocking.records.formats.layouts import (
     TableLayout,
 )
 from rocking.records.kinds import RecordKind
-from rocking.remarks import Remark
 from rocking.signal.accelerogram import Accelerogram
+from rocking.warnings import RockingWarning
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
 _EMPTY_LAST = re.compile(rb"[,;][ \t]*(?:\n|\Z)")
@@ -263,7 +263,7 @@ class _Seen:
     table: NumberTable
     content: bytes = b""
     body: bytes = b""
-    notes: tuple[Remark, ...] = ()
+    notes: tuple[RockingWarning, ...] = ()
     values: np.ndarray | None = None
     drawn: TableLayout | None = None
     fault: RecordError | None = None
@@ -359,11 +359,13 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     )
     notes = (*seen.notes, *factor_warnings((*table.comments, *table.words, *table.tail)))
     if table.below:
-        notes += (Remark.of(RecordKind.TAIL_PASSED_OVER, text=table.below[:80]),)
+        notes += (RockingWarning.of(RecordKind.TAIL_PASSED_OVER, text=table.below[:80]),)
     if answer and layout:
         if not table.labels and layout.is_series != drawn.is_series:
             # Another file of its folder was answered for.
-            notes += (Remark.of(RecordKind.UNLIKE_ITS_ANSWER, answer=answer.text, holds=question.holds),)
+            notes += (
+                RockingWarning.of(RecordKind.UNLIKE_ITS_ANSWER, answer=answer.text, holds=question.holds),
+            )
         layout = _fitted(answer, layout, table, drawn)
         known = (label if label.is_known else ColumnLabel("") for label in table.labels)
         table = replace(table, labels=tuple(known))
@@ -378,7 +380,7 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     except AnswerContradictedError as error:
         raise (answer.wrong(str(error)) if answer else error) from None
     if len(records) == 1:
-        notes += doubts_of_claims(records[0], table.said)
+        notes += warnings_of_claims(records[0], table.said)
     said = table.said.component
     if len(records) == 1 and said and (not records[0].component or names_acceleration(records[0].component)):
         records = [replace(records[0], **directed({"component": said}))]
@@ -454,7 +456,7 @@ def _is_row(line: str, width: int) -> bool:
 _FILLING = re.compile(rb"(?i)(?:[ \t]+nan)+\s*\Z")
 
 
-def _plain_rows(table: NumberTable, below: bytes) -> tuple[NumberTable, bytes, tuple[Remark, ...]]:
+def _plain_rows(table: NumberTable, below: bytes) -> tuple[NumberTable, bytes, tuple[RockingWarning, ...]]:
     """Return a table with its tail, its rows of numbers without the empty cells behind them, and what there is to say.
 
     NaN may fill up the last row of a series. Raises RecordError where a cell is empty.
@@ -462,7 +464,7 @@ def _plain_rows(table: NumberTable, below: bytes) -> tuple[NumberTable, bytes, t
     body, tail = _parted(below, table.width)
     may_be_filled = not table.labels and table.width > 2
     bare = body[:-_TAIL] + _FILLING.sub(b"\n", body[-_TAIL:]) if may_be_filled else body
-    notes = (Remark(RecordKind.ROW_FILLED_UP),) if bare != body else ()
+    notes = (RockingWarning(RecordKind.ROW_FILLED_UP),) if bare != body else ()
     if _EMPTY_LAST.search(bare):
         bare = _EMPTY_END.sub(b"", bare)
     if _EMPTY_CELL.search(bare):
@@ -723,10 +725,10 @@ def _channels(
     A series along the rows is one column. above: its numbers in the lines above, where they are no rows.
     """
     columns = layout.columns
-    notes: tuple[Remark, ...] = ()
+    notes: tuple[RockingWarning, ...] = ()
     if layout.is_series and not above and (roles := _first_numbers(values, options.time_step)):
         above = dict(zip(roles, values.tolist(), strict=False))
-        notes = (Remark.of(RecordKind.FIRST_NUMBERS, what=", ".join(_MEANT[role] for role in roles)),)
+        notes = (RockingWarning.of(RecordKind.FIRST_NUMBERS, what=", ".join(_MEANT[role] for role in roles)),)
         values = values[len(roles) :]
     if values.size % len(columns):
         raise RecordError(
@@ -750,11 +752,11 @@ def _channels(
             continue
         left = max((at for at in every if at < place), default=min(every, default=-1))
         step, numbers = stated, rows[:, place]
-        uneven: tuple[Remark, ...] = ()
+        uneven: tuple[RockingWarning, ...] = ()
         if (times := every.get(left)) is not None and (step := text.even_step(times)) is None:
-            step, even, remark = text.resampled(times)
+            step, even, warning = text.resampled(times)
             numbers = np.interp(even, times, numbers)
-            uneven = (remark,)
+            uneven = (warning,)
         name = label.component if not layout.is_series else "" if label.unit else label.text
         facts: dict[str, Any] = {"component": column.name or name, "warnings": (*notes, *uneven)}
         facts["processing"] = tuple(map(str, uneven))
@@ -783,28 +785,28 @@ def _refuse_all(labels: Sequence[ColumnLabel]) -> None:
     )
 
 
-def _never_negative(record: Accelerogram) -> tuple[Remark, ...]:
+def _never_negative(record: Accelerogram) -> tuple[RockingWarning, ...]:
     """Return a warning where no number is below zero: the ground moves both ways."""
     is_moving = record.acceleration.size >= _FEWEST_OF_BOTH_SIGNS and record.peak_acceleration > 0
     if not is_moving or record.acceleration.min() < 0:
         return ()
-    return (Remark(RecordKind.NEVER_NEGATIVE, record.component or "the column"),)
+    return (RockingWarning(RecordKind.NEVER_NEGATIVE, record.component or "the column"),)
 
 
-def _cut_number(body: bytes) -> tuple[Remark, ...]:
+def _cut_number(body: bytes) -> tuple[RockingWarning, ...]:
     """Return a warning when the last number has fewer decimals than all above it, and no line end: the file is cut."""
     tail = [] if body.endswith(b"\n") else text.lines(body[-_TAIL:])[1:]
     decimals = [len(match[1]) for line in tail if line.strip() and (match := _DECIMALS.search(line))]
     if len(decimals) < 3 or decimals[-1] >= min(decimals[:-1]):
         return ()
-    return (Remark(RecordKind.NUMBER_CUT),)
+    return (RockingWarning(RecordKind.NUMBER_CUT),)
 
 
-def _repeats(values: np.ndarray) -> tuple[Remark, ...]:
+def _repeats(values: np.ndarray) -> tuple[RockingWarning, ...]:
     """Return a warning when numbers without count or times come twice."""
     half, odd = divmod(values.size, 2)
     is_twice = not odd and half > 1 and np.any(values) and np.array_equal(values[:half], values[half:])
-    return (Remark.of(RecordKind.HALF_REPEATED, samples=half),) if is_twice else ()
+    return (RockingWarning.of(RecordKind.HALF_REPEATED, samples=half),) if is_twice else ()
 
 
 COLUMNS = Format(

@@ -10,7 +10,7 @@ import numpy as np
 from rocking.errors import RecordError
 from rocking.quantities import is_number
 from rocking.records.kinds import RecordKind
-from rocking.remarks import Remark
+from rocking.warnings import RockingWarning
 
 _NUMERIC = b"0123456789+-.eE \t\n\r"
 _LARGEST = 1e100
@@ -128,7 +128,7 @@ def column_width(row: str) -> int:
     return points[1] - points[0] if len(points) > 1 else max(1, len(row.rstrip()))
 
 
-def whole(values: np.ndarray, declared: int, per_line: int) -> tuple[np.ndarray, tuple[Remark, ...]]:
+def whole(values: np.ndarray, declared: int, per_line: int) -> tuple[np.ndarray, tuple[RockingWarning, ...]]:
     """Return `values`, with a warning if there are up to a line more than `declared`.
 
     Raises RecordError when there are fewer (the file is cut) or many more (it holds something else).
@@ -148,7 +148,7 @@ def whole(values: np.ndarray, declared: int, per_line: int) -> tuple[np.ndarray,
         raise RecordError(
             f"{stated}: more than one line too many; correct the header or cut the file.", samples=declared
         )
-    return values, (Remark.of(RecordKind.SAMPLES_SURPLUS, declared=declared, held=values.size),)
+    return values, (RockingWarning.of(RecordKind.SAMPLES_SURPLUS, declared=declared, held=values.size),)
 
 
 def filled(rows: list[str], declared: int, per_line: int, width: int, margin: int = 0) -> np.ndarray:
@@ -220,8 +220,8 @@ def only_even_step(times: np.ndarray) -> float:
     return step
 
 
-def resampled(times: np.ndarray) -> tuple[float, np.ndarray, Remark]:
-    """Return (step, even times, the remark that says so) for uneven `times`: linear, at their median step.
+def resampled(times: np.ndarray) -> tuple[float, np.ndarray, RockingWarning]:
+    """Return (step, even times, the warning that says so) for uneven `times`: linear, at their median step.
 
     Raises RecordError at a gap of more than five of these steps: a line across it would be no record.
     """
@@ -232,8 +232,8 @@ def resampled(times: np.ndarray) -> tuple[float, np.ndarray, Remark]:
         raise RecordError(
             f"the times are uneven and would make {number} samples {step:g} s apart.", times=number
         )
-    remark = Remark.of(RecordKind.UNEVEN, samples=times.size, number=number, time_step_s=step)
-    return step, times[0] + step * np.arange(number), remark
+    warning = RockingWarning.of(RecordKind.UNEVEN, samples=times.size, number=number, time_step_s=step)
+    return step, times[0] + step * np.arange(number), warning
 
 
 _APART = 0.005
@@ -242,8 +242,8 @@ _LONGEST_LINE = 0.25
 """s; the longest line between two points of film."""
 
 
-def through_points(times: np.ndarray) -> tuple[float, np.ndarray, Remark]:
-    """Return (step, even times, the remark that says so) for points of film, a dozen to a hundred a second.
+def through_points(times: np.ndarray) -> tuple[float, np.ndarray, RockingWarning]:
+    """Return (step, even times, the warning that says so) for points of film, a dozen to a hundred a second.
 
     They lie where the trace bends and are joined by lines. Raises RecordError at a gap.
     """
@@ -252,7 +252,7 @@ def through_points(times: np.ndarray) -> tuple[float, np.ndarray, Remark]:
     return (
         _APART,
         even,
-        Remark.of(RecordKind.UNEVEN_FILM, samples=times.size, number=even.size, time_step_s=_APART),
+        RockingWarning.of(RecordKind.UNEVEN_FILM, samples=times.size, number=even.size, time_step_s=_APART),
     )
 
 

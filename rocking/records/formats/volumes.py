@@ -28,8 +28,8 @@ from rocking.records.formats.format import (
 )
 from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import agree_with_mean_square, agree_with_velocity
-from rocking.remarks import Remark
 from rocking.signal.accelerogram import Accelerogram
+from rocking.warnings import RockingWarning
 
 _COSMOS = Layout("", {
     "event": r"\A.*\n(?:Rcrd|Record)?[ \t]*(?:of)?[ \t]*(.*)", "station": r"Code:\s*(\S+)",
@@ -97,7 +97,7 @@ def _cosmos(block: list[str], options: Options, total: int) -> Accelerogram | No
     lasts = values.size * step
     wrong = 0 < length < 1e5 and abs(length - lasts) > 1.5 * step + 5e-4  # not all agencies fill it
     stated = [None if abs(real - _UNKNOWN) < 1e-3 else real for real in reals]
-    note = Remark.of(RecordKind.LENGTH_UNLIKE_HEADER, stated_s=length, lasts_s=lasts)
+    note = RockingWarning.of(RecordKind.LENGTH_UNLIKE_HEADER, stated_s=length, lasts_s=lasts)
     facts: dict[str, Any] = {"component": _component(head), "warnings": (note,) if wrong else ()}
     facts |= {"elevation": stated[_ELEVATION], "epicentral_distance": distance(stated[_DISTANCE])}
     facts |= {"peak": stated[_PEAK], "peak_time": stated[_PEAK_TIME]}
@@ -212,11 +212,11 @@ def _bhrc(block: list[str], options: Options, _: int) -> Accelerogram:
     reals = " ".join(block[_REALS_AT : _REALS_AT + 2]).split()
     printed = reals[_RATE] if len(reals) > _RATE else "0"
     rate = float(printed) if is_number(printed) else 0.0
-    notes: tuple[Remark, ...] = ()
+    notes: tuple[RockingWarning, ...] = ()
     if not is_number(printed):
-        notes = (Remark.of(RecordKind.RATE_NO_NUMBER, rate=printed),)
+        notes = (RockingWarning.of(RecordKind.RATE_NO_NUMBER, rate=printed),)
     elif 1 <= rate <= 1e4 and abs(rate * step - 1) > 1e-3:
-        notes = (Remark.of(RecordKind.RATE_UNLIKE_STEP, rate_hz=rate, time_step_s=step),)
+        notes = (RockingWarning.of(RecordKind.RATE_UNLIKE_STEP, rate_hz=rate, time_step_s=step),)
     letter = _BHRC.text("component", head)[:1].upper()
     facts: dict[str, Any] = {"processing": (offset,), "warnings": notes}
     facts["vertical"] = Direction.of(letter).vertical

@@ -15,8 +15,8 @@ from rocking.records.formats.text import LARGEST_SERIES
 from rocking.records.kinds import RecordKind
 from rocking.records.obspy.traces import STEEP, calibrated, names, quantity_order, site, unit_left_by
 from rocking.records.plausibility import BURIED
-from rocking.remarks import Remark
 from rocking.signal.accelerogram import OBSPY_EXTRAS, SAME_STEP, Accelerogram, Calibration, Source
+from rocking.warnings import RockingWarning
 
 _TO_DISPLACEMENT = "GSE1", "GSE2", "CSS", "NNSA_KB_CORE"
 """The formats whose calibration is in nm of displacement a count, at a period that it is stated for."""
@@ -44,18 +44,20 @@ def from_traces(
     for trace in traces:
         with about(trace.id):
             records.append(_from_trace(trace, inventory, unit, response, calibration))
-    remarks = tuple(_unlike(records))
-    return [record.warned(*remarks) for record in records]
+    warnings = tuple(_unlike(records))
+    return [record.warned(*warnings) for record in records]
 
 
-def _unlike(records: list[Accelerogram]) -> Iterator[Remark]:
+def _unlike(records: list[Accelerogram]) -> Iterator[RockingWarning]:
     """Yield what lets the channels of a stream be none of one record: several stations, or several time steps."""
     stations = sorted({f"{record.network}.{record.station}" for record in records})
     if len(stations) > 1:
-        yield Remark.of(RecordKind.STATIONS_UNLIKE, stations=", ".join(stations[:3]), number=len(stations))
+        yield RockingWarning.of(
+            RecordKind.STATIONS_UNLIKE, stations=", ".join(stations[:3]), number=len(stations)
+        )
     steps = [record.time_step for record in records]
     if max(steps) > min(steps) * (1 + SAME_STEP):
-        yield Remark.of(RecordKind.STEPS_OF_STREAM_UNLIKE, least_s=min(steps), most_s=max(steps))
+        yield RockingWarning.of(RecordKind.STEPS_OF_STREAM_UNLIKE, least_s=min(steps), most_s=max(steps))
 
 
 # Whole on purpose: what is known of the samples, what is asked, and what is done to them, each from the one before.
@@ -86,28 +88,28 @@ def _from_trace(
     fields |= names(trace) | header(trace)
     fields |= {name: own[name] for name in OBSPY_EXTRAS if name in own}
     place = site(trace, inventory)
-    doubts = [*fields.get("warnings", ()), *place.pop("warnings", ())]
+    warnings = [*fields.get("warnings", ()), *place.pop("warnings", ())]
     fields |= place
     processing = [*fields.get("processing", ()), *(f"obspy: {step}"[:200] for step in steps)]
     if declared is None:
         motion = calibrated(trace, inventory, response)
         samples = motion.acceleration
         processing.append(motion.sentence)
-        doubts += motion.warnings
+        warnings += motion.warnings
     else:
         stated = as_stated(trace, declared, is_due)
         samples = stated.samples * acceleration_factor(declared)
         processing += stated.processing
-        doubts += stated.doubts
+        warnings += stated.warnings
         if stated.is_levelled and is_raw:
             fields["processed"] = False
-    fields |= {"processing": tuple(processing), "warnings": tuple(doubts)}
+    fields |= {"processing": tuple(processing), "warnings": tuple(warnings)}
     fields = {name: plain(value) if isinstance(value, str) else value for name, value in fields.items()}
     source = Source(format="obspy", unit=declared or "m/s2")
     # A step of single precision is stored as 0.0199999996, and that of a rate as 0.0100000000001.
     step = float(f"{stats.delta:.{6 if form == 'SAC' else 9}g}")
     fields = directed(fields)
-    if RecordKind.ORIENTATION_UNKNOWN in {doubt.kind for doubt in doubts}:
+    if RecordKind.ORIENTATION_UNKNOWN in {warning.kind for warning in warnings}:
         fields["azimuth"] = None  # nor does the code of the channel say it
     return Accelerogram(samples, step, source=source, **fields)
 
@@ -121,7 +123,7 @@ class Stated:
 
     samples: np.ndarray
     processing: tuple[str, ...]
-    doubts: tuple[Remark, ...]
+    warnings: tuple[RockingWarning, ...]
     is_levelled: bool
 
 
@@ -131,23 +133,25 @@ def as_stated(trace: Any, unit: str, is_due: bool) -> Stated:
     is_removed = _is_removed(trace)
     factor = float(trace.stats.get("calib", 1.0))
     samples = np.asarray(trace.data, dtype=float)
-    doubts: tuple[Remark, ...] = ()
+    warnings: tuple[RockingWarning, ...] = ()
     if form == "KNET" and unit == "gal" and not is_removed:
         samples = samples * (100 * factor if is_due else 100.0)  # of m/s²
     elif is_due:
         samples = samples * factor
-        doubts = () if form in _CALIBRATED_TO else (Remark.of(RecordKind.SCALE_APPLIED, factor=factor),)
+        warnings = (
+            () if form in _CALIBRATED_TO else (RockingWarning.of(RecordKind.SCALE_APPLIED, factor=factor),)
+        )
     elif form in _TO_DISPLACEMENT and factor != 1 and not is_removed:
-        doubts = (Remark.of(RecordKind.CALIBRATION_NOT_APPLIED, factor=factor),)
+        warnings = (RockingWarning.of(RecordKind.CALIBRATION_NOT_APPLIED, factor=factor),)
     if form == "KINEMETRICS_EVT" and not is_removed:
         samples = samples * (GRAVITY / _OBSPY_G)
-    done = [str(doubt) for doubt in doubts if doubt.kind is RecordKind.SCALE_APPLIED]
+    done = [str(warning) for warning in warnings if warning.kind is RecordKind.SCALE_APPLIED]
     # To remove the sensitivity leaves the offset of the recorder in.
     is_levelled = form in _RAW if not is_removed else quantity_order(trace)[0] is None
     if is_levelled:
         samples, sentence = without_offset(samples, unit)
         done.append(sentence)
-    return Stated(samples, tuple(done), doubts, is_levelled)
+    return Stated(samples, tuple(done), warnings, is_levelled)
 
 
 def _is_removed(trace: Any) -> bool:
@@ -248,7 +252,7 @@ def header(trace: Any) -> dict[str, Any]:
     named = _channel_named(trace.stats)
     if form == "WIN":  # whose channels have numbers and no directions
         component = named.get("component", str(trace.stats.channel))
-        named["warnings"] = (Remark(RecordKind.DIRECTION_UNKNOWN, component),)
+        named["warnings"] = (RockingWarning(RecordKind.DIRECTION_UNKNOWN, component),)
     return named
 
 

@@ -15,7 +15,7 @@ from rocking.errors import RecordError
 from rocking.quantities import acceleration_factor, acceleration_unit
 from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import BURIED
-from rocking.remarks import Remark
+from rocking.warnings import RockingWarning
 
 _CORNERS = (0.02, 0.05, 0.8, 0.95)
 """Band in which a full response is removed: Hz, Hz, and shares of the Nyquist frequency."""
@@ -90,7 +90,7 @@ class Calibrated:
 
     acceleration: np.ndarray
     sentence: str
-    warnings: tuple[Remark, ...] = ()
+    warnings: tuple[RockingWarning, ...] = ()
 
 
 def calibrated(trace: Any, inventory: Any, response: str) -> Calibrated:
@@ -114,10 +114,10 @@ def calibrated(trace: Any, inventory: Any, response: str) -> Calibrated:
     except ValueError as error:
         raise RecordError(f"{error}; use a channel of acceleration or velocity.", quantity=units) from None
     factor = acceleration_factor(unit)
-    doubts = _check_gain(gain, of, trace.id, response)
+    warnings = _check_gain(gain, of, trace.id, response)
     staged = bool(getattr(of, "response_stages", None))
     if response == "sensitivity" and (order == 0 or (order == 1 and not staged)):
-        return replace(_by_sensitivity(trace, gain / factor, order), warnings=doubts)
+        return replace(_by_sensitivity(trace, gain / factor, order), warnings=warnings)
     if not staged:
         raise RecordError(
             f"the response of {trace.id} has no stages, of which its full removal consists; give a StationXML that has "
@@ -195,8 +195,8 @@ def _by_response(trace: Any, inventory: Any) -> Calibrated:
     limits = " and ".join(f"{band[i]:g}-{band[i + 1]:g} Hz" for i in (0, 2))
     removed = f"full instrument response removed to acceleration between {limits}"
     is_unlike = any("sensitivities" in line for line in lines)
-    doubts = (Remark(RecordKind.SENSITIVITY_UNLIKE_STAGES, trace.id),) if is_unlike else ()
-    return Calibrated(clean.data, f"Mean removed, 5 % cosine taper, {removed}.", doubts)
+    unlike = (RockingWarning(RecordKind.SENSITIVITY_UNLIKE_STAGES, trace.id),) if is_unlike else ()
+    return Calibrated(clean.data, f"Mean removed, 5 % cosine taper, {removed}.", unlike)
 
 
 @contextmanager
@@ -219,10 +219,10 @@ def printed() -> Iterator[list[str]]:
             lines += kept.read().decode("utf-8", "replace").splitlines()
 
 
-def _check_gain(gain: float, response: Any, name: str, removal: str) -> tuple[Remark, ...]:
+def _check_gain(gain: float, response: Any, name: str, removal: str) -> tuple[RockingWarning, ...]:
     """Refuse a sensitivity that no instrument has, or that its own stages contradict at the frequency it is stated for.
 
-    At another frequency than theirs it may differ, as a remark says; the full removal uses the stages alone.
+    At another frequency than theirs it may differ, as a warning says; the full removal uses the stages alone.
     """
     if not 0 < abs(gain) < LARGEST_GAIN:
         raise RecordError(
@@ -238,7 +238,7 @@ def _check_gain(gain: float, response: Any, name: str, removal: str) -> tuple[Re
     at = response.instrument_sensitivity.frequency
     others = [stage.stage_gain_frequency for stage in staged if stage.stage_gain_frequency is not None]
     if at is not None and any(other > 0 and abs(other / at - 1) > _SAME_FREQUENCY for other in others if at):
-        return (Remark.of(RecordKind.SENSITIVITY_ELSEWHERE, name, at_hz=float(at), off=off),)
+        return (RockingWarning.of(RecordKind.SENSITIVITY_ELSEWHERE, name, at_hz=float(at), off=off),)
     if staged:
         raise RecordError(
             f"the overall sensitivity is {gain:g}, but the gains of its stages multiply to {product:g}, more than 5 % "
@@ -268,15 +268,15 @@ def site(trace: Any, inventory: Any) -> dict[str, Any]:
         is_unknown = bool(_NO_ORIENTATION.search(said))
         orientation = inventory.get_orientation(trace.id, trace.stats.starttime)
         dip = float(orientation.get("dip") or 0.0)
-        warnings: tuple[Remark, ...] = ()
+        warnings: tuple[RockingWarning, ...] = ()
         if is_unknown and abs(dip) <= STEEP:
-            warnings = (Remark(RecordKind.ORIENTATION_UNKNOWN, trace.id),)
+            warnings = (RockingWarning(RecordKind.ORIENTATION_UNKNOWN, trace.id),)
         elif orientation.get("azimuth") is not None:
             facts["azimuth"] = float(orientation["azimuth"]) % 360
         if orientation.get("dip") is not None:
             facts["vertical"] = abs(dip) > STEEP
             if min(abs(dip), abs(90 - abs(dip))) > _TILTED:
-                warnings = (*warnings, Remark.of(RecordKind.TILTED, trace.id, dip_deg=dip))
+                warnings = (*warnings, RockingWarning.of(RecordKind.TILTED, trace.id, dip_deg=dip))
         if warnings:
             facts["warnings"] = warnings
     with suppress(Exception):

@@ -27,8 +27,8 @@ from rocking.records.kinds import RecordKind
 from rocking.records.obspy.inventories import inventory_of, parsed_inventory
 from rocking.records.obspy.one_trace import from_traces
 from rocking.records.obspy.traces import joined
-from rocking.remarks import Remark
 from rocking.signal.accelerogram import Accelerogram
+from rocking.warnings import RockingWarning
 
 MARK = b"\x89HDF\r\n\x1a\n"
 """The begin of an HDF5 file."""
@@ -248,7 +248,7 @@ def read_station(content: bytes, options: Options) -> list[Accelerogram]:
                 **about,
             ).warned(
                 *(
-                    [Remark.of(RecordKind.FAILED_IN_GMPROCESS, reason=noted["failure"])]
+                    [RockingWarning.of(RecordKind.FAILED_IN_GMPROCESS, reason=noted["failure"])]
                     if noted["failure"]
                     else []
                 )

@@ -105,7 +105,12 @@ def station(*cases: CaseResult, falls_in_directions: int | None = None) -> Perio
 
 def decided(decision: Decision, reserve: Reserve | None = None, **values: Any) -> VerdictRow:
     """The row of a structure of which so much was decided."""
-    own = {"record": "a", "structure": "pier", "verdict": decision.word, "overturning_share": decision.share}
+    own = {
+        "record": "a",
+        "structure": "pier",
+        "verdict": decision.verdict,
+        "overturning_share": decision.share,
+    }
     return filled(VerdictRow, decision=decision, reserve=reserve, **own | values)
 
 

@@ -92,7 +92,7 @@ def test_the_nonlinear_check_is_that_of_the_bulge():
     untied = rocking.check(replace(HELD, tie_heights=(), tie_stiffness=0.0), SPECTRUM)
     assert checked.linear.capacity == pytest.approx(untied.linear.capacity, rel=1e-9)
     assert "bulges between" in checked.nonlinear.mechanism
-    assert checked.remark.kind is StructureKind.TIE_MUST_BEAR
+    assert checked.warning.kind is StructureKind.TIE_MUST_BEAR
 
 
 def test_what_it_carries_may_fall_though_it_cannot():

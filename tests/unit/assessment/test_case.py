@@ -12,9 +12,9 @@ from rocking.assessment.decide import Limit
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.motions import Motion
 from rocking.records import Accelerogram
-from rocking.remarks import Remark
 from rocking.reports.printing import cell_text
 from rocking.structures import Wall
+from rocking.warnings import RockingWarning
 from tests.unit.assessment.made_rows import broken, case, members, station, verdicts
 
 
@@ -52,7 +52,7 @@ def test_the_ensemble_over_all_directions_decides_before_those_of_the_components
 def test_of_components_that_are_no_pair_the_worse_word_counts_in_either_order(order):
     """A component whose word is worse may have the smaller share: what it does not follow adds to it."""
     doubtful = replace(
-        case("EW", 0.3, falls=10), limits=(Limit.untold(Remark(AssessmentKind.CONTACTS_OPEN)),)
+        case("EW", 0.3, falls=10), limits=(Limit.untold(RockingWarning(AssessmentKind.CONTACTS_OPEN)),)
     )
     result = station(*[doubtful, case("NS", 0.3, falls=30)][::order])
     assert (result.verdict, result.component) == ("cannot be told", "EW")

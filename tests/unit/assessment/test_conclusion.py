@@ -1,4 +1,4 @@
-"""The conclusion on a structure: its order, its remark, and the sentence on all of them."""
+"""The conclusion on a structure: its order, its warning, and the sentence on all of them."""
 
 import math
 from collections.abc import Sequence
@@ -10,7 +10,7 @@ from rocking.assessment.conclusion import Conclusion, conclusion_in_words, concl
 from rocking.assessment.decide import Decision, Verdict
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.reserve import Reserve
-from rocking.remarks import Kind, Remark
+from rocking.warnings import Kind, RockingWarning
 from tests.unit.assessment.made_rows import compared, decided
 
 
@@ -18,14 +18,14 @@ def of(
     word: Verdict,
     integrated: float = 0.5,
     *,
-    doubts: Sequence[Kind] = (),
+    warnings: Sequence[Kind] = (),
     would_settle: Sequence[Kind] = (),
-    other_model: Remark | None = None,
+    other_model: RockingWarning | None = None,
 ) -> Conclusion:
     """The conclusion on a structure of that word that rotates so far as recorded."""
     unknown = math.nan, math.nan
-    remarks = tuple(map(Remark, doubts)), tuple(map(Remark, would_settle))
-    decision = Decision(word, math.nan, unknown, "", *remarks, other_model=other_model)
+    warnings = tuple(map(RockingWarning, warnings)), tuple(map(RockingWarning, would_settle))
+    decision = Decision(word, math.nan, unknown, "", *warnings, other_model=other_model)
     return Conclusion(decided(decision), compared("EW", integrated))
 
 
@@ -38,7 +38,7 @@ def of(
             of(
                 Verdict.UNCERTAIN,
                 would_settle=(AssessmentKind.CRACK,),
-                other_model=Remark.of(AssessmentKind.STACKS_FALL, falls=3, runs=24),
+                other_model=RockingWarning.of(AssessmentKind.STACKS_FALL, falls=3, runs=24),
             ),
             AssessmentKind.STACKS_FALL,
         ),
@@ -46,7 +46,7 @@ def of(
             of(Verdict.OVERTURNS, math.inf, would_settle=(AssessmentKind.RESTITUTION,)),
             AssessmentKind.STRENGTHEN,
         ),
-        (of(Verdict.STANDS, doubts=(AssessmentKind.OTHER_CRACK_WORSE,)), AssessmentKind.OTHER_CRACK_WORSE),
+        (of(Verdict.STANDS, warnings=(AssessmentKind.OTHER_CRACK_WORSE,)), AssessmentKind.OTHER_CRACK_WORSE),
         (of(Verdict.PROBABLY_OVERTURNS), AssessmentKind.STANDS_AS_RECORDED),
         (of(Verdict.PROBABLY_STANDS, math.inf), AssessmentKind.FALLS_AS_RECORDED),
         (of(Verdict.UNCERTAIN), AssessmentKind.NOTHING_DECIDES),
@@ -54,31 +54,31 @@ def of(
     ],
 )
 def test_what_to_do_comes_before_what_explains_the_word(conclusion, kind):
-    assert conclusion.remark.kind is kind
+    assert conclusion.warning.kind is kind
 
 
 def test_a_contact_that_slides_is_told_by_what_it_needs_as_it_lifts_and_at_most():
     """The largest alone is of an instant, and would call a slender pier one that slides."""
     made = of(Verdict.STANDS)
     slides = replace(compared("EW", 0.5), slides=True, lifting_friction=0.22, required_friction=1.84)
-    assert replace(made, case=slides).remark.brief == "slides below μ 0.22–1.8"
+    assert replace(made, case=slides).warning.brief == "slides below μ 0.22–1.8"
     # What was followed on the friction that it has needs no word on it.
-    followed = replace(made, case=slides, verdict=replace(made.verdict, stack_falls=0, stack_runs=18))
-    assert followed.remark.kind is AssessmentKind.NOTHING_TO_DO
+    followed = replace(made, case=slides, row=replace(made.row, stack_falls=0, stack_runs=18))
+    assert followed.warning.kind is AssessmentKind.NOTHING_TO_DO
     lost = replace(slides, required_friction=math.inf)
-    assert replace(made, case=lost).remark.kind is AssessmentKind.CONTACTS_OPEN
+    assert replace(made, case=lost).warning.kind is AssessmentKind.CONTACTS_OPEN
 
 
 def test_the_friction_that_limits_a_word_stands_beside_it():
     """Of all directions, before what else there is to do; without a comparison it is told without figures."""
     limited = of(Verdict.PROBABLY_STANDS)
-    limited = replace(limited, verdict=replace(limited.verdict, friction_needed=0.67))
+    limited = replace(limited, row=replace(limited.row, friction_needed=0.67))
     known = replace(limited, case=replace(compared("EW", 0.5), lifting_friction=0.49))
-    assert known.remark == Remark.of(AssessmentKind.CONTACT_SLIDES, lifting=0.49, largest=0.67)
-    assert replace(limited, case=None).remark == Remark(AssessmentKind.FRICTION_SHORT)
+    assert known.warning == RockingWarning.of(AssessmentKind.CONTACT_SLIDES, lifting=0.49, largest=0.67)
+    assert replace(limited, case=None).warning == RockingWarning(AssessmentKind.FRICTION_SHORT)
 
 
-def test_the_worst_period_stands_for_a_support_and_the_others_are_its_remark():
+def test_the_worst_period_stands_for_a_support_and_the_others_are_its_warning():
     """The ground below it stands for comparison only."""
     shares = {0.0: 1.0, 0.2: 0.25, 0.3: 0.75, 0.4: 0.5}
     rows = [
@@ -86,8 +86,8 @@ def test_the_worst_period_stands_for_a_support_and_the_others_are_its_remark():
         for period, share in shares.items()
     ]
     (conclusion,) = conclusions(rows, [])
-    assert conclusion.verdict.support_period_s == 0.3
-    assert conclusion.remark["share"] == "25–50\u00a0%"
+    assert conclusion.row.support_period_s == 0.3
+    assert conclusion.warning["share"] == "25–50\u00a0%"
 
 
 def test_of_equal_shares_the_one_of_less_reserve_is_worse():
@@ -99,7 +99,7 @@ def test_of_equal_shares_the_one_of_less_reserve_is_worse():
         )
         for name, low in (("none", math.nan), ("more", 2.0), ("less", 1.5))
     ]
-    assert [conclusion.verdict.structure for conclusion in conclusions(rows, [])] == ["less", "more", "none"]
+    assert [conclusion.row.structure for conclusion in conclusions(rows, [])] == ["less", "more", "none"]
 
 
 @pytest.mark.parametrize(

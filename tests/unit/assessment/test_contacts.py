@@ -78,7 +78,7 @@ def test_walls_whose_contacts_open_and_whose_blocks_fall_do_not_stand(name, real
     followed = rocking.assess(motion, wall)
     assert followed.overturning_members == 0
     alone = without_stacks(followed)
-    assert alone.word is Verdict.CANNOT_BE_TOLD
+    assert alone.verdict is Verdict.CANNOT_BE_TOLD
     assert alone.why.startswith("contacts open; 0 of ")
     assert alone.share_in_words == "", "none of its members overturns, of which nothing follows"
     assert followed.verdict in (Verdict.UNCERTAIN, Verdict.PROBABLY_OVERTURNS)
@@ -96,7 +96,7 @@ def test_a_spire_that_lifts_never_stands_by_its_mechanisms_alone():
         lifts = rocking.assess(sine(1.3 * least, 0.1), spire)
         assert rests.verdict is Verdict.STANDS
         assert lifts.overturning_members == 0
-        assert without_stacks(lifts).word is Verdict.CANNOT_BE_TOLD
+        assert without_stacks(lifts).verdict is Verdict.CANNOT_BE_TOLD
         assert without_stacks(lifts).why.startswith("courses above a rocking body may be thrown; 0 of ")
 
 
@@ -107,7 +107,7 @@ def test_few_runs_of_contact_dynamics_let_a_spire_probably_stand_and_many_let_it
     probably = rocking.assess(motion, SPIRE)
     assert probably.verdict is Verdict.PROBABLY_STANDS
     assert (probably.stacks.falls, probably.stacks.runs) == (0, 18)
-    assert [remark.kind for remark in probably.decision.would_settle] == [AssessmentKind.CONTACT_DYNAMICS]
+    assert [warning.kind for warning in probably.decision.would_settle] == [AssessmentKind.CONTACT_DYNAMICS]
     stands = rocking.assess(motion, SPIRE, settings=CONTACT)
     assert stands.verdict is Verdict.STANDS
     assert (stands.stacks.falls, stands.stacks.runs) == (0, 64)
@@ -146,7 +146,7 @@ def test_contact_dynamics_is_asked_where_it_cannot_be_told_and_of_a_held_wall_th
             )
             for case in (AssessmentSettings(), CONTACT)
         )
-        words.append(without_stacks(few).word)
+        words.append(without_stacks(few).verdict)
         far = words[-1] is Verdict.PROBABLY_STANDS
         assert (few.stacks, many.stacks) == (None, ContactShare(falls=0, runs=MOST_RUNS) if far else None)
     assert words == [
@@ -175,7 +175,7 @@ def test_without_an_ensemble_the_single_run_is_doubted_too():
     settings = AssessmentSettings(ensemble=EnsembleSettings(members=0))
     motion = sine(1.3 * SPIRE.static_multiplier * GRAVITY, 0.1)
     case = compute_case(CaseInputs(motion=Motion((motion,)), structure=SPIRE, settings=settings))
-    assert [limit.doubt.kind for limit in case.limits] == [AssessmentKind.COURSES_THROWN]
+    assert [limit.warning.kind for limit in case.limits] == [AssessmentKind.COURSES_THROWN]
 
 
 def test_what_keeps_its_contacts_or_rests_is_not_doubted():
@@ -361,9 +361,9 @@ def test_a_mechanism_that_cannot_be_followed_is_doubted_alone_once_the_motion_re
         case = compute_case(
             CaseInputs(motion=Motion((motion,)), structure=wall, settings=AssessmentSettings())
         )
-        assert [limit.doubt.kind for limit in case.limits if limit.is_untold] == expected
+        assert [limit.warning.kind for limit in case.limits if limit.is_untold] == expected
         assert (case.contact is not None) == bool(expected)  # its stack may fall in any mechanism
-        word = decide(replace(case.facts(wall), stacks=None), case.limits).word
+        word = decide(replace(case.facts(wall), stacks=None), case.limits).verdict
         assert (word is Verdict.CANNOT_BE_TOLD) == bool(expected)
 
 
@@ -409,13 +409,13 @@ def test_a_block_whose_corner_needs_more_friction_than_it_has_only_probably_stan
     limited = rocking.assess(record, block)
     assert (limited.verdict, limited.overturning_share) == (Verdict.PROBABLY_STANDS, 0.0)
     assert limited.friction_needed == pytest.approx(needed, rel=0.01)
-    assert AssessmentKind.FRICTION in [remark.kind for remark in limited.decision.would_settle]
+    assert AssessmentKind.FRICTION in [warning.kind for warning in limited.decision.would_settle]
     firm = rocking.assess(record, block.on_joints(Joints(1.1 * needed)))
     assert firm.verdict is Verdict.STANDS
     assert np.isnan(firm.friction_needed)
     quick = AssessmentSettings(fidelity="quick")
     case = compute_case(CaseInputs(motion=Motion((record,)), structure=block, settings=quick))
-    assert case.decision(block).word is Verdict.PROBABLY_STANDS, "as every path to a word has it"
+    assert case.decision(block).verdict is Verdict.PROBABLY_STANDS, "as every path to a word has it"
 
 
 @pytest.mark.process
@@ -437,7 +437,7 @@ def test_an_arch_that_needs_more_friction_stands_as_its_voussoirs_do():
     assert less.verdict is Verdict.PROBABLY_STANDS
     assert less.stacks == ContactShare(falls=0, runs=18), "as voussoirs, which say what their friction does"
     assert np.isnan(less.friction_needed)
-    assert AssessmentKind.FRICTION_SHORT not in [doubt.kind for doubt in less.decision.doubts]
+    assert AssessmentKind.FRICTION_SHORT not in [warning.kind for warning in less.decision.warnings]
     assert arch.joints.stand_on_friction == 0.5
     assert replace(arch, fill_depth=0.2).joints.stand_on_friction == np.inf
     piers = ArchOnPiers(5.0, 0.8, np.pi, pier_width=1.5, pier_height=4.0)
@@ -458,7 +458,7 @@ def test_a_stack_is_followed_on_the_friction_that_its_courses_have():
     assert few.stacks is not None and few.stacks.runs <= RUNS
     assert many.stacks == ContactShare(falls=0, runs=MOST_RUNS)
     assert many.verdict is Verdict.STANDS
-    assert AssessmentKind.FRICTION_SHORT not in [doubt.kind for doubt in many.decision.doubts]
+    assert AssessmentKind.FRICTION_SHORT not in [warning.kind for warning in many.decision.warnings]
 
 
 # Stones -------------------------------------------------------------------------------------------------------
@@ -482,7 +482,7 @@ def test_an_arch_on_piers_stands_by_its_stones_alone():
     quick = AssessmentSettings(fidelity="quick")
     case = compute_case(CaseInputs(motion=Motion((motion,)), structure=piers, settings=quick))
     assert case.contact is None
-    assert case.decision(piers).word is Verdict.PROBABLY_STANDS
+    assert case.decision(piers).verdict is Verdict.PROBABLY_STANDS
     rests = sine(0.9 * piers.static_multiplier * GRAVITY, 0.2)
     assert words_of(piers, rests, fidelity="contact") == ("stands", None)
     motion = sine(1.2 * arch.static_multiplier * GRAVITY, 0.2)

@@ -71,20 +71,20 @@ def test_the_verdict_and_every_number_are_those_of_all_cracks_followed_one_by_on
         (case,) = assessment.cases.values()
         # Of its members alone: friction, and how far a held wall turns, are not asked of cracks one by one.
         passed_over = (AssessmentKind.FRICTION_SHORT, AssessmentKind.HELD_BEYOND)
-        limits = [limit for limit in case.limits if limit.doubt.kind not in passed_over]
+        limits = [limit for limit in case.limits if limit.warning.kind not in passed_over]
         without = decide(replace(case.facts(structure), stacks=None), limits)
         if structure.joints.courses_taper and worst.badness < Verdict.PROBABLY_OVERTURNS.badness:
-            assert without.word is Verdict.CANNOT_BE_TOLD
+            assert without.verdict is Verdict.CANNOT_BE_TOLD
             assert without.why.startswith("courses above a rocking body may be thrown; ")
         else:
-            assert without.word is worst
+            assert without.verdict is worst
         assert assessment.crack in alone or not assessment.crack
         if of_statics is not Verdict.OVERTURNS:
             largest = max(part.overturning_share for part in alone.values())
             # 64 members beside the many to which an ensemble near an edge grows
             share = assessment.ensembles.governing.ensemble.overturning_share
             assert share == pytest.approx(largest, abs=1 / 32)
-        seen.add(without.word)
+        seen.add(without.verdict)
     assert expected <= seen
 
 
@@ -134,8 +134,8 @@ def test_a_crack_that_is_known_decides_and_what_falls_beside_it_is_told():
     assert of_typed.verdict.badness > known.verdict.badness
     assert known.statics.ensemble.overturning_members == of_typed.overturning_members
     assert known.statics_crack == of_typed.crack
-    assert [one_doubt.kind for one_doubt in known.decision.doubts] == [AssessmentKind.OTHER_CRACK_WORSE]
-    assert [doubt.kind for doubt in of_typed.decision.doubts] == [AssessmentKind.HELD_BEYOND]
+    assert [one_warning.kind for one_warning in known.decision.warnings] == [AssessmentKind.OTHER_CRACK_WORSE]
+    assert [warning.kind for warning in of_typed.decision.warnings] == [AssessmentKind.HELD_BEYOND]
 
 
 def test_a_body_that_needs_more_friction_than_it_has_slides_as_the_ground_reaches_that_friction():
@@ -178,7 +178,7 @@ def test_beside_a_known_crack_that_overturns_the_worst_other_is_told_and_followe
     typed = Wall.hinged_at(6.0, 3.0, 0.4, crack="known")
     for factor in (6.0, 12.0):
         known = rocking.assess(record(factor * typed.mechanism().uplift_multiplier * 9.80665), typed)
-        assert known.verdict is Verdict.OVERTURNS and known.decision.doubts == ()
+        assert known.verdict is Verdict.OVERTURNS and known.decision.warnings == ()
         assert known.crack == typed.crack_in_words
         first, *beside = known.ensembles.followed
         assert first.description == typed.crack_in_words and not any(neighbour.counts for neighbour in beside)
@@ -195,9 +195,9 @@ def test_a_single_run_of_a_typed_crack_that_rests_says_nothing_of_the_others(fid
     settings = AssessmentSettings(fidelity=fidelity, ensemble=EnsembleSettings(members=0))
     result = Assessor(settings).assess("r", [motion], on_the_ground({"wall": WALL}))
     (station,) = result.periods
-    assert station.decision.word is not Verdict.STANDS
+    assert station.decision.verdict is not Verdict.STANDS
     known = Assessor(settings).assess("r", [motion], on_the_ground({"wall": replace(WALL, crack="known")}))
-    assert known.periods[0].decision.word is Verdict.STANDS
+    assert known.periods[0].decision.verdict is Verdict.STANDS
 
 
 def test_quick_rests_only_where_every_crack_does():
@@ -362,11 +362,11 @@ def test_a_held_wall_that_turns_far_only_probably_stands():
     for amplitude in (4.0, 5.0):
         assessed = rocking.assess(record(amplitude, 0.6), front)
         (case,) = assessed.cases.values()
-        limits = [limit for limit in case.limits if limit.doubt.kind is not AssessmentKind.FRICTION_SHORT]
+        limits = [limit for limit in case.limits if limit.warning.kind is not AssessmentKind.FRICTION_SHORT]
         decision = decide(replace(case.facts(front), stacks=None), limits)
         farthest = float(np.nanmax(assessed.rotation_ratios))
         if farthest <= 1:
-            words[farthest > 0.4] = decision.word, [doubt.kind for doubt in decision.doubts]
+            words[farthest > 0.4] = decision.verdict, [warning.kind for warning in decision.warnings]
     assert words[False][0] is Verdict.STANDS
     assert words[True][0] is Verdict.PROBABLY_STANDS and AssessmentKind.HELD_BEYOND in words[True][1]
 
@@ -422,13 +422,13 @@ def test_a_wall_at_rest_on_ties_that_give_only_probably_stands(share):
     motion = Accelerogram(share * wall.static_multiplier * 9.80665 * swing, STEP)
     assessed = rocking.assess(motion, wall)
     assert np.all(assessed.rotation_ratios == 0)
-    assert assessed.decision.word is Verdict.PROBABLY_STANDS
-    assert [doubt.kind for doubt in assessed.decision.doubts] == [AssessmentKind.TIES_GIVE]
-    assert AssessmentKind.CONTACT_DYNAMICS in [remark.kind for remark in assessed.decision.would_settle]
+    assert assessed.decision.verdict is Verdict.PROBABLY_STANDS
+    assert [warning.kind for warning in assessed.decision.warnings] == [AssessmentKind.TIES_GIVE]
+    assert AssessmentKind.CONTACT_DYNAMICS in [warning.kind for warning in assessed.decision.would_settle]
     stacks = contacts.contact_share(wall, GroundMotions.of(motion), AssessmentSettings(), 8)
     assert (stacks.falls > 0) is (share == 0.95)
     unmoved = rocking.assess(motion, replace(wall, tie_stiffness=1e9)).decision
-    assert (unmoved.word, unmoved.doubts) == (Verdict.STANDS, ())
+    assert (unmoved.verdict, unmoved.warnings) == (Verdict.STANDS, ())
 
 
 def test_ties_that_give_are_told_beside_the_word():
@@ -446,10 +446,10 @@ def test_ties_that_give_are_told_beside_the_word():
     swing = np.sin(2 * np.pi * times / wall.tie_swing[0]) * (times < 5)
     motion = Accelerogram(1.02 * wall.static_multiplier * 9.80665 * swing, STEP)
     decision = rocking.assess(motion, wall.on_joints(ROUGH)).decision
-    assert decision.word is Verdict.PROBABLY_STANDS
-    assert [doubt.kind for doubt in decision.doubts] == [AssessmentKind.TIES_GIVE]
+    assert decision.verdict is Verdict.PROBABLY_STANDS
+    assert [warning.kind for warning in decision.warnings] == [AssessmentKind.TIES_GIVE]
     unmoved = rocking.assess(motion, replace(wall, tie_stiffness=1e9, joints=ROUGH)).decision
-    assert (unmoved.word, unmoved.doubts) == (Verdict.STANDS, ())
+    assert (unmoved.verdict, unmoved.warnings) == (Verdict.STANDS, ())
 
 
 def test_a_restitution_typed_far_below_that_of_the_geometry_is_followed_beside_it():
@@ -469,7 +469,7 @@ def test_a_restitution_typed_far_below_that_of_the_geometry_is_followed_beside_i
         if livelier.overturning_members:
             assert both.crack == "restitution 0.98 of its geometry"
             assert both.overturning_members == livelier.overturning_members
-            assert [remark.kind for remark in both.decision.would_settle] == [AssessmentKind.RESTITUTION]
+            assert [warning.kind for warning in both.decision.would_settle] == [AssessmentKind.RESTITUTION]
             assert both.decision.interval[0] < both.decision.interval[1] == livelier.overturning_share
         else:
             assert both.verdict is livelier.verdict

@@ -12,9 +12,9 @@ import pytest
 from rocking.assessment import decide as decides
 from rocking.assessment.decide import ORDER, CrackFacts, Limit, Verdict, may_change, step
 from rocking.assessment.kinds import AssessmentKind
-from rocking.remarks import Remark
+from rocking.warnings import RockingWarning
 
-OPEN, THROWN = Remark(AssessmentKind.CONTACTS_OPEN), Remark(AssessmentKind.COURSES_THROWN)
+OPEN, THROWN = RockingWarning(AssessmentKind.CONTACTS_OPEN), RockingWarning(AssessmentKind.COURSES_THROWN)
 SAFEST_FIRST = (
     "cannot overturn",
     "stands",
@@ -32,18 +32,20 @@ class Facts(decided.AllFacts):
 
     @property
     def limits(self):
-        found = [Limit.untold(doubt) for doubt in self.doubts]
+        found = [Limit.untold(warning) for warning in self.warnings]
         if self.held and self.beyond:
             at_rest = self.beyond is AssessmentKind.TIES_GIVE
-            found.append(Limit(doubt=Remark(self.beyond), at_rest=at_rest))
+            found.append(Limit(warning=RockingWarning(self.beyond), at_rest=at_rest))
         if not math.isnan(self.friction_needed):
-            settles = (Remark(AssessmentKind.FRICTION),)
-            found.append(Limit(doubt=Remark(AssessmentKind.FRICTION_SHORT), settles=settles))
+            settles = (RockingWarning(AssessmentKind.FRICTION),)
+            found.append(Limit(warning=RockingWarning(AssessmentKind.FRICTION_SHORT), settles=settles))
         if self.needs_stones:
-            found.append(Limit(doubt=Remark(AssessmentKind.STONES_TELL), lifted_by=1))
+            found.append(Limit(warning=RockingWarning(AssessmentKind.STONES_TELL), lifted_by=1))
         if self.anchors_slide:
-            kind, settles = AssessmentKind.ANCHOR_GIVES, (Remark(AssessmentKind.ANCHORS),)
-            found.append(Limit(doubt=Remark(kind), settles=settles, lifted_by=math.inf, at_rest=True))
+            kind, settles = AssessmentKind.ANCHOR_GIVES, (RockingWarning(AssessmentKind.ANCHORS),)
+            found.append(
+                Limit(warning=RockingWarning(kind), settles=settles, lifted_by=math.inf, at_rest=True)
+            )
         return found
 
     @property
@@ -65,11 +67,11 @@ def crack(falls, members=64, failed=0, farthest=0.8, name="hinge", *, slides_at=
 
 
 def word(**facts):
-    return str(decide(Facts(**facts)).word)
+    return str(decide(Facts(**facts)).verdict)
 
 
-def kinds(remarks):
-    return [remark.kind for remark in remarks]
+def kinds(warnings):
+    return [warning.kind for warning in warnings]
 
 
 # The step -----------------------------------------------------------------------------------------------------
@@ -128,27 +130,29 @@ def test_a_crack_is_within_reach_where_its_own_count_may_still_change_the_word()
 def test_1_what_nothing_overturns_cannot_overturn():
     held = Facts(cracks=(crack(0),), never_overturns_because="stays tied", failures=("component X is cut",))
     decision = decide(held)
-    assert str(decision.word) == "cannot overturn"
+    assert str(decision.verdict) == "cannot overturn"
     assert decision.why == "stays tied"
     assert kinds(decision.would_settle) == [AssessmentKind.TIE_STRENGTH]
     assert decision.share_in_words == ""
-    assert word(cracks=(crack(0),), never_overturns_because="stays tied", doubts=(OPEN,)) == "cannot be told"
+    assert (
+        word(cracks=(crack(0),), never_overturns_because="stays tied", warnings=(OPEN,)) == "cannot be told"
+    )
 
 
 def test_2_what_nothing_lifts_stands():
     decision = decide(Facts(cracks=(crack(0, farthest=0.0),), rests=True))
-    assert (str(decision.word), decision.share, decision.share_in_words) == ("stands", 0.0, "0\u00a0%")
+    assert (str(decision.verdict), decision.share, decision.share_in_words) == ("stands", 0.0, "0\u00a0%")
     # but for ties that give, of which stacks tell
     gives = Facts(cracks=(crack(0, farthest=0.0),), rests=True, held=True, beyond=AssessmentKind.TIES_GIVE)
-    assert decide(gives).word is Verdict.PROBABLY_STANDS
-    assert kinds(decide(gives).doubts) == [AssessmentKind.TIES_GIVE]
-    assert decide(replace(gives, stacks=(0, 64))).word is Verdict.STANDS
-    assert decide(replace(gives, stacks=(24, 64))).word is Verdict.UNCERTAIN
+    assert decide(gives).verdict is Verdict.PROBABLY_STANDS
+    assert kinds(decide(gives).warnings) == [AssessmentKind.TIES_GIVE]
+    assert decide(replace(gives, stacks=(0, 64))).verdict is Verdict.STANDS
+    assert decide(replace(gives, stacks=(24, 64))).verdict is Verdict.UNCERTAIN
 
 
 def test_3_what_slides_first_cannot_be_told():
     decision = decide(Facts(cracks=(crack(0, slides_at=0.6),), slides_at=0.6))
-    assert str(decision.word) == "cannot be told"
+    assert str(decision.verdict) == "cannot be told"
     assert decision.why == "slides before it lifts, at 0.6 g"
     assert kinds(decision.would_settle) == [AssessmentKind.FRICTION]
     assert math.isnan(decision.share) and decision.share_in_words == ""
@@ -159,7 +163,7 @@ def test_3_what_slides_first_cannot_be_told():
 def test_3_the_stones_of_what_slides_first_tell_and_its_mechanism_makes_nothing_safer():
     """Their runs are on the friction that it has; a stack of courses ends no row 3."""
     slides = Facts(cracks=(crack(0, slides_at=0.2),), slides_at=0.2, as_stones="as voussoirs")
-    assert decide(slides).word is Verdict.CANNOT_BE_TOLD
+    assert decide(slides).verdict is Verdict.CANNOT_BE_TOLD
     assert kinds(decide(slides).would_settle) == [AssessmentKind.FRICTION, AssessmentKind.CONTACT_DYNAMICS]
     assert kinds(decide(replace(slides, stackable=False)).would_settle) == [AssessmentKind.FRICTION]
     for stacks, falls, expected in (
@@ -171,27 +175,27 @@ def test_3_the_stones_of_what_slides_first_tell_and_its_mechanism_makes_nothing_
     ):
         cracks = (crack(falls, slides_at=0.2),)
         told = decide(replace(slides, cracks=cracks, stacks=stacks))
-        assert str(told.word) == expected
+        assert str(told.verdict) == expected
         assert "slides before it lifts, at 0.2 g; " in told.why and "did not" not in told.why
-        assert AssessmentKind.SLIDES_FIRST not in kinds(told.doubts)
+        assert AssessmentKind.SLIDES_FIRST not in kinds(told.warnings)
         assert f"{stacks[0]} of {stacks[1]} runs as voussoirs fall in contact dynamics" in told.why
         assert told.share == max(stacks[0] / stacks[1], falls / 64)
     as_stack = replace(slides, as_stones="", stacks=(0, 64))
-    assert decide(as_stack).word is Verdict.CANNOT_BE_TOLD
+    assert decide(as_stack).verdict is Verdict.CANNOT_BE_TOLD
     assert decide(replace(slides, slides_at=0.0)).why == "slides apart at rest"
 
 
 def test_8b_only_its_stones_let_an_arch_on_piers_stand():
     piers = Facts(cracks=(crack(0),), as_stones="as voussoirs", needs_stones=True)
     alone = decide(piers)
-    assert str(alone.word) == "probably stands"
-    assert AssessmentKind.STONES_TELL in kinds(alone.doubts)
+    assert str(alone.verdict) == "probably stands"
+    assert AssessmentKind.STONES_TELL in kinds(alone.warnings)
     assert AssessmentKind.CONTACT_DYNAMICS in kinds(alone.would_settle)
     assert word(cracks=(crack(0, farthest=0.0),), rests=True, needs_stones=True) == "stands"
     for runs, expected in ((24, "probably stands"), (64, "stands")):
         told = decide(replace(piers, stacks=(0, runs)))
-        assert str(told.word) == expected
-        assert AssessmentKind.STONES_TELL not in kinds(told.doubts)
+        assert str(told.verdict) == expected
+        assert AssessmentKind.STONES_TELL not in kinds(told.warnings)
 
 
 def test_3_a_crack_that_slides_first_is_left_out_where_another_is_left():
@@ -205,20 +209,20 @@ def test_3_a_crack_that_slides_first_is_left_out_where_another_is_left():
         (64, False, False),
     ):
         left = decide(Facts(cracks=(crack(falls, name="base"), upper)))
-        assert (AssessmentKind.SLIDES_FIRST in kinds(left.doubts)) is doubted
+        assert (AssessmentKind.SLIDES_FIRST in kinds(left.warnings)) is doubted
         assert (would in left.why) is is_worse
     # one that would do no worse is a property of the structure, of which the decision says nothing
     like = decide(Facts(cracks=(crack(20, name="base"), replace(upper, falls=30, farthest=math.inf))))
-    assert not like.doubts and "slide" not in like.why
+    assert not like.warnings and "slide" not in like.why
     at_rest = decide(Facts(cracks=(crack(0), upper), rests=True))
-    assert kinds(at_rest.doubts) == [AssessmentKind.SLIDES_FIRST]
+    assert kinds(at_rest.warnings) == [AssessmentKind.SLIDES_FIRST]
     beside = crack(64, name="upper", counts=False)
     assert word(cracks=(crack(0, slides_at=0.6), beside), slides_at=0.6) == "cannot be told"
 
 
 def test_4_without_a_result_it_cannot_be_told():
     decision = decide(Facts(failures=("the motion is too long",)))
-    assert (str(decision.word), decision.why) == ("cannot be told", "the motion is too long")
+    assert (str(decision.verdict), decision.why) == ("cannot be told", "the motion is too long")
     assert kinds(decision.would_settle) == [AssessmentKind.INPUT]
     assert word() == "cannot be told"
 
@@ -229,7 +233,7 @@ def test_4_without_a_result_it_cannot_be_told():
 )
 def test_5_one_run_is_never_sure(ratio, expected):
     decision = decide(Facts(run_ratio=ratio))
-    assert str(decision.word) == expected
+    assert str(decision.verdict) == expected
     assert decision.share_in_words == "one run"
     assert kinds(decision.would_settle) == [AssessmentKind.ENSEMBLE]
 
@@ -263,8 +267,8 @@ def test_6_cracks_whose_words_differ_have_a_range():
 def test_6_a_known_crack_decides_alone_and_a_worse_one_is_a_doubt_beside_it():
     upper = crack(64, name="upper", counts=False)
     decision = decide(Facts(cracks=(crack(0), upper)))
-    assert (str(decision.word), decision.share) == ("stands", 0.0)
-    assert kinds(decision.doubts) == [AssessmentKind.OTHER_CRACK_WORSE]
+    assert (str(decision.verdict), decision.share) == ("stands", 0.0)
+    assert kinds(decision.warnings) == [AssessmentKind.OTHER_CRACK_WORSE]
     assert "the known crack; with the upper 64 of 64 would" in decision.why
 
 
@@ -274,8 +278,8 @@ def test_6_a_bulge_counts_beside_a_known_crack():
     beside = crack(64, name="upper", counts=False)
     for cracks in ((bulge, crack(0), beside), (crack(0), bulge, beside)):
         decision = decide(Facts(cracks=cracks))
-        assert (str(decision.word), decision.interval) == ("overturns", (1.0, 1.0))
-        assert kinds(decision.doubts) == []
+        assert (str(decision.verdict), decision.interval) == ("overturns", (1.0, 1.0))
+        assert kinds(decision.warnings) == []
     assert word(cracks=(stands, crack(64))) == "overturns"
     assert word(cracks=(stands, crack(0), crack(64, name="upper"))) == "uncertain"
 
@@ -295,15 +299,15 @@ def test_7_a_crack_without_one_member_cannot_be_told():
 def test_7_members_that_failed_make_nothing_fall():
     """63 of 64 fail: neither stands it, as it did without them, nor does it fall."""
     decision = decide(Facts(cracks=(crack(0, failed=63, farthest=0.2),)))
-    assert str(decision.word) == "cannot be told"
+    assert str(decision.verdict) == "cannot be told"
     assert decision.interval == (0.0, 63 / 64)
-    assert kinds(decision.doubts) == [AssessmentKind.MEMBERS_FAILED]
+    assert kinds(decision.warnings) == [AssessmentKind.MEMBERS_FAILED]
     assert kinds(decision.would_settle) == [AssessmentKind.TOLERANCE]
     assert math.isnan(decision.share)
 
 
 def test_8_members_that_fall_decide_whatever_else_is_doubtful():
-    facts = {"doubts": (OPEN,), "failures": ("component Y is cut",), "stacks": (0, 64)}
+    facts = {"warnings": (OPEN,), "failures": ("component Y is cut",), "stacks": (0, 64)}
     assert word(cracks=(crack(64),), **facts) == "overturns"
     assert word(cracks=(crack(64, 66, failed=2),)) == "overturns"
 
@@ -323,27 +327,27 @@ def test_8b_a_contact_that_needs_more_friction_than_it_has_limits_the_word(runs,
     """Lifted by many runs of contact dynamics, which are on that friction; the share is left."""
     slides = Facts(cracks=(crack(0),), friction_needed=0.7, stacks=None if runs is None else (0, runs))
     decision = decide(slides)
-    assert (str(decision.word), decision.share) == (expected, 0.0)
+    assert (str(decision.verdict), decision.share) == (expected, 0.0)
     limited = expected != "stands"
-    assert (AssessmentKind.FRICTION_SHORT in kinds(decision.doubts)) is limited
+    assert (AssessmentKind.FRICTION_SHORT in kinds(decision.warnings)) is limited
     assert (AssessmentKind.FRICTION in kinds(decision.would_settle)) is limited
 
 
-@pytest.mark.parametrize("far", [{"doubts": (OPEN,)}, {"held": True, "beyond": AssessmentKind.TIES_GIVE}])
+@pytest.mark.parametrize("far", [{"warnings": (OPEN,)}, {"held": True, "beyond": AssessmentKind.TIES_GIVE}])
 def test_contact_dynamics_is_advised_only_where_it_may_still_tell(far):
     """Not where it ran often enough already, nor of what it cannot follow, of which a doubt says so."""
     facts = Facts(cracks=(crack(0),), **far)
     assert kinds(decide(facts).would_settle) == [AssessmentKind.CONTACT_DYNAMICS]
     cannot = decide(replace(facts, stackable=False))
     assert cannot.would_settle == ()
-    assert cannot.word is decide(facts).word
-    told = [Remark(AssessmentKind.NO_STACK)] if facts.doubts else []
-    assert [doubt for doubt in cannot.doubts if doubt not in decide(facts).doubts] == told
+    assert cannot.verdict is decide(facts).verdict
+    told = [RockingWarning(AssessmentKind.NO_STACK)] if facts.warnings else []
+    assert [warning for warning in cannot.warnings if warning not in decide(facts).warnings] == told
     assert decide(replace(facts, stacks=(0, 64))).would_settle == ()
 
 
 def test_more_runs_are_advised_where_none_of_few_falls_and_the_members_all_stand():
-    facts = Facts(cracks=(crack(0),), doubts=(OPEN,))
+    facts = Facts(cracks=(crack(0),), warnings=(OPEN,))
     assert kinds(decide(replace(facts, stacks=(0, 18))).would_settle) == [AssessmentKind.CONTACT_DYNAMICS]
     assert decide(replace(facts, stacks=(1, 19))).would_settle == ()
 
@@ -361,8 +365,8 @@ def test_more_runs_are_advised_where_none_of_few_falls_and_the_members_all_stand
     ],
 )
 def test_9_contact_dynamics_may_only_make_it_worse(members, fallen, runs, expected):
-    decision = decide(Facts(cracks=(crack(members),), doubts=(THROWN,), stacks=(fallen, runs)))
-    assert str(decision.word) == expected
+    decision = decide(Facts(cracks=(crack(members),), warnings=(THROWN,), stacks=(fallen, runs)))
+    assert str(decision.verdict) == expected
     assert f"{fallen} of {runs} stacks" in decision.why
 
 
@@ -397,14 +401,14 @@ def test_the_share_is_the_largest_of_members_and_stacks(falls, stacks, share):
 def test_the_share_takes_the_stacks_of_what_the_members_overturn_already():
     """One more member brings "overturns" about, and takes nothing from the share of the stacks."""
     facts = [Facts(cracks=(crack(falls, 256),), stacks=(24, 24)) for falls in (247, 248)]
-    assert [str(decide(one_fact).word) for one_fact in facts] == ["probably overturns", "overturns"]
+    assert [str(decide(one_fact).verdict) for one_fact in facts] == ["probably overturns", "overturns"]
     assert [decide(fact).share for fact in facts] == [1.0, 1.0]
 
 
 def test_a_further_fall_of_a_crack_of_few_members_takes_nothing_from_the_share():
     """3, then 4 of 16 beside 19 of 64: the few make the word by their error, the many have the larger share."""
     few = [Facts(cracks=(crack(falls, 16), crack(19, name="upper"))) for falls in (3, 4)]
-    assert [str(decide(one_member).word) for one_member in few] == ["probably stands", "uncertain"]
+    assert [str(decide(one_member).verdict) for one_member in few] == ["probably stands", "uncertain"]
     assert [decide(member).share for member in few] == [19 / 64, 19 / 64]
     assert decide(few[1]).interval == (16 / 64, 19 / 64)
 
@@ -412,14 +416,14 @@ def test_a_further_fall_of_a_crack_of_few_members_takes_nothing_from_the_share()
 def test_what_limits_the_word_leaves_the_share():
     """A held wall whose chains go far, and a single run."""
     far = decide(Facts(cracks=(crack(0),), held=True, beyond=AssessmentKind.HELD_BEYOND))
-    assert (str(far.word), far.share) == ("probably stands", 0.0)
+    assert (str(far.verdict), far.share) == ("probably stands", 0.0)
     alone = decide(Facts(run_ratio=math.inf))
-    assert (str(alone.word), alone.share, alone.share_in_words) == ("uncertain", 1.0, "one run")
+    assert (str(alone.verdict), alone.share, alone.share_in_words) == ("uncertain", 1.0, "one run")
 
 
 def test_a_single_run_is_no_share_of_the_stacks_beside_it():
     beside = decide(Facts(run_ratio=0.1, stacks=(14, 14)))
-    assert (str(beside.word), beside.share, beside.share_in_words) == (
+    assert (str(beside.verdict), beside.share, beside.share_in_words) == (
         "probably overturns",
         1.0,
         "100\u00a0%",
@@ -429,8 +433,8 @@ def test_a_single_run_is_no_share_of_the_stacks_beside_it():
 
 
 def test_10_a_doubt_leaves_only_the_least_share():
-    decision = decide(Facts(cracks=(crack(12),), doubts=(OPEN,)))
-    assert str(decision.word) == "cannot be told"
+    decision = decide(Facts(cracks=(crack(12),), warnings=(OPEN,)))
+    assert str(decision.verdict) == "cannot be told"
     assert decision.interval == (12 / 64, 1.0)
     assert decision.share_in_words == "at least 19\u00a0%"
     assert kinds(decision.would_settle) == [AssessmentKind.CONTACT_DYNAMICS]
@@ -440,15 +444,15 @@ def test_10_a_doubt_leaves_only_the_least_share():
 def test_10_a_missing_component_is_not_settled_by_contact_dynamics():
     missing = {"failures": ("the component X gave no result: too short",), "stacks": (0, 64)}
     decision = decide(Facts(cracks=(crack(0),), **missing))
-    assert str(decision.word) == "cannot be told"
-    assert kinds(decision.doubts) == [AssessmentKind.COMPONENT_MISSING]
+    assert str(decision.verdict) == "cannot be told"
+    assert kinds(decision.warnings) == [AssessmentKind.COMPONENT_MISSING]
     assert kinds(decision.would_settle) == [AssessmentKind.COMPONENT]
     assert "too short" in decision.why
     assert word(cracks=(crack(50),), **missing) == "probably overturns"
 
 
 def test_11_tells_what_decides():
-    decision = decide(Facts(cracks=(crack(30),), remarks=(Remark(AssessmentKind.RESTITUTION),)))
+    decision = decide(Facts(cracks=(crack(30),), settling=(RockingWarning(AssessmentKind.RESTITUTION),)))
     assert kinds(decision.would_settle) == [AssessmentKind.RESTITUTION]
     assert decision.share_in_words == "47\u00a0%"
 
@@ -513,14 +517,14 @@ def drawn(chance):
         never_overturns_because="stays tied" if chance() < 0.05 else "",
         slides_at=0.6 if chance() < 0.1 else math.nan,
         friction_needed=one_of(0.7, math.inf) if chance() < 0.1 else math.nan,
-        doubts=one_of((), (), (), (OPEN,), (THROWN,)),
+        warnings=one_of((), (), (), (OPEN,), (THROWN,)),
         held=chance() < 0.3,
         beyond=AssessmentKind.HELD_BEYOND if chance() < 0.3 else None,
         stacks=(fallen, runs) if chance() < 0.3 else None,
         failures=("component X is cut",) if chance() < 0.1 else (),
     )
     # What rests was neither followed as stacks nor doubted.
-    return replace(made, stacks=None, doubts=(), failures=()) if made.rests else made
+    return replace(made, stacks=None, warnings=(), failures=()) if made.rests else made
 
 
 def numbers(seed):
@@ -564,7 +568,7 @@ def oracle(facts):
 
     count = [crack for crack in facts.cracks if crack.counts]
     count = [one_number for one_number in count if not one_number.slides] or count
-    if facts.never_overturns_because and not facts.doubts:
+    if facts.never_overturns_because and not facts.warnings:
         return SAFEST_FIRST[0]
     if facts.rests:
         return SAFEST_FIRST[1]
@@ -586,7 +590,7 @@ def oracle(facts):
         place = max(place, 2)
     if facts.stacks:
         place = max(place, word_of(*facts.stacks, False))
-    if place < 4 and (facts.failures or (facts.doubts and not facts.stacks)):
+    if place < 4 and (facts.failures or (facts.warnings and not facts.stacks)):
         return SAFEST_FIRST[4]
     return SAFEST_FIRST[place]
 
@@ -596,8 +600,8 @@ def test_the_decision_is_that_of_the_table():
     met = set()
     for _ in range(3_000):
         facts = drawn(chance)
-        assert str(decide(facts).word) == oracle(facts), facts
-        met.add(str(decide(facts).word))
+        assert str(decide(facts).verdict) == oracle(facts), facts
+        met.add(str(decide(facts).verdict))
     assert met == set(SAFEST_FIRST)
 
 
@@ -627,7 +631,7 @@ def share_of_the_table(facts):
         Fraction(one_number.falls + one_number.failed, one_number.followed + one_number.failed)
         for one_number in count
     ]
-    if not of_each or facts.rests or (facts.never_overturns_because and not facts.doubts):
+    if not of_each or facts.rests or (facts.never_overturns_because and not facts.warnings):
         return None
     return max([*of_each, *([Fraction(*facts.stacks)] if facts.stacks else [])])
 
@@ -658,7 +662,9 @@ def test_the_share_stands_on_the_word(draws):
         )
         falls = math.ceil(share * makes[1])
         farthest = makes[2] if falls == makes[0] else math.inf
-        assert step(falls=falls, members=makes[1], farthest=farthest).badness >= decision.word.badness, facts
+        assert step(falls=falls, members=makes[1], farthest=farthest).badness >= decision.verdict.badness, (
+            facts
+        )
         met += 1
         by_stacks += bool(facts.stacks) and share == Fraction(*facts.stacks)
     assert by_stacks > draws / 50 and met > draws / 3
@@ -668,7 +674,7 @@ def worsened(facts, chance):
     """The facts with one thing gone worse: a doubt, a component, a member or a stack more."""
     ways = [{"failures": (*facts.failures, "component Y is cut")}, {"beyond": AssessmentKind.TIES_GIVE}]
     ways.append({"friction_needed": 0.8})
-    ways += [{"doubts": (*facts.doubts, case)} for case in (OPEN, THROWN) if case not in facts.doubts]
+    ways += [{"warnings": (*facts.warnings, case)} for case in (OPEN, THROWN) if case not in facts.warnings]
     if not math.isnan(facts.run_ratio):
         ways.append({"run_ratio": math.inf})
     if facts.stacks and facts.stacks[0] < facts.stacks[1]:
@@ -693,7 +699,7 @@ def test_a_further_doubt_failure_or_fall_never_makes_a_word_safer_nor_a_share_sm
     for _ in range(draws):
         facts = drawn(chance)
         worse = worsened(facts, chance)
-        before, after = (SAFEST_FIRST.index(decide(case).word) for case in (facts, worse))
+        before, after = (SAFEST_FIRST.index(decide(case).verdict) for case in (facts, worse))
         assert after >= before, (facts, worse)
         changed += after > before
         first, then = decide(facts), decide(worse)

@@ -169,9 +169,9 @@ def test_a_sentence_repeats_the_begin_of_a_long_name(tmp_path, lines):
 
 def test_a_heavy_structure_is_warned_of(tmp_path):
     roof = "name: roof, type: support, period_s: 0.3, participation: 1.3, mass_ratio: {}"
-    (heavy,) = listed(tmp_path, f"name: a, {BLOCK}, stands_on: roof", roof.format(0.05))["a"].remarks
+    (heavy,) = listed(tmp_path, f"name: a, {BLOCK}, stands_on: roof", roof.format(0.05))["a"].warnings
     assert (heavy.kind, heavy.about, heavy["ratio"]) == (FloorKind.HEAVY_ON_SUPPORT, "a", 0.05)
-    assert not listed(tmp_path, f"name: a, {BLOCK}, stands_on: roof", roof.format(0.01))["a"].remarks
+    assert not listed(tmp_path, f"name: a, {BLOCK}, stands_on: roof", roof.format(0.01))["a"].warnings
 
 
 FRONT = (
@@ -257,7 +257,7 @@ def test_a_restitution_above_that_of_the_geometry_is_told(tmp_path):
     sizes = "type: block, breadth_m: 0.6, height_m: 3"
     path.write_text(f"- {{name: a, {sizes}, restitution: 0.99}}\n- {{name: b, {sizes}, restitution: 0.7}}\n")
     scenes = load_scenes(path)
-    (told,) = (remark for scene in scenes.values() for remark in scene.remarks)
+    (told,) = (warning for scene in scenes.values() for warning in scene.warnings)
     assert (told.kind, told.about) == (StructureKind.RESTITUTION_ABOVE, "a")
     assert told["own"] == pytest.approx(0.9423, abs=1e-4)
     kinds = [one_scene.structure.cautions[-1].kind for one_scene in scenes.values()]

@@ -48,7 +48,7 @@ def test_a_front_that_stands_falls_once_its_floor_is_said_to_lose_a_short_bearin
     if members:
         assert lost.verdict is Verdict.OVERTURNS
     else:
-        assert AssessmentKind.SEATS in {remark.kind for remark in lost.cases[""].facts(FRONT).remarks}
+        assert AssessmentKind.SEATS in {warning.kind for warning in lost.cases[""].facts(FRONT).settling}
 
 
 def test_the_reserve_counts_what_loses_its_bearing():

@@ -33,5 +33,5 @@ def test_a_bulge_of_statics_is_followed_without_an_ensemble():
         if "bulges" in variation.crack
     ]
     assert [item.integrated_rotation_ratio for item in fallen] == [math.inf]
-    assert station.decision.word is rocking.Verdict.UNCERTAIN
+    assert station.decision.verdict is rocking.Verdict.UNCERTAIN
     assert station.decision.share == 1.0

@@ -25,7 +25,7 @@ from rocking.errors import CatalogueError, RecordError
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.records.kinds import RecordKind
-from rocking.remarks import Remark
+from rocking.warnings import RockingWarning
 from tests.folders import list_folder
 from tests.refusals import refused
 
@@ -77,7 +77,7 @@ def test_components_by_name_and_in_the_order_given(folder: Path) -> None:
     (record,) = load_catalogue(write(folder, row(component="UD; NS")))
     vertical, horizontal = open_record(record)
     assert (vertical.component, horizontal.component) == ("UD", "NS") and not horizontal.warnings
-    assert vertical.warnings[-1] == Remark(RecordKind.VERTICAL_AS_HORIZONTAL, "UD")
+    assert vertical.warnings[-1] == RockingWarning(RecordKind.VERTICAL_AS_HORIZONTAL, "UD")
     (record,) = load_catalogue(write(folder, row(component="XX")))
     with refused(RecordError, "component", "XX"):
         open_record(record)
@@ -347,14 +347,16 @@ def test_every_file_is_listed_with_what_it_is(folder: Path) -> None:
     assert listed["bare.txt"].record == "bare" and listed["bare.txt"].blanks == ("unit", "time_step_s")
     notes = {row["id"]: row["note"] for row in list_folder(folder)[1]}
     assert notes["bare"] == "columns of numbers. Fill in unit and time_step_s."
-    kinds = {name: [doubt.kind for doubt in file.doubts] for name, file in listed.items()}
+    kinds = {name: [warning.kind for warning in file.warnings] for name, file in listed.items()}
     assert {RecordKind.CHANNEL_OF_VELOCITY, RecordKind.PEAK_RARE} <= set(kinds["loud.csv"])
     assert not kinds["table.csv"]
     (rare,) = (
-        one_doubt for one_doubt in listed["mixed.csv"].doubts if one_doubt.kind is RecordKind.PEAK_RARE
+        one_warning
+        for one_warning in listed["mixed.csv"].warnings
+        if one_warning.kind is RecordKind.PEAK_RARE
     )
     assert rare.about == "EW" and rare["peak_g"] == pytest.approx(4.0)
-    assert Remark.of(RecordKind.VERTICAL_BY_NAME, word="UP") in listed["quake-UP.csv"].doubts
+    assert RockingWarning.of(RecordKind.VERTICAL_BY_NAME, word="UP") in listed["quake-UP.csv"].warnings
     assert listed["tale.txt"].refusal.startswith("no reader recognises")
 
 
@@ -365,7 +367,7 @@ def test_the_table_of_a_folder_never_wraps_and_refusals_stand_below_it(folder: P
     named(folder, "tale.txt", "once upon a time\n")
     for width in (72, 80, 120):
         text = listing_text(list_folder(folder)[0], width)
-        table, fill, doubts, refused = text.split("\n\n")
+        table, fill, warnings, refused = text.split("\n\n")
         lines = table.splitlines()
         assert len(lines) == 1 + 3 + 1 + 3 and max(map(len, lines)) <= width and "0.00408" in table
         assert "tale.txt" not in table and refused.startswith("Not read:\n  tale.txt: no reader recognises")
@@ -373,25 +375,27 @@ def test_the_table_of_a_folder_never_wraps_and_refusals_stand_below_it(folder: P
             fill
             == "Answer once, in layouts.csv:\n  bare.txt: one series in ?, 1 a line; 300 rows; 1 file with peaks 0.3"
         )
-        assert doubts.startswith("To know:\n  table.csv: Its content is that of a_name")
+        assert warnings.startswith("To know:\n  table.csv: Its content is that of a_name")
 
 
 def test_a_file_under_two_names_is_told_where_it_comes_again(folder: Path) -> None:
     named(folder, "again.csv")
     listed, rows = list_folder(folder)
-    assert [file.file for file in listed if file.doubts] == ["table.csv"]
-    assert listed[1].doubts == (Remark.of(RecordKind.CONTENT_REPEATED, original="again.csv"),)
+    assert [file.file for file in listed if file.warnings] == ["table.csv"]
+    assert listed[1].warnings == (RockingWarning.of(RecordKind.CONTENT_REPEATED, original="again.csv"),)
     assert ["again.csv" in row["note"] for row in rows] == [False, True]
 
 
 def test_rows_that_are_one_motion_are_told() -> None:
     """Again under another name it is; another component, factor or content of the same name it is not."""
 
-    def told(**cells: Any) -> tuple[Remark, ...]:
+    def told(**cells: Any) -> tuple[RockingWarning, ...]:
         first = CatalogueRecord("one", "a.csv", SHA, component="NS;EW")
         return repeated([first, dataclasses.replace(first, **({"id": "two", "file": "b.csv"} | cells))])
 
-    again = Remark.of(RecordKind.RECORD_REPEATED, "two", file="b.csv", other="one", other_file="a.csv")
+    again = RockingWarning.of(
+        RecordKind.RECORD_REPEATED, "two", file="b.csv", other="one", other_file="a.csv"
+    )
     assert told() == (again,)
     assert len(told(component="")) == len(told(component="UD;EW")) == 1
     for other in ({"component": "UD"}, {"scale_factor": 2.0}, {"sha256": "1" * 64}, {"sha256": ""}):

@@ -8,10 +8,10 @@ import pytest
 from rocking.catalogue import CatalogueRecord, load_catalogue, open_station
 from rocking.catalogue.catalogue import catalogue_text
 from rocking.catalogue.folder import catalogue_of_folder
-from rocking.catalogue.listing import doubts_of
+from rocking.catalogue.listing import warnings_of
 from rocking.records.claims import direction_in_name
 from rocking.records.kinds import RecordKind
-from rocking.remarks import Remark
+from rocking.warnings import RockingWarning
 from tests.folders import list_folder
 
 VALUES = 0.3 * np.sin(np.arange(4000) * 0.07) * np.hanning(4000)
@@ -92,7 +92,7 @@ def test_an_angle_that_nobody_knows_is_told(tmp_path: Path, names: tuple[str, st
     for name in names:
         peer(tmp_path, f"a_{name}.AT2", name)
     assert len(rows(tmp_path)) == 1
-    told = Remark.of(RecordKind.ANGLE_UNKNOWN, first=min(names), second=max(names))
+    told = RockingWarning.of(RecordKind.ANGLE_UNKNOWN, first=min(names), second=max(names))
     assert (str(told) in notes(tmp_path)) == is_told
     (station,) = opened(tmp_path)
     for channel in station.horizontal:
@@ -123,7 +123,10 @@ def test_peer_components_of_unlike_length_are_one_record_and_reported(tmp_path: 
     (station,) = opened(tmp_path)
     for channel in (*station.horizontal, station.vertical):
         assert channel.acceleration.size == 3700
-        assert Remark.of(RecordKind.LENGTHS_UNLIKE, least=3700, most=4000, apart_s=1.5) in channel.warnings
+        assert (
+            RockingWarning.of(RecordKind.LENGTHS_UNLIKE, least=3700, most=4000, apart_s=1.5)
+            in channel.warnings
+        )
 
 
 def test_what_lacks_the_end_of_the_shaking_is_no_component_of_the_same_record(tmp_path: Path) -> None:
@@ -161,7 +164,7 @@ def test_a_vertical_by_its_name_acts_upwards(tmp_path: Path) -> None:
         bare(tmp_path, f"ELC{end}.csv", factor)
     (station,) = opened(tmp_path, unit="g")
     assert len(station.horizontal) == 2 and station.vertical.component == "UP"
-    kinds = {remark.kind for file in catalogue_of_folder(tmp_path).files for remark in doubts_of(file)}
+    kinds = {warning.kind for file in catalogue_of_folder(tmp_path).files for warning in warnings_of(file)}
     assert not kinds & {RecordKind.DIRECTION_UNKNOWN, RecordKind.VERTICAL_IN_NAME}
 
 

@@ -11,7 +11,7 @@ import rocking
 from rocking.catalogue import CatalogueRecord, open_station
 from rocking.catalogue.place import Coordinates, place_of
 from rocking.records.kinds import RecordKind
-from rocking.remarks import Remark
+from rocking.warnings import RockingWarning
 
 STEP = 0.01
 FILE = "one.csv"
@@ -32,7 +32,7 @@ SHIPPED = Path(rocking.__file__).parents[1] / "records"
 def test_what_is_wrong_is_said_with_the_columns(latitude, longitude, kind):
     for of in ("station", "epicentre"):
         found = place_of(latitude=latitude, longitude=longitude, of=of)
-        assert isinstance(found, Remark) and found.kind is kind
+        assert isinstance(found, RockingWarning) and found.kind is kind
         assert f"{of}_latitude_deg" in str(found) and f"{of}_longitude_deg" in str(found)
 
 

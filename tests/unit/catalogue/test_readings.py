@@ -14,8 +14,8 @@ from rocking.catalogue.catalogue import catalogue_text, read_rows
 from rocking.catalogue.folder import catalogue_of_folder
 from rocking.catalogue.readings import STORE
 from rocking.records.kinds import RecordKind
-from rocking.remarks import Remark
 from rocking.study.workspace import write_catalogue
+from rocking.warnings import RockingWarning
 
 ROWS = "".join(f"{i / 100},{i % 5},{i % 7}\n" for i in range(400))
 TABLE = "time,NS (gal),EW (gal)\n" + ROWS
@@ -64,8 +64,10 @@ def test_what_is_doubtful_of_a_file_is_kept_with_its_values(folder: Path, reads:
     )
     first, second = (catalogue_of_folder(folder, keeps_readings=True).files for _ in range(2))
     assert len(reads) == 4
-    assert [file.doubts for file in second] == [file.doubts for file in first]
-    (rare,) = (doubt for file in second for doubt in file.doubts if doubt.kind is RecordKind.PEAK_RARE)
+    assert [file.warnings for file in second] == [file.warnings for file in first]
+    (rare,) = (
+        warning for file in second for warning in file.warnings if warning.kind is RecordKind.PEAK_RARE
+    )
     assert rare.about == "NS" and rare["peak_g"] == pytest.approx(4.0)
 
 
@@ -88,12 +90,12 @@ def _of_other_types(text: str) -> str:
     return _sealed(store)
 
 
-def _of_unknown_remarks(text: str) -> str:
-    """The checksum is right, but the catalogue of remarks holds no such kind."""
+def _of_unknown_warnings(text: str) -> str:
+    """The checksum is right, but the catalogue of warnings holds no such kind."""
     store = json.loads(text)
     readings = json.loads(store["readings"])
     for reading in readings.values():
-        reading["doubts"] = [{"kind": "strange", "about": "", "values": []}]
+        reading["warnings"] = [{"kind": "strange", "about": "", "values": []}]
     store["readings"] = json.dumps(readings)
     return _sealed(store)
 
@@ -112,7 +114,7 @@ def _pickle(_: str) -> str:
 
 @pytest.mark.parametrize(
     "damage",
-    [_cut, _of_another_version, _edited, _of_other_types, _of_unknown_remarks, _foreign, _pickle],
+    [_cut, _of_another_version, _edited, _of_other_types, _of_unknown_warnings, _foreign, _pickle],
 )
 def test_a_store_that_is_not_ours_is_ignored_with_a_line(
     folder: Path, reads: list[str], damage: Callable[[str], str]
@@ -151,7 +153,7 @@ def test_a_copy_is_no_new_name(folder: Path) -> None:
     (folder / "copy.csv").write_bytes((folder / "r1.csv").read_bytes())
     text = again(folder)
     assert "is now" not in text and "1 of them new" in text
-    assert str(Remark.of(RecordKind.CONTENT_REPEATED, original="copy.csv")) in text
+    assert str(RockingWarning.of(RecordKind.CONTENT_REPEATED, original="copy.csv")) in text
 
 
 def test_a_typed_cell_clears_its_request(folder: Path) -> None:

@@ -9,12 +9,12 @@ import pytest
 
 from rocking.catalogue import CatalogueRecord, open_station
 from rocking.catalogue.folder import catalogue_of_folder, unlisted
-from rocking.catalogue.listing import doubts_of
+from rocking.catalogue.listing import warnings_of
 from rocking.errors import RecordError
 from rocking.records import Accelerogram
 from rocking.records.kinds import RecordKind
-from rocking.remarks import Remark
 from rocking.signal import aligned
+from rocking.warnings import RockingWarning
 from tests.folders import list_folder
 from tests.refusals import refused
 
@@ -96,7 +96,7 @@ def test_a_direction_that_the_row_says_is_in_doubt_no_more(tmp_path):
     assert row["component"] == "000;090"
     again = catalogue_of_folder(tmp_path, existing=[row])
     for listing in (first, again):
-        assert [doubts_of(file) for file in listing.files] == [[], []]
+        assert [warnings_of(file) for file in listing.files] == [[], []]
     opened = open_station(_record(tmp_path, row["file"], component=row["component"]))
     assert [channel.azimuth for channel in opened.horizontal] == [0.0, 90.0]
     assert [channel.warnings for channel in opened.horizontal] == [(), ()]
@@ -112,7 +112,7 @@ def test_a_folder_joins_the_files_of_a_station_and_says_why_not(station):
     assert listed[0].companions == 2
     _written(station, "again.asc", "HNN", -VALUES, "10.00")
     files = {file.file: file for file in list_folder(station)[0]}
-    assert files["e.asc"].separation == Remark.of(RecordKind.COMPONENT_TWICE, "HNN", times=2)
+    assert files["e.asc"].separation == RockingWarning.of(RecordKind.COMPONENT_TWICE, "HNN", times=2)
     assert not files["e.asc"].companions
 
 
@@ -120,10 +120,10 @@ def test_records_beside_the_catalogue_that_it_does_not_name_are_told(station):
     (station / "notes.txt").write_text("Dear Sir or Madam\n")
     (station / "catalogue.csv").write_text("id,file\na,e.asc;n.asc\n")
     (told,) = unlisted(station / "catalogue.csv")
-    assert told == Remark.of(RecordKind.FILES_UNLISTED, files="z.asc", folder=str(station))
+    assert told == RockingWarning.of(RecordKind.FILES_UNLISTED, files="z.asc", folder=str(station))
     _written(station, "more.asc", "HNE", VALUES)
     (told,) = unlisted(station / "catalogue.csv")
-    assert told == Remark.of(RecordKind.FILES_UNLISTED, files="more.asc, z.asc", folder=str(station))
+    assert told == RockingWarning.of(RecordKind.FILES_UNLISTED, files="more.asc, z.asc", folder=str(station))
     (station / "other.csv").write_text("id,file\nb,z.asc\nc,more.asc\n")
     assert unlisted(station / "catalogue.csv") == ()
 
@@ -133,16 +133,16 @@ def test_a_file_that_a_catalogue_refused_is_not_said_to_be_new_until_it_is_anoth
     _written(station, "short.asc", "HNE", VALUES[:1])
     (station / "catalogue.csv").write_text("id,file\na,e.asc;n.asc\n")
     (told,) = unlisted(station / "catalogue.csv")
-    assert told == Remark.of(RecordKind.FILES_UNLISTED, files="short.asc, z.asc", folder=str(station)), (
-        "nobody has read them"
-    )
+    assert told == RockingWarning.of(
+        RecordKind.FILES_UNLISTED, files="short.asc, z.asc", folder=str(station)
+    ), "nobody has read them"
     existing = [{"id": "a", "file": "e.asc;n.asc"}]
     found = catalogue_of_folder(station, existing=existing, keeps_readings=True)
     assert not found.new and all(file.refusal for file in found.files if not file.record)
     assert unlisted(station / "catalogue.csv") == ()
     _written(station, "short.asc", "HNE", VALUES)
     (told,) = unlisted(station / "catalogue.csv")
-    assert told == Remark.of(RecordKind.FILES_UNLISTED, files="short.asc", folder=str(station))
+    assert told == RockingWarning.of(RecordKind.FILES_UNLISTED, files="short.asc", folder=str(station))
 
 
 JOINED = {
@@ -198,14 +198,14 @@ def test_a_channel_that_may_be_vertical_is_asked_for(tmp_path):
 
     with pytest.raises(RecordError) as caught:
         open_station(table("ABC"))
-    asked = Remark.of(RecordKind.SOME_MAY_BE_VERTICAL, channels=3, names="A, B, C")
+    asked = RockingWarning.of(RecordKind.SOME_MAY_BE_VERTICAL, channels=3, names="A, B, C")
     assert str(caught.value).endswith(f"t.csv: {asked}")
     named = open_station(replace(table("ABC"), component="A;C"))
     assert [channel.component for channel in named.horizontal] == ["A", "C"] and named.vertical is None
     assert len(open_station(table("AB")).horizontal) == 2
     with pytest.raises(RecordError) as caught:
         open_station(table(["QQX"]))
-    assert str(caught.value).endswith(f"t.csv: {Remark(RecordKind.LONE_MAY_BE_VERTICAL, 'QQX')}")
+    assert str(caught.value).endswith(f"t.csv: {RockingWarning(RecordKind.LONE_MAY_BE_VERTICAL, 'QQX')}")
     (alone,) = open_station(replace(table(["QQX"]), component="QQX")).horizontal
     assert alone.component == "QQX"
     kinds = {warning.kind for channel in (alone, *named.horizontal) for warning in channel.warnings}
@@ -243,7 +243,7 @@ def test_components_more_than_five_degrees_off_a_right_angle_are_told(tmp_path, 
     _written(tmp_path, "a.asc", "000", VALUES, "10.00")
     _written(tmp_path, "b.asc", second, np.roll(VALUES, 5), "10.00")
     _, (row,) = list_folder(tmp_path)
-    apart = Remark.of(RecordKind.NOT_SQUARE, first="000", second=second, angle_deg=84.0)
+    apart = RockingWarning.of(RecordKind.NOT_SQUARE, first="000", second=second, angle_deg=84.0)
     assert (str(apart) in row["note"]) is told
 
 

@@ -23,7 +23,7 @@ from rocking.codes import dynamic_check
 from rocking.codes.kinds import CheckKind
 from rocking.earthquakes.sample import Sample
 from rocking.records import Accelerogram
-from rocking.remarks import Remark
+from rocking.warnings import RockingWarning
 from tests.made_pools import made_answers, made_pool
 
 SPECTRUM = DesignSpectrum.ntc(2.0, 2.5, 0.4)
@@ -123,7 +123,7 @@ def test_stout_blocks_meet_it_and_slender_ones_do_not(records):
     assert stout.interval == (pytest.approx(none, rel=1e-12), 1.0)
     slender = rocking.check(Block.of_size(0.12, 1.5), SPECTRUM, records=records).dynamic
     assert not slender.passed and slender.exceeding and slender.share == 0
-    assert slender.refusal == Remark.of(
+    assert slender.refusal == RockingWarning.of(
         CheckKind.DISPLACEMENT_EXCEEDED, exceeding=slender.exceeding, motions=slender.motions
     )
 
@@ -167,7 +167,7 @@ def test_too_few_sets_call_nothing_met(records):
     few = replace(records, sets=records.sets[:199])
     found = rocking.check(Block.of_size(2.5, 3.0), SPECTRUM, records=few).dynamic
     assert not found.passed and found.share == 1
-    assert found.refusal == Remark.of(CheckKind.SETS_TOO_FEW, sets=199, asked=200)
+    assert found.refusal == RockingWarning.of(CheckKind.SETS_TOO_FEW, sets=199, asked=200)
 
 
 @pytest.mark.slow

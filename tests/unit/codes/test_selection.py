@@ -134,10 +134,10 @@ def test_the_nearest_set_is_the_one_whose_excess_is_least():
     ratios = np.array([[1.0], [1.0], [1.2], [2.0]])
     with pytest.raises(ConfigurationError) as none_near:
         search(ratios, random_sets(np.array(list("abcd")), 3, 2000, np.random.default_rng(0)), 0.05, 0.05)
-    remark = none_near.value.remark
-    assert remark.kind is CheckKind.NO_SET_WITHIN
+    warning = none_near.value.warning
+    assert warning.kind is CheckKind.NO_SET_WITHIN
     # (1 + 1 + 1.2)/3 − 1
-    assert remark["low_percent"] == remark["high_percent"] == pytest.approx(100 * 0.2 / 3)
+    assert warning["low_percent"] == warning["high_percent"] == pytest.approx(100 * 0.2 / 3)
 
 
 def test_its_words_say_the_periods_that_were_asked_for_and_the_factors(pool):

@@ -158,11 +158,11 @@ def test_tie_without_a_strength_says_what_it_must_bear():
         tie_heights=(3.6,), tie_stiffness=2e7,
     )  # fmt: skip
     check = kinematic_check(wall, SPECTRUM)
-    assert check.remark.kind is StructureKind.TIE_MUST_BEAR
-    assert check.remark["needed_kN_m"] == pytest.approx(8.858030, abs=5e-6)
+    assert check.warning.kind is StructureKind.TIE_MUST_BEAR
+    assert check.warning["needed_kN_m"] == pytest.approx(8.858030, abs=5e-6)
     # what the tie keeps shut is no mechanism of the list
     assert not any("crack at 0 m" in mechanism.description for mechanism in check.mechanisms)
-    assert kinematic_check(replace(wall, tie_strength=30e3), SPECTRUM).remark is None
+    assert kinematic_check(replace(wall, tie_strength=30e3), SPECTRUM).warning is None
 
 
 def test_wall_with_a_tie_between_its_supports_is_checked_below_and_above_it():

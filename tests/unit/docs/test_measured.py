@@ -20,8 +20,8 @@ def test_the_readme_prints_the_trade_that_was_measured():
         f"{100 * sine.wrong_share_low:.0f} to {100 * sine.wrong_share_high:.0f} % of such cases",
         sine.machine.partition(",")[0],
     )
-    for remark in told:
-        assert remark in README, remark
+    for warning in told:
+        assert warning in README, warning
 
 
 def test_the_page_prints_each_method_and_shape_with_the_machine():

@@ -57,18 +57,18 @@ def test_what_names_no_earthquake_counts_as_one_unless_each_is_declared():
     records = [Named(station=name) for name in "abc"] + [Named("Kobe", "d")]
     told = Sample.of(records)
     assert (told.count, told.earthquakes) == (4, 2)
-    assert [remark.kind for remark in told.remarks] == [
+    assert [warning.kind for warning in told.warnings] == [
         SampleKind.EARTHQUAKES_UNNAMED,
         SampleKind.EARTHQUAKES_FEW,
     ]
-    assert told.remarks[0]["records"] == 3
+    assert told.warnings[0]["records"] == 3
     declared = Sample.of(records, each_unnamed=True)
     assert declared.earthquakes == 4
 
 
 def test_one_event_for_all_says_that_nothing_is_told_of_others():
     sample = Sample.of([Named("Kobe", name) for name in "abcdef"])
-    assert [remark.kind for remark in sample.remarks] == [SampleKind.EARTHQUAKE_ONE]
+    assert [warning.kind for warning in sample.warnings] == [SampleKind.EARTHQUAKE_ONE]
     assert sample.interval(lambda weights: float(weights.sum())) == (0.0, np.inf)
     low, high = sample.share_bounds(np.array([1.0, 0, 0, 0, 0, 0]))
     assert (low, high) == (0, 1)
@@ -78,7 +78,9 @@ def test_a_motion_under_two_earthquakes_is_named():
     wave = np.sin(np.arange(100) / 5)
     records = [Accelerogram(wave, 0.01, station="a", event=event) for event in ("Kobe", "Landers")]
     twice = next(
-        remark for remark in Sample.of(records).remarks if remark.kind is SampleKind.EARTHQUAKE_NAMED_TWICE
+        warning
+        for warning in Sample.of(records).warnings
+        if warning.kind is SampleKind.EARTHQUAKE_NAMED_TWICE
     )
     assert (twice["first"], twice["second"]) == ("Kobe", "Landers")
 
@@ -86,7 +88,7 @@ def test_a_motion_under_two_earthquakes_is_named():
 def test_a_station_that_is_given_for_two_earthquakes_counts_for_the_first():
     sample = Sample.of([Named(), Named(), Named()], ["a", "a", "b"], ["one", "two", "two"])
     assert sample.events == ("one", "one", "two")
-    assert sample.remarks[0].kind is SampleKind.STATION_OF_TWO_EARTHQUAKES
+    assert sample.warnings[0].kind is SampleKind.STATION_OF_TWO_EARTHQUAKES
 
 
 def test_components_and_processings_of_a_station_are_one():

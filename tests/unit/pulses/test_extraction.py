@@ -11,8 +11,8 @@ from hypothesis.extra.numpy import arrays
 from rocking.errors import PulseError
 from rocking.pulses import Pulse, PulseSettings, extract_pulses
 from rocking.pulses.kinds import PulseKind
-from rocking.remarks import Remark
 from rocking.signal.accelerogram import Accelerogram, Source
+from rocking.warnings import RockingWarning
 from tests.refusals import refused
 
 STEP = 0.01
@@ -89,7 +89,7 @@ def test_a_record_that_does_not_move_is_refused():
 def test_a_record_shorter_than_the_longest_period_says_so():
     pulse = Pulse(amplitude=1.0, circular_frequency=2 * np.pi / 0.8, start_time=0.9)
     found = extract_pulses(Accelerogram(pulse.acceleration(TIMES[:300]), STEP))
-    assert Remark(PulseKind.PULSE_RECORD_SHORT) in found.flags
+    assert RockingWarning(PulseKind.PULSE_RECORD_SHORT) in found.flags
     assert found.band[0] == pytest.approx(1 / 2.99)
     assert found.dominant.period == pytest.approx(0.8, rel=1e-6)
 
@@ -101,7 +101,7 @@ def test_a_record_too_coarse_for_the_upper_frequency_says_so():
             Pulse(amplitude=1.0, circular_frequency=2 * np.pi / 2.5, start_time=9.03).acceleration(times), 0.1
         )
     )
-    assert Remark(PulseKind.PULSE_SAMPLING_COARSE) in found.flags
+    assert RockingWarning(PulseKind.PULSE_SAMPLING_COARSE) in found.flags
     assert found.band[1] == pytest.approx(1.25)  # eight samples in a cycle
     assert found.dominant.period == pytest.approx(2.5, rel=1e-6)
 

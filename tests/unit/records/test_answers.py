@@ -150,10 +150,10 @@ def test_an_answer_that_fits_no_file_of_its_folder_is_told(tmp_path: Path) -> No
     (tmp_path / "a.txt").write_text(pairs(0.3))
     write_asked(tmp_path)
     answer_all(tmp_path, {"a.txt": "t, a g"})
-    assert not catalogue_of_folder(tmp_path).remarks
+    assert not catalogue_of_folder(tmp_path).warnings
     (tmp_path / "a.txt").write_text(pairs(90))
-    (remark,) = catalogue_of_folder(tmp_path).remarks
-    assert remark.kind is RecordKind.ANSWER_IDLE and remark["line"] == 2 and remark["answer"] == "t, a g"
+    (warning,) = catalogue_of_folder(tmp_path).warnings
+    assert warning.kind is RecordKind.ANSWER_IDLE and warning["line"] == 2 and warning["answer"] == "t, a g"
 
 
 def test_no_ground_moves_at_more_than_four_metres_a_second(tmp_path: Path) -> None:

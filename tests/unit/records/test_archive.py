@@ -18,7 +18,7 @@ from rocking.errors import RecordError
 from rocking.records import read
 from rocking.records.archive import members
 from rocking.records.kinds import RecordKind
-from rocking.remarks import Remark
+from rocking.warnings import RockingWarning
 from tests.contracts.made_files import TRUE, knet, peer
 from tests.folders import list_folder
 from tests.refusals import refused
@@ -40,7 +40,7 @@ def test_every_member_is_read_as_the_file_is(tmp_path):
         "45",
         "135",
     )
-    assert first.warnings == (Remark.of(RecordKind.FILES_NOT_READ, names="readme.pdf"),)
+    assert first.warnings == (RockingWarning.of(RecordKind.FILES_NOT_READ, names="readme.pdf"),)
     (alone,) = read(archive / "quake/RSN1_MADE_ST090.AT2")
     assert alone.source.sha256 == second.source.sha256 and alone.source.path.endswith(
         ".zip/quake/RSN1_MADE_ST090.AT2"
@@ -113,7 +113,7 @@ def test_a_tar_file_is_read_as_a_zip_file_is(tmp_path, name, how):
     archive = tarred(tmp_path / name, PLAIN | {"./readme.pdf": b"%PDF"}, how)
     first, second = read(archive)
     assert np.allclose(first.acceleration, TRUE, atol=1e-6) and second.component == "135"
-    assert first.warnings == (Remark.of(RecordKind.FILES_NOT_READ, names="readme.pdf"),)
+    assert first.warnings == (RockingWarning.of(RecordKind.FILES_NOT_READ, names="readme.pdf"),)
     rows = list_folder(tmp_path)[1]
     assert rows[0]["file"] == ";".join(f"{name}/{member}" for member in FILES)
     (tmp_path / "c.csv").write_text(catalogue_text(rows), encoding="utf-8")

@@ -10,7 +10,7 @@ from obspy.core.inventory import Comment, Inventory, Network
 from rocking.errors import RecordError
 from rocking.records import Accelerogram
 from rocking.records.kinds import RecordKind
-from rocking.remarks import Kind
+from rocking.warnings import Kind
 from tests.refusals import refused
 
 COUNTS = np.round(1e5 * np.sin(np.arange(3000) / 30) * np.hanning(3000))
@@ -41,7 +41,7 @@ def inventory(units: str = "M/S**2", dip: float = 0.0):
 def test_channels_of_unlike_stations_or_steps_are_told(other: Trace, kind: Kind | None) -> None:
     records = Accelerogram.from_obspy(Stream([trace(), other]), unit="nm/s2")
     unlike = {RecordKind.STATIONS_UNLIKE, RecordKind.STEPS_OF_STREAM_UNLIKE}
-    told = [{remark.kind for remark in record.warnings} & unlike for record in records]
+    told = [{warning.kind for warning in record.warnings} & unlike for record in records]
     assert told == [{kind} if kind else set()] * 2
 
 
@@ -77,7 +77,7 @@ def test_removing_the_sensitivity_leaves_the_unit_that_the_response_states(units
 def test_a_tilted_sensor_is_told(dip: float, is_told: bool, vertical: bool) -> None:
     (record,) = Accelerogram.from_obspy(trace(), inventory(dip=dip))
     assert record.vertical == vertical
-    assert (RecordKind.TILTED in {remark.kind for remark in record.warnings}) == is_told
+    assert (RecordKind.TILTED in {warning.kind for warning in record.warnings}) == is_told
 
 
 def test_a_response_without_stages_is_not_removed_in_full() -> None:
@@ -123,7 +123,7 @@ def test_an_orientation_that_nobody_knows_is_no_azimuth(note: str, dip: float, a
     described[0][0][0].comments = [Comment(note)]
     (record,) = Accelerogram.from_obspy(trace(), described)
     assert record.azimuth == (None if record.vertical else azimuth) and record.vertical == (dip != 0)
-    is_told = RecordKind.ORIENTATION_UNKNOWN in {remark.kind for remark in record.warnings}
+    is_told = RecordKind.ORIENTATION_UNKNOWN in {warning.kind for warning in record.warnings}
     assert is_told == (azimuth is None)
 
 

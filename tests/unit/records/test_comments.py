@@ -8,7 +8,7 @@ import pytest
 from rocking.errors import RecordError
 from rocking.records.claims import Declarations
 from rocking.records.kinds import RecordKind
-from rocking.remarks import Remark
+from rocking.warnings import RockingWarning
 from tests.refusals import refused
 from tests.unit.records.test_labels import FIRST, TIMES, WAVES, opened, table
 
@@ -191,7 +191,7 @@ def test_the_number_of_samples_that_comments_declare_is_held_against_them(tmp_pa
     with refused(RecordError, "samples", 600):
         opened(tmp_path, head + wrapped(FIRST[:592], 8))
     (record,) = opened(tmp_path, head + wrapped(np.append(FIRST, np.zeros(4)), 8))
-    assert Remark.of(RecordKind.SAMPLES_SURPLUS, declared=600, held=604) in record.warnings
+    assert RockingWarning.of(RecordKind.SAMPLES_SURPLUS, declared=600, held=604) in record.warnings
 
 
 @pytest.mark.parametrize(
@@ -225,6 +225,6 @@ def test_a_unit_beside_a_factor_is_not_taken(tmp_path: Path, comment):
 def test_a_factor_in_a_comment_is_told_and_not_applied(tmp_path: Path, comment):
     (record,) = opened(tmp_path, f"# {comment}\n" + TIMED)
     assert record.acceleration == pytest.approx(FIRST, abs=1e-6)
-    assert Remark.of(RecordKind.FACTOR_NOT_APPLIED, text=comment) in record.warnings
+    assert RockingWarning.of(RecordKind.FACTOR_NOT_APPLIED, text=comment) in record.warnings
     (record,) = opened(tmp_path, "# number of points: 600\n" + TIMED)
     assert RecordKind.FACTOR_NOT_APPLIED not in {warning.kind for warning in record.warnings}

@@ -16,7 +16,7 @@ from rocking.records.formats.format import check_duration
 from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import agree_with_velocity
 from rocking.records.read import LARGEST_FILE, read_content, unpack
-from rocking.remarks import Kind, Remark
+from rocking.warnings import Kind, RockingWarning
 from tests.refusals import refused
 
 
@@ -89,7 +89,7 @@ def test_cosmos_has_the_step_of_its_series() -> None:
     assert f"{STEP / 2:13.6f}" in text and read_text(text)[0].time_step == STEP
     (record,) = read_text(text.replace(f"{1000 * STEP:13.6f}", f"{-999:13.6f}", 1))
     assert record.time_step == STEP / 2
-    assert Remark.of(RecordKind.LENGTH_UNLIKE_HEADER, stated_s=0.4, lasts_s=0.2) in record.warnings
+    assert RockingWarning.of(RecordKind.LENGTH_UNLIKE_HEADER, stated_s=0.4, lasts_s=0.2) in record.warnings
 
 
 @pytest.mark.parametrize(("name", "old", "new"), [
@@ -104,7 +104,7 @@ def test_a_peak_out_of_its_place_is_warned_of(name: str, old: str, new: str) -> 
     place = float(np.abs(TRUE).argmax()) * STEP
     text = made(name)
 
-    def told(at: float) -> tuple[Remark, ...]:
+    def told(at: float) -> tuple[RockingWarning, ...]:
         return read_text(re.sub(old, new.format(round(at, 3)), text, count=1))[0].warnings
 
     known = set(told(place))
@@ -158,7 +158,7 @@ def test_miniseed_blocks_that_come_twice_are_told() -> None:
     """The last blocks overwritten by earlier ones: the record is shorter, without a gap."""
     content = by_obspy("MSEED", COUNTS, reclen=512, encoding="STEIM2")
     whole = read_content(content, "made", IN_MM)[0].warnings
-    assert {remark.kind for remark in whole} <= {
+    assert {warning.kind for warning in whole} <= {
         RecordKind.VELOCITY_RARE
     }  # of a tone that is made to be loud
     blocks = [content[i : i + 512] for i in range(0, len(content), 512)]
@@ -171,7 +171,7 @@ def test_miniseed_blocks_that_come_twice_are_told() -> None:
         if one_warning.kind is RecordKind.BLOCKS_LEAP
     )
     (record,) = read_content(b"".join([*blocks[:4], *blocks[3:]]), "made", IN_MM)
-    assert Remark.of(RecordKind.BLOCKS_LEAP, before=4, after=4) in record.warnings
+    assert RockingWarning.of(RecordKind.BLOCKS_LEAP, before=4, after=4) in record.warnings
 
 
 def test_miniseed_that_fails_its_own_check_is_refused() -> None:

@@ -8,13 +8,13 @@ from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import agree_with_velocity, damage_warnings, repeated_rows
-from rocking.remarks import Remark
 from rocking.signal.processing import integral
+from rocking.warnings import RockingWarning
 
 SHAKING = np.sin(np.arange(400) / 5) * np.hanning(400)
 
 
-def told(values: np.ndarray) -> tuple[Remark, ...]:
+def told(values: np.ndarray) -> tuple[RockingWarning, ...]:
     return damage_warnings(Accelerogram(values, 0.01))
 
 
@@ -30,7 +30,7 @@ def test_a_sample_alone_is_told_with_the_peak_without_it() -> None:
     for place in (0, 150, 399):
         struck = SHAKING.copy()
         struck[place] = 30.0
-        (alone,) = (remark for remark in told(struck) if remark.kind is RecordKind.SAMPLE_ALONE)
+        (alone,) = (warning for warning in told(struck) if warning.kind is RecordKind.SAMPLE_ALONE)
         assert alone["time_s"] == pytest.approx(place * 0.01)
         assert alone["peak_g"] == pytest.approx(30 / GRAVITY)
         assert alone["others_g"] == pytest.approx(np.abs(np.delete(SHAKING, place)).max() / GRAVITY)
@@ -49,7 +49,7 @@ def test_zeros_within_shaking_are_told() -> None:
     for zeros, is_told in ((49, False), (50, True)):
         gap = coarse.copy()
         gap[180 : 180 + zeros] = 0.0
-        assert (RecordKind.ZEROS_IN_SHAKING in {remark.kind for remark in told(gap)}) == is_told
+        assert (RecordKind.ZEROS_IN_SHAKING in {warning.kind for warning in told(gap)}) == is_told
     still = np.concatenate([np.zeros(300), SHAKING + 1e-9, np.zeros(300)])
     assert not told(still) + told(np.zeros(400))
 
@@ -72,7 +72,7 @@ def test_a_stretch_that_stands_still_is_told(start: int, size: int, is_told: boo
     """Outside of the strong shaking, too: zeroed lines, or a line that is repeated again and again."""
     values = shaking(3)
     values[start : start + size] = value
-    still = Remark.of(RecordKind.STILL_STRETCH, time_s=start * 0.01, samples=size)
+    still = RockingWarning.of(RecordKind.STILL_STRETCH, time_s=start * 0.01, samples=size)
     assert (still in told(values)) == is_told
     values[-100:] = values[-100]
     assert (still in told(values)) == is_told, "whatever longer stretch the record ends with"
@@ -83,7 +83,7 @@ def test_a_row_of_all_channels_that_stands_twice_is_told() -> None:
     whole = [Accelerogram(column, 0.01) for column in table.T]
     twice = [Accelerogram(column, 0.01) for column in np.insert(table, 2000, table[1999], axis=0).T]
     assert repeated_rows(whole) == () == repeated_rows(twice[:1])
-    assert repeated_rows(twice) == (Remark.of(RecordKind.ROW_REPEATED, time_s=2000 * 0.01),)
+    assert repeated_rows(twice) == (RockingWarning.of(RecordKind.ROW_REPEATED, time_s=2000 * 0.01),)
     coarse = [Accelerogram(np.round(column), 0.01) for column in table.T]
     assert repeated_rows(coarse) == ()
 
@@ -98,4 +98,4 @@ def test_a_velocity_that_strays_in_one_place_is_told(size: int, is_told: bool, o
     if size:
         series[1900 : 1900 + 2 * size] = np.roll(series[1900 : 1900 + 2 * size], size)
     told_of = agree_with_velocity(Accelerogram(acceleration, 0.01), velocity).warnings
-    assert [remark.kind for remark in told_of] == [RecordKind.VELOCITY_UNLIKE_THERE] * is_told
+    assert [warning.kind for warning in told_of] == [RecordKind.VELOCITY_UNLIKE_THERE] * is_told

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import pytest
 
 from rocking.records.claims import direction_in_name
-from rocking.records.direction import Direction, directed, doubts_of_channel, pair_doubt
+from rocking.records.direction import Direction, directed, pair_warning, warnings_of_channel
 from rocking.records.kinds import RecordKind
 
 
@@ -50,14 +50,14 @@ def test_axes_whose_azimuth_is_not_known(name: str, axis: str) -> None:
 ])  # fmt: skip
 def test_a_pair_at_right_angles_by_what_its_names_mean(first: str, second: str, across: bool) -> None:
     pair = Channel(first), Channel(second)
-    assert all(doubts_of_channel(component) == () for component in pair)
-    doubt = pair_doubt(pair)
-    assert doubt is None if across else doubt is not None and doubt.kind is RecordKind.ANGLE_UNKNOWN
+    assert all(warnings_of_channel(component) == () for component in pair)
+    warning = pair_warning(pair)
+    assert warning is None if across else warning is not None and warning.kind is RecordKind.ANGLE_UNKNOWN
 
 
 def test_a_pair_of_columns_without_names_is_not_doubted() -> None:
     """Neither says anything that could contradict their being a pair; one name beside none does (above)."""
-    assert pair_doubt((Channel("acc"), Channel("channel 2"))) is None
+    assert pair_warning((Channel("acc"), Channel("channel 2"))) is None
 
 
 def test_what_is_said_first_counts() -> None:

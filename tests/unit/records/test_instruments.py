@@ -21,7 +21,7 @@ from rocking.records.direction import Direction
 from rocking.records.formats import FORMATS
 from rocking.records.kinds import RecordKind
 from rocking.records.obspy.plugin import PLUGINS
-from rocking.remarks import Remark
+from rocking.warnings import RockingWarning
 from tests.folders import list_folder
 from tests.refusals import refused
 
@@ -111,9 +111,9 @@ def test_a_folder_of_counts_hears_that_its_stationxml_is_missing(miniseed: Path)
     files = list_folder(miniseed.parent)[0]
     assert len(files) == 2  # miniSEED and SAC
     for file in files:
-        assert Remark(RecordKind.COUNTS_WITHOUT_UNIT) in file.doubts
+        assert RockingWarning(RecordKind.COUNTS_WITHOUT_UNIT) in file.warnings
     (miniseed.parent / "station.xml").write_text(XML.format(units="M/S**2"))
-    assert [file.doubts for file in list_folder(miniseed.parent)[0]][:2] == [(), ()]
+    assert [file.warnings for file in list_folder(miniseed.parent)[0]][:2] == [(), ()]
 
 
 def test_what_the_c_library_says_of_a_response_is_a_warning_of_the_record(miniseed: Path, capfd) -> None:
@@ -343,7 +343,7 @@ def test_a_sensitivity_at_another_frequency_than_its_stages_is_told() -> None:
     inventory = read_inventory(io.BytesIO(text.encode()), format="STATIONXML")
     (record,) = Accelerogram.from_obspy(trace(), inventory)
     assert np.allclose(record.acceleration, (COUNTS - COUNTS.mean()) / 230000, atol=1e-12)
-    assert [remark.kind for remark in record.warnings] == [RecordKind.SENSITIVITY_ELSEWHERE]
+    assert [warning.kind for warning in record.warnings] == [RecordKind.SENSITIVITY_ELSEWHERE]
 
 
 def test_the_full_removal_asks_the_stages_alone() -> None:
@@ -371,7 +371,7 @@ def test_names_that_are_no_verticals(name: str, along: float | None) -> None:
 
 def test_a_direction_that_nobody_states_is_told() -> None:
     (record,) = Accelerogram.from_obspy(trace(COUNTS / 1e5, channel="QQX"), unit="m/s2")
-    assert Remark(RecordKind.LONE_MAY_BE_VERTICAL, "QQX") in record.warnings
+    assert RockingWarning(RecordKind.LONE_MAY_BE_VERTICAL, "QQX") in record.warnings
 
 
 @pytest.mark.real_records

@@ -13,7 +13,7 @@ from rocking.records.direction import Direction
 from rocking.records.formats.format import coordinates
 from rocking.records.formats.layouts import AskedError
 from rocking.records.kinds import RecordKind
-from rocking.remarks import Remark
+from rocking.warnings import RockingWarning
 from tests.contracts.made_files import TRUE, columns, cwb, smc
 from tests.refusals import refused
 from tests.unit.records.test_layouts import answered
@@ -204,4 +204,4 @@ def test_the_scale_of_a_sac_file_is_told(tmp_path):
     SACTrace(data=numbers, delta=0.01, kcmpnm="HNE", scale=2.0).write(str(path))
     (record,) = read(path, unit="m/s2")
     assert record.acceleration == pytest.approx(2 * (numbers - numbers.mean()), abs=1e-5)
-    assert Remark.of(RecordKind.SCALE_APPLIED, factor=2.0) in record.warnings
+    assert RockingWarning.of(RecordKind.SCALE_APPLIED, factor=2.0) in record.warnings

@@ -1,4 +1,4 @@
-"""What the names of columns, and the remarks above them, say of quantity, unit, direction and time step."""
+"""What the names of columns, and the warnings above them, say of quantity, unit, direction and time step."""
 
 from pathlib import Path
 
@@ -12,7 +12,7 @@ from rocking.records.direction import Direction
 from rocking.records.formats.labels import ColumnLabel
 from rocking.records.formats.layouts import NAME, AskedError
 from rocking.records.kinds import RecordKind
-from rocking.remarks import Remark
+from rocking.warnings import RockingWarning
 from tests.refusals import refused
 from tests.unit.records.test_layouts import answered
 
@@ -152,7 +152,7 @@ def test_heads_of_other_languages_are_read_as_the_english_one_is(tmp_path: Path,
     for record, wave in zip(of_columns, WAVES, strict=False):
         assert record.acceleration == pytest.approx(wave / 100, abs=1e-7)
         is_unknown = record.azimuth is None
-        assert (RecordKind.DIRECTION_UNKNOWN in {remark.kind for remark in record.warnings}) is is_unknown
+        assert (RecordKind.DIRECTION_UNKNOWN in {warning.kind for warning in record.warnings}) is is_unknown
     head = "\n".join(lines)
     (record,) = opened(tmp_path, table(f"{head}\n", FIRST))
     assert record.acceleration == pytest.approx(FIRST / 100, abs=1e-7)
@@ -163,7 +163,7 @@ def test_heads_of_other_languages_are_read_as_the_english_one_is(tmp_path: Path,
     with refused(UndeclaredError, "unit"):
         opened(tmp_path, table("".join(f"# {line}\n" for line in (*lines[:2], f"{lines[2]} * 100")), FIRST))
     (record,) = opened(tmp_path, table(marked, FIRST))
-    assert RecordKind.FACTOR_NOT_APPLIED in {remark.kind for remark in record.warnings}
+    assert RecordKind.FACTOR_NOT_APPLIED in {warning.kind for warning in record.warnings}
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -229,27 +229,27 @@ def test_units_may_stand_below_the_names(tmp_path, units):
 
 
 @pytest.mark.parametrize(
-    ("remarks", "step"),
+    ("warnings", "step"),
     [("# units: cm/s2\n# dt = 0.005 s\n", 0.005), ("% Unidades: cm/s2\n% Tasa de muestreo: 200 Hz\n", 0.005),
      ("$ acceleration in cm/s2\n$ sampling interval (s): 0.02\n", 0.02)],
 )  # fmt: skip
-def test_remarks_declare_unit_and_step(tmp_path, remarks, step):
-    (record,) = opened(tmp_path, table(remarks, 100 * FIRST))
+def test_warnings_declare_unit_and_step(tmp_path, warnings, step):
+    (record,) = opened(tmp_path, table(warnings, 100 * FIRST))
     assert record.time_step == pytest.approx(step) and np.allclose(record.acceleration, FIRST, atol=1e-7)
     with refused(RecordError, "time_step", 0.01):
-        opened(tmp_path, table(remarks, 100 * FIRST), time_step=0.01)
+        opened(tmp_path, table(warnings, 100 * FIRST), time_step=0.01)
 
 
 @pytest.mark.parametrize(
-    "remarks",
+    "warnings",
     ["# PGA: 0.35 (g)\n", "# scale factor in g\n", "# acc in g\n# units: gal\n", "# Geoscope (G)\n"],
 )
-def test_a_remark_on_the_peak_or_two_that_differ_declare_no_unit(tmp_path, remarks):
+def test_a_warning_on_the_peak_or_two_that_differ_declare_no_unit(tmp_path, warnings):
     with refused(RecordError, "unit"):
-        opened(tmp_path, table(remarks, FIRST), time_step=0.01)
+        opened(tmp_path, table(warnings, FIRST), time_step=0.01)
 
 
-def test_directions_in_the_last_remark_name_the_columns(tmp_path):
+def test_directions_in_the_last_warning_name_the_columns(tmp_path):
     records = opened(tmp_path, table("# made\n# EW NS UD\n", *WAVES), unit="m/s2", time_step=0.01)
     assert [(record.azimuth, record.vertical) for record in records] == [
         (90, False),
@@ -310,7 +310,7 @@ def test_numbers_none_of_which_is_negative_are_told(tmp_path):
 
 def test_a_column_of_a_floor_is_told(tmp_path):
     _, roof = opened(tmp_path, table("time (s),ground (g),roof (g)\n", TIMES, FIRST, WAVES[1]))
-    assert Remark.of(RecordKind.IN_A_STRUCTURE, place="roof") in roof.warnings
+    assert RockingWarning.of(RecordKind.IN_A_STRUCTURE, place="roof") in roof.warnings
 
 
 def test_text_above_a_table_is_passed_over_where_nothing_is_left_open(tmp_path):

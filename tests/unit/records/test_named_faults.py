@@ -80,7 +80,7 @@ def test_one_and_the_step_above_a_column_are_no_samples(tmp_path: Path) -> None:
     column = "".join(f"{value:.6f}\n" for value in 0.1 * MOTION)
     (record,) = opened(tmp_path, f"1\n0.005\n{column}", unit="g")
     assert record.time_step == 0.005 and record.acceleration.size == MOTION.size
-    assert [remark.kind for remark in record.warnings] == [RecordKind.FIRST_NUMBERS]
+    assert [warning.kind for warning in record.warnings] == [RecordKind.FIRST_NUMBERS]
     # A column that begins with 1 and goes on near it is a motion.
     (record,) = opened(tmp_path, "1\n" + rows(MOTION + 0.8), unit="m/s2", time_step=0.01)
     assert record.acceleration.size == MOTION.size + 1
@@ -107,7 +107,7 @@ def test_a_matrix_of_spectra_is_no_record(tmp_path: Path, first: np.ndarray) -> 
 def test_an_even_pair_of_columns_without_negative_numbers_is_told(tmp_path: Path) -> None:
     """It may be a record whose offset was not removed."""
     (record,) = opened(tmp_path, rows(TIMES, np.abs(MOTION)), unit="m/s2")
-    assert RecordKind.NEVER_NEGATIVE in {remark.kind for remark in record.warnings}
+    assert RecordKind.NEVER_NEGATIVE in {warning.kind for warning in record.warnings}
 
 
 def test_a_peak_that_a_header_cuts_off_damages_nothing(tmp_path: Path) -> None:
@@ -151,7 +151,7 @@ def test_points_of_film_end_at_a_seam(tmp_path: Path, tail: str, is_cut: bool, c
     """Sixteen of seventeen files of the kind end in a line of another trace, which their count leaves out."""
     (record,) = opened(tmp_path, film(tail, counted), "made.smc")
     expected = [RecordKind.SEAM_CUT, RecordKind.UNEVEN_FILM] if is_cut else [RecordKind.UNEVEN_FILM]
-    assert [remark.kind for remark in record.warnings] == expected
+    assert [warning.kind for warning in record.warnings] == expected
     times = 0.005 * np.arange(record.acceleration.size)
     # The times are printed with four digits, by which a slope of 9 m/s³ moves the numbers.
     assert np.abs(record.acceleration - np.interp(times, TIMES, MOTION)).max() < 0.03

@@ -14,8 +14,8 @@ from rocking.catalogue.listing import listing_text
 from rocking.errors import CatalogueError, RecordError
 from rocking.records import read
 from rocking.records.kinds import RecordKind
-from rocking.remarks import Remark
 from rocking.study.workspace import write_catalogue
+from rocking.warnings import RockingWarning
 from tests.folders import list_folder
 from tests.refusals import refused
 
@@ -151,7 +151,9 @@ def test_a_fault_of_ours_costs_no_other_file(tmp_path: Path, monkeypatch: pytest
     assert "read_or_break" in log.read_text() and "Traceback" in log.read_text()
 
 
-def test_nothing_is_decided_by_the_words_of_a_remark(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nothing_is_decided_by_the_words_of_a_warning(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """With every sentence in words that nobody knows, the same rows, joins and refusals come out."""
     for name, (make, *_) in made_files.MADE.items():
         (tmp_path / f"{''.join(filter(str.isalnum, name))}.txt").write_text(make(), encoding="latin-1")
@@ -161,7 +163,7 @@ def test_nothing_is_decided_by_the_words_of_a_remark(tmp_path: Path, monkeypatch
 
     def found() -> tuple[list[object], list[object]]:
         listed, rows = list_folder(tmp_path, unit="m/s2", time_step=0.01)
-        files = [(file.file, file.record, file.companions, file.direction, [doubt.kind for doubt in file.doubts],
+        files = [(file.file, file.record, file.companions, file.direction, [warning.kind for warning in file.warnings],
                   file.separation and file.separation.kind, bool(file.refusal)) for file in listed]  # fmt: skip
         return files, [{key: cell for key, cell in row.items() if key != "note"} for row in rows]
 
@@ -170,5 +172,5 @@ def test_nothing_is_decided_by_the_words_of_a_remark(tmp_path: Path, monkeypatch
     for kind in RecordKind:
         words = "".join(f"{{{name}}}" for name in kind.value_names)
         monkeypatch.setattr(kind, "sentence", f"xyzzy{words}")
-    assert str(Remark(RecordKind.WARNING_OF_OBSPY, values=(("text", "a"),))) == "xyzzya"
+    assert str(RockingWarning(RecordKind.WARNING_OF_OBSPY, values=(("text", "a"),))) == "xyzzya"
     assert found() == before

@@ -11,8 +11,8 @@ from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram, Source
 from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import StatedPeak, agree_with_header, pass_limits
-from rocking.remarks import Remark
 from rocking.signal.kinds import SignalKind
+from rocking.warnings import RockingWarning
 from tests.refusals import refused
 
 
@@ -52,7 +52,7 @@ def test_limits() -> None:
     (told,) = pass_limits(record(8e-6 * GRAVITY))
     assert told.kind is RecordKind.PEAK_TINY_BY_UNIT and told["peak_g"] == pytest.approx(8e-6)
     assert told["factors"].startswith("by 980.665 ")
-    assert pass_limits(record(0.0)) == (Remark.of(RecordKind.PEAK_TINY, peak_g=0.0),)
+    assert pass_limits(record(0.0)) == (RockingWarning.of(RecordKind.PEAK_TINY, peak_g=0.0),)
 
 
 SHAKING = np.sin(np.arange(400) / 5) * np.hanning(400)
@@ -62,7 +62,7 @@ def test_steps_and_peaks_that_no_instrument_gives_are_told_of_arrays_as_of_files
     for step in (1e-9, 0.11, 6.01, 1e3):
         (warning,) = Accelerogram(SHAKING, step).warnings
         assert warning.kind is SignalKind.STEP_UNUSUAL and warning["time_step_s"] == step
-    assert Accelerogram(SHAKING * 1000, 0.01).warnings == (Remark(SignalKind.PEAK_IMPOSSIBLE),)
+    assert Accelerogram(SHAKING * 1000, 0.01).warnings == (RockingWarning(SignalKind.PEAK_IMPOSSIBLE),)
     assert len(replace(Accelerogram(SHAKING * 1000, 1e-9), station="A").warnings) == 2
     assert not Accelerogram(SHAKING * 5 * GRAVITY, 1e-4).warnings + Accelerogram(SHAKING, 0.1).warnings
 

@@ -199,8 +199,8 @@ def test_a_trace_that_gmprocess_rejects_says_so(path: Path) -> None:
             file, "WEAK", "default", 100 * TRUE, PROCESSED, failure={"module": "snr", "reason": "Failed SNR"}
         )
     for record in read(path / f"{EVENT}_default" / "NZ.WEAK"):
-        (remark,) = record.warnings
-        assert remark.kind is RecordKind.FAILED_IN_GMPROCESS and remark["reason"] == "Failed SNR"
+        (warning,) = record.warnings
+        assert warning.kind is RecordKind.FAILED_IN_GMPROCESS and warning["reason"] == "Failed SNR"
 
 
 def test_a_workspace_without_labels_of_gmprocess_is_of_raw_counts(tmp_path: Path) -> None:

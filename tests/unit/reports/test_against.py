@@ -110,7 +110,7 @@ def lines_of(compared: Compared, look: str) -> list[np.ndarray]:
 def test_the_history_reaches_what_the_number_says_and_the_band_what_the_closed_form_says(blocks):
     seen = set()
     for report in blocks:
-        by_name = {conclusion.verdict.structure: conclusion.case for conclusion in report.conclusions}
+        by_name = {conclusion.row.structure: conclusion.case for conclusion in report.conclusions}
         for compared in against_of(report).compared:
             case = by_name[compared.name]
             (history,) = lines_of(compared, 'stroke="black" stroke-width="0.28"')
@@ -134,7 +134,7 @@ def test_those_at_rest_stand_in_one_line_and_have_no_strip(blocks):
     for report in blocks:
         page = against_of(report)
         resting = {
-            conclusion.verdict.structure for conclusion in report.conclusions if conclusion.ratios[-1] <= 1e-3
+            conclusion.row.structure for conclusion in report.conclusions if conclusion.ratios[-1] <= 1e-3
         }
         assert {row.name for row in page.compared} | resting == set(report.structures)
         assert not resting & {one_row.name for one_row in page.compared}
@@ -143,7 +143,7 @@ def test_those_at_rest_stand_in_one_line_and_have_no_strip(blocks):
 
 def test_the_worst_comes_first_as_on_page_one(blocks):
     for report in blocks:
-        order = [conclusion.verdict.structure for conclusion in report.conclusions]
+        order = [conclusion.row.structure for conclusion in report.conclusions]
         names = [row.name for row in against_of(report).compared]
         assert names == [name for name in order if name in names]
 

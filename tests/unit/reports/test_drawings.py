@@ -67,13 +67,13 @@ def test_page_one_draws_the_mechanism_at_four_fifths_of_the_critical_rotation_on
     """The dashed outline at rest is drawn after the turned one; both are as like as pictures of two sizes."""
     name = "block 4 m"
     (conclusion,) = (
-        one_conclusion for one_conclusion in example.conclusions if one_conclusion.verdict.structure == name
+        one_conclusion for one_conclusion in example.conclusions if one_conclusion.row.structure == name
     )
     block = example.structures[name]
     critical = block.mechanism().critical_rotation
     for side in (1, -1):
-        turned = replace(conclusion, verdict=replace(conclusion.verdict, peak_side=side))
-        row = structure_row(turned, example.structures[turned.verdict.structure])
+        turned = replace(conclusion, row=replace(conclusion.row, peak_side=side))
+        row = structure_row(turned, example.structures[turned.row.structure])
         drawn, at_rest, *_ = _lines(row.drawing[0].svg)
         outlines = [block.outline(rotation)[0] for rotation in (0.8 * side * critical, 0.0)]
         scale = np.ptp(drawn, axis=0) / np.ptp(outlines[0], axis=0)

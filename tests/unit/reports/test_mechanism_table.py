@@ -55,7 +55,7 @@ def test_the_page_says_what_holds_the_top_and_what_slips():
     wall = LoadedWall.of_size(3.0, 0.35, 19e3, top_load=2e3, restitution=0.7).on_joints(Joints(0.6))
     told = " ".join(basis(wall).sentences)
     (top,) = wall.restraints()
-    assert str(top.remark) in told
+    assert str(top.warning) in told
 
 
 def test_the_page_says_which_mass_ratio_counts_beside_that_of_the_letter():

@@ -21,7 +21,6 @@ from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.dynamic_check import check
 from rocking.products.checks.report import structures_data
 from rocking.products.checks.work import _checked
-from rocking.remarks import Remark
 from rocking.reports.explore import explore_page, record_content
 from rocking.reports.printing import LOOKS, cell_text
 from rocking.reports.record import RecordReport
@@ -31,6 +30,7 @@ from rocking.study.own_files import _lines_of
 from rocking.study.terminal import record_line
 from rocking.tables import frame, write_rows
 from rocking.tables.workbook import workbook
+from rocking.warnings import RockingWarning
 from tests.unit.assessment.made_rows import members
 from tests.unit.reports.conftest import SETTINGS, summarised
 
@@ -60,7 +60,7 @@ def report(example) -> RecordReport:
         "block 4 m": ([64], ()),
         "block 1 m": ([50], ()),
         "wall 3 m": ([0, 63], ()),
-        "arch 20 m": ([12], (Limit.untold(Remark(AssessmentKind.CONTACTS_OPEN)),)),
+        "arch 20 m": ([12], (Limit.untold(RockingWarning(AssessmentKind.CONTACTS_OPEN)),)),
     }
     scenes = {
         name: replace(
@@ -82,7 +82,7 @@ def decisions(report):
 
 
 def test_the_example_has_five_words_a_range_and_a_doubt(decisions):
-    words = {name: str(decision.word) for name, decision in decisions.items()}
+    words = {name: str(decision.verdict) for name, decision in decisions.items()}
     assert words == {
         "block 4 m": "overturns",
         "block 1 m": "probably overturns",
@@ -101,7 +101,7 @@ def test_the_tables_hold_it(report, decisions, tmp_path):
     assert report.tables.comparison
     for row in report.tables.comparison:
         decision = decisions[row.structure]
-        assert row.verdict is decision.word
+        assert row.verdict is decision.verdict
         assert row.overturning_share == pytest.approx(decision.share, nan_ok=True)
 
 
@@ -109,9 +109,9 @@ def test_the_workbook_holds_it(report, decisions):
     lines = workbook_lines(report.tables)
     for name, decision in decisions.items():
         (line,) = (one_line for one_line in lines if f"|{name}|" in f"|{one_line}|")
-        assert f"|{decision.word}|" in line
+        assert f"|{decision.verdict}|" in line
         assert decision.why in line
-        assert all(doubt.kind in line for doubt in decision.doubts)
+        assert all(warning.kind in line for warning in decision.warnings)
 
 
 def test_the_terminal_says_it(report, decisions):
@@ -119,9 +119,9 @@ def test_the_terminal_says_it(report, decisions):
     told = [text for period in report.result.periods for text in _lines_of(period, 1.0)]
     for name, decision in decisions.items():
         (own,) = (text for text in told if text.startswith(f"{name}: "))
-        assert own == f"{name}: {decision.word} ({decision.share_in_words}); {decision.why}"
-        said = name if decision.word is Verdict.STANDS else f"{name} ({decision.share_in_words})"
-        assert f"{decision.word}: {said}" in line
+        assert own == f"{name}: {decision.verdict} ({decision.share_in_words}); {decision.why}"
+        said = name if decision.verdict is Verdict.STANDS else f"{name} ({decision.share_in_words})"
+        assert f"{decision.verdict}: {said}" in line
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -129,9 +129,9 @@ def test_page_one_says_it(report, decisions):
     data = report.page()
     rows = {row.name: row for row in data.page_one.rows}
     for name, decision in decisions.items():
-        assert rows[name].chip.word.removeprefix("? ") == decision.word
+        assert rows[name].chip.verdict.removeprefix("? ") == decision.verdict
         assert rows[name].chip.share == decision.share_in_words
-        assert rows[name].chip.fill == LOOKS[decision.word][1]
+        assert rows[name].chip.fill == LOOKS[decision.verdict][1]
     assert rows["arch 20 m"].chip.hatched, "whose contacts open, so that it cannot be told"
 
 
@@ -142,9 +142,9 @@ def test_the_summary_says_it(report, decisions):
     cells = {row.name: row.cells[0] for row in data.matrix.rows}
     table = {line[0].text: line for line in data.structures.table.rows}
     for name, decision in decisions.items():
-        assert cells[name].word.removeprefix("? ") == decision.word
+        assert cells[name].verdict.removeprefix("? ") == decision.verdict
         assert cells[name].share in ("", decision.share_in_words)
-        assert cells[name].fill == LOOKS[decision.word][1]
+        assert cells[name].fill == LOOKS[decision.verdict][1]
         assert decision.share_in_words in table[name]
 
 
@@ -155,11 +155,13 @@ def test_the_page_to_explore_says_it(report, decisions):
     assert report.page().conclusion == sentence, "as on page one"
     cases = content["cases"]
     for name, decision in decisions.items():
-        assert cases[name]["verdict"] == decision.word
+        assert cases[name]["verdict"] == decision.verdict
         assert cases[name]["cell"] == cell_text(decision)
-        assert cases[name]["text"].startswith(f"{decision.word}, {decision.share_in_words}: {decision.why}.")
-        doubts = "; ".join(map(str, decision.doubts))
-        assert not doubts or f" Warning: {doubts}." in cases[name]["text"]
+        assert cases[name]["text"].startswith(
+            f"{decision.verdict}, {decision.share_in_words}: {decision.why}."
+        )
+        warnings = "; ".join(map(str, decision.warnings))
+        assert not warnings or f" Warning: {warnings}." in cases[name]["text"]
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -173,13 +175,13 @@ def test_the_page_to_sign_says_it(report, decisions):
         )
         (data,) = structures_data([page], SPECTRUM, SETTINGS).sheets
         share = data.answers[0].basis.share
-        assert f"{decision.word.predicate} under 1 station" in share
+        assert f"{decision.verdict.predicate} under 1 station" in share
         if not math.isnan(decision.share):
             assert f"{100 * decision.share:.0f}{NO_BREAK}%" in [
                 sentence.value for sentence in data.answers[0].sure
             ]
-        doubts = "; ".join(map(str, decision.doubts))
-        assert not doubts or f"({doubts})" in share
+        warnings = "; ".join(map(str, decision.warnings))
+        assert not warnings or f"({warnings})" in share
 
 
 # The shipped example --------------------------------------------------------------------------------------------
@@ -205,7 +207,7 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
     assert of_rows == {name: in_print(item) for name, item in decided.items()}
     for row in (*tables.comparison, *tables.supports):
         decision = decided[row.structure, row.support_period_s]
-        assert row.verdict is decision.word
+        assert row.verdict is decision.verdict
         assert row.overturning_share == pytest.approx(decision.share, nan_ok=True)
 
     report = RecordReport(result, tables, study.structures, study.settings.for_pages)
@@ -218,18 +220,21 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
         decision = station.decision
         share = decision.share_in_words
         (own,) = (line for line in told if line.startswith(f"{name}: "))
-        assert own == f"{name}: {decision.word}{f' ({share})' if share else ''}; {decision.why}"
+        assert own == f"{name}: {decision.verdict}{f' ({share})' if share else ''}; {decision.why}"
         period = [] if station.support_period_s is None else [f"{station.support_period_s:g}"]
-        key = "|".join(["", station.structure, *period, decision.word, ""])
+        key = "|".join(["", station.structure, *period, decision.verdict, ""])
         (line,) = (one_line for one_line in lines if key in one_line)
         assert decision.why in line
-        assert all(doubt.kind in line for doubt in decision.doubts)
+        assert all(warning.kind in line for warning in decision.warnings)
         own_rows = [row for row in tables.verdicts if row.structure == station.structure]
         there = [row for row in own_rows if row.support_period_s == station.support_period_s]
         page = _checked(station.scene, station.support, partial(check, spectrum=SPECTRUM), there, stations)
         (signed,) = structures_data([page], SPECTRUM, SETTINGS).sheets
-        assert f"{decision.word.predicate} under 1 station" in signed.answers[0].basis.share
-        assert all(str(Remark(doubt.kind)) in signed.answers[0].basis.share for doubt in decision.doubts)
+        assert f"{decision.verdict.predicate} under 1 station" in signed.answers[0].basis.share
+        assert all(
+            str(RockingWarning(warning.kind)) in signed.answers[0].basis.share
+            for warning in decision.warnings
+        )
 
     worst = {one_period.structure: one_period for one_period in result.worst_periods}
     content = record_content(result, tables, study.structures)
@@ -243,30 +248,31 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
     for name, station in worst.items():
         decision = station.decision
         for row in (rows[name].chip, cells[name]):
-            assert row.word.removeprefix("? ") == decision.word
+            assert row.verdict.removeprefix("? ") == decision.verdict
             assert row.share in (decision.share_in_words, "" if row is cells[name] else None)
         assert decision.share_in_words in table[name]
         case = content["cases"][name]
-        assert (case["verdict"], case["cell"]) == (decision.word, cell_text(decision))
+        assert (case["verdict"], case["cell"]) == (decision.verdict, cell_text(decision))
         assert decision.why in case["text"]
-        assert all(str(doubt) in case["text"].partition(" Warning: ")[2] for doubt in decision.doubts)
-        if f"{decision.word}: " in line and f"{name} (" in line:  # it names eight, and gathers the others
+        assert all(str(warning) in case["text"].partition(" Warning: ")[2] for warning in decision.warnings)
+        if f"{decision.verdict}: " in line and f"{name} (" in line:  # it names eight, and gathers the others
             assert f"{name} ({decision.share_in_words})" in line
 
 
 def in_print(decision):
     """What a table holds of a decision: of its doubts, and of what would tell more, the kinds alone."""
     kinds = (
-        "; ".join(remark.kind for remark in remarks) for remarks in (decision.doubts, decision.would_settle)
+        "; ".join(warning.kind for warning in warnings)
+        for warnings in (decision.warnings, decision.would_settle)
     )
     shares = (decision.share, *decision.interval)
-    return repr((str(decision.word), *map(float, shares), decision.why, *kinds))
+    return repr((str(decision.verdict), *map(float, shares), decision.why, *kinds))
 
 
 def printed(row):
     """The same of a row of verdicts.csv."""
     shares = (row.overturning_share, row.share_low, row.share_high)
-    return repr((str(row.verdict), *shares, row.why, row.doubts, row.would_settle))
+    return repr((str(row.verdict), *shares, row.why, row.warnings, row.would_settle))
 
 
 def workbook_lines(tables):

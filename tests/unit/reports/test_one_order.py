@@ -99,7 +99,7 @@ def test_of_equal_worst_cases_the_one_under_which_more_falls_comes_first():
 def test_every_document_has_one_order_of_records_and_structures_and_counts_the_same(tmp_path):
     rows = made_rows()
     made = conclusions(rows, [])
-    worst = {item.verdict.structure: item.verdict.record for item in worst_of_each(made)}
+    worst = {item.row.structure: item.row.record for item in worst_of_each(made)}
     assert list(worst.items()) == [("wall", "b"), ("arch", "d"), ("pier", "d")]
 
     beside = matrix(made, [], [])

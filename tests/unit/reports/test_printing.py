@@ -8,8 +8,8 @@ from rocking.assessment.decide import ORDER, CrackFacts, Facts, Limit, decide
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.rows import PulseRow
 from rocking.quantities import listed
-from rocking.remarks import Remark
 from rocking.reports import printing
+from rocking.warnings import RockingWarning
 
 
 @pytest.mark.parametrize(
@@ -57,7 +57,11 @@ def crack(falls: int) -> CrackFacts:
         (Facts(cracks=(crack(62),)), (), "△ 97 %"),
         (Facts(cracks=(crack(64),)), (), "▲ 100 %"),
         (Facts(cracks=(crack(0), crack(30))), (), "≈ 0–47 %"),
-        (Facts(cracks=(crack(8),)), (Limit.untold(Remark(AssessmentKind.CONTACTS_OPEN)),), "? ≥ 12 %"),
+        (
+            Facts(cracks=(crack(8),)),
+            (Limit.untold(RockingWarning(AssessmentKind.CONTACTS_OPEN)),),
+            "? ≥ 12 %",
+        ),
         (Facts(cracks=(crack(0),), stacks=(20, 24)), (), "△ 83 %"),
         (Facts(failures=("No.",)), (), "?"),
         (Facts(cracks=(crack(0),), never_overturns_because="stays tied"), (), "■"),

@@ -13,7 +13,6 @@ from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.methods import Acts, Agreement
 from rocking.assessment.rows import rows_of_record, structure_rows
 from rocking.quantities import counted
-from rocking.remarks import Remark
 from rocking.reports import printing
 from rocking.reports.kinds import ReportKind
 from rocking.reports.pages import PageTable, RecordPage, Section, TableCell
@@ -23,6 +22,7 @@ from rocking.signal.accelerogram import Accelerogram
 from rocking.structures import Arch, ArchOnPiers, Block, Facade, Frame, Joints, LoadedWall, Spire, Wall
 from rocking.structures.kinds import StructureKind
 from rocking.tables import cell
+from rocking.warnings import RockingWarning
 
 from .conftest import HOSTILE, assessed, of_structures, pages, shaken
 
@@ -61,7 +61,7 @@ def texts_of(data: RecordPage) -> list[str]:
     texts = [*known(data), *data.advice.sentences, data.page_one.sine.share]
     texts += [peak.value for peak in data.page_one.peaks]
     for row in data.page_one.rows:
-        texts += [row.below, row.chip.share, row.reserve, row.remark]
+        texts += [row.below, row.chip.share, row.reserve, row.warning]
     for row in data.known.table.rows:
         texts += [cell.text if isinstance(cell, TableCell) else cell for cell in row]
     return texts
@@ -98,7 +98,7 @@ def test_page_one_has_a_row_for_each_structure_the_worst_first_as_the_tables_hav
     assert sorted(by_name) == sorted(row.name for row in data.page_one.rows)
     for row in data.page_one.rows:
         verdict = by_name[row.name]
-        assert row.chip.word.removeprefix("? ") == verdict.verdict
+        assert row.chip.verdict.removeprefix("? ") == verdict.verdict
         assert row.chip.share == verdict.decision.share_in_words
     falls = sum(word in ("overturns", "probably overturns") for word in words)
     assert data.conclusion.startswith(f"{falls} of {len(words)} structures overturn")
@@ -137,8 +137,8 @@ def test_a_client_gets_a_page_to_look_at_of_at_most_330_words(example, count):
     assert f"{count} structures overturn or probably do" in " ".join(words)
     assert {f"{place}" for place in range(count)} <= set(words)
     data = report.page()
-    named = [(other.word, name) for other in data.page_one.others for name in other.names.split(", ")]
-    named += [(row.chip.word.removeprefix("? "), row.name) for row in data.page_one.rows]
+    named = [(other.verdict, name) for other in data.page_one.others for name in other.names.split(", ")]
+    named += [(row.chip.verdict.removeprefix("? "), row.name) for row in data.page_one.rows]
     assert sorted(named) == sorted(
         (str(verdict.verdict), verdict.structure) for verdict in report.tables.verdicts
     )
@@ -198,7 +198,7 @@ def test_the_reason_of_a_miss_is_told_apart(example):
     }
     comparison = [replace(row, **changed) for row in example.tables.comparison]
     told = known(with_tables(example, comparison=comparison))
-    (sentence,) = (remark for remark in told if remark.startswith("The closed form predicts less"))
+    (sentence,) = (warning for warning in told if warning.startswith("The closed form predicts less"))
     assert sentence.endswith("so the single pulse is the reason.")
 
 
@@ -272,8 +272,8 @@ def test_a_contact_that_fails_is_told(example):
     data = with_tables(example, comparison=comparison)
     failing = f"{next(iter(example.structures))} (slides and bounces)"
     assert any(failing in sentence for sentence in known(data))
-    slides = Remark.of(AssessmentKind.CONTACT_SLIDES, lifting=0.2, largest=0.7).brief
-    assert slides in {row.remark for row in data.page_one.rows}
+    slides = RockingWarning.of(AssessmentKind.CONTACT_SLIDES, lifting=0.2, largest=0.7).brief
+    assert slides in {row.warning for row in data.page_one.rows}
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -292,7 +292,7 @@ def test_an_arch_that_stands_on_its_friction_is_no_model_that_fails(example):
     ]
     arch = Arch(radius=15.0, thickness=2.25, embrace_angle=2.75)
     piers = ArchOnPiers(5.0, 0.8, 3.14, pier_width=1.5, pier_height=4.0)
-    stands = str(Remark.of(ReportKind.STANDS_AS_VOUSSOIRS, name, needed=0.67))
+    stands = str(RockingWarning.of(ReportKind.STANDS_AS_VOUSSOIRS, name, needed=0.67))
     for structure, friction, told in ((arch, 0.6, True), (arch, 0.4, False), (piers, 0.6, False)):
         report = replace(
             example,
@@ -302,7 +302,7 @@ def test_an_arch_that_stands_on_its_friction_is_no_model_that_fails(example):
         texts = known(data)
         assert (stands in texts) is told
         assert any(f"{name} (slides)" in text for text in texts) is not told
-        beside = {row.name: row.remark for row in data.page_one.rows}[name]
+        beside = {row.name: row.warning for row in data.page_one.rows}[name]
         assert ("such arches stood" in beside and "0.67" in beside) is told, "page one and two say one thing"
         # What was followed as voussoirs needs neither: these are on the friction that it has.
         verdicts = [replace(row, stack_falls=0, stack_runs=18) for row in example.tables.verdicts]
@@ -336,8 +336,8 @@ def test_of_a_frame_that_was_followed_as_stones_its_contacts_are_known(example):
         )
         assert (
             any(
-                remark.kind is StructureKind.FRAME_CONTACTS and name in names
-                for remark, names in report.left_out.items()
+                warning.kind is StructureKind.FRAME_CONTACTS and name in names
+                for warning, names in report.left_out.items()
             )
             is told
         )
@@ -352,7 +352,7 @@ def test_a_reserve_that_may_be_too_high_is_grey(example):
     scene = example.result.scenes[name]
     station = scene.worst
     cases = {
-        one_case: replace(case, limits=(Limit.untold(Remark(AssessmentKind.CONTACTS_OPEN)),))
+        one_case: replace(case, limits=(Limit.untold(RockingWarning(AssessmentKind.CONTACTS_OPEN)),))
         for one_case, case in station.cases.items()
     }
     in_doubt = replace(scene, periods=(PeriodResult.of(station.scene, cases),))
@@ -371,8 +371,8 @@ def test_a_front_that_is_free_to_rock_through_its_floors_is_told():
         "free": Facade(**sizes),
     }
     report = assessed("one", [shaken()], fronts)
-    told = [part for part in known(report.page()) if str(Remark(StructureKind.FLOORS_BEHIND)) in part]
-    assert told == [str(Remark(StructureKind.FLOORS_BEHIND, "floors"))]
+    told = [part for part in known(report.page()) if str(RockingWarning(StructureKind.FLOORS_BEHIND)) in part]
+    assert told == [str(RockingWarning(StructureKind.FLOORS_BEHIND, "floors"))]
 
 
 def _columns(table: PageTable) -> list[tuple[str, tuple[str, ...]]]:
@@ -416,11 +416,13 @@ def test_the_report_says_what_to_do_and_by_how_much_the_record_may_be_stronger()
     shaking = [shaken("NS", scale_factor=3.0), shaken("EW", scale_factor=2.0)]
     unasked = assessed("two", shaking, structures, fidelity="quick")
     data = unasked.page()
-    assert data.advice.sentences == (f"To learn more of spire: {Remark(AssessmentKind.CONTACT_DYNAMICS)}.",)
-    remarks = {row.name: row.remark for row in data.page_one.rows}
-    assert remarks["spire"] == Remark(AssessmentKind.CONTACT_DYNAMICS).brief
+    assert data.advice.sentences == (
+        f"To learn more of spire: {RockingWarning(AssessmentKind.CONTACT_DYNAMICS)}.",
+    )
+    warnings = {row.name: row.warning for row in data.page_one.rows}
+    assert warnings["spire"] == RockingWarning(AssessmentKind.CONTACT_DYNAMICS).brief
     first = "".join(word[4] for word in pages(unasked.pdf())[0])
-    assert Remark(AssessmentKind.CONTACT_DYNAMICS).brief.replace(" ", "") in first
+    assert RockingWarning(AssessmentKind.CONTACT_DYNAMICS).brief.replace(" ", "") in first
 
     report = assessed("two", shaking, structures)
     data = report.page()

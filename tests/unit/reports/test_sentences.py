@@ -22,7 +22,6 @@ from rocking.floors.kinds import FloorKind
 from rocking.products.checks import figures, report
 from rocking.products.checks.report import CheckedStructure, structures_data
 from rocking.products.checks.work import mechanisms_of
-from rocking.remarks import Remark
 from rocking.reports import sentences
 from rocking.reports.kinds import ReportKind
 from rocking.reports.pages import Language, Picture
@@ -31,6 +30,7 @@ from rocking.reports.sentences import Sentences, catalogue
 from rocking.structures.kinds import StructureKind
 from rocking.structures.structure_list import TYPES, structure_from_config
 from rocking.study.settings import Settings
+from rocking.warnings import RockingWarning
 
 ITALIAN = Sentences("it")
 ITALIAN_TEXTS = catalogue("it")
@@ -65,9 +65,9 @@ def test_a_page_says_what_stands_behind_in_the_words_of_its_language():
 def test_what_is_refused_on_a_page_is_told_in_its_language(refuse):
     with pytest.raises(RockingError) as caught:
         refuse()
-    remark = caught.value.remark
-    assert str(caught.value) == str(remark)
-    assert ITALIAN.reason(remark) != Sentences("en").reason(remark) == str(remark)
+    warning = caught.value.warning
+    assert str(caught.value) == str(warning)
+    assert ITALIAN.reason(warning) != Sentences("en").reason(warning) == str(warning)
     assert ITALIAN.reason("a file is missing.").startswith("(in inglese)")
 
 
@@ -82,8 +82,8 @@ def test_a_quantity_is_shown_in_the_unit_of_the_study():
 def test_numbers_have_the_mark_of_their_language():
     assert Sentences().number(0.4321) == "0.432"
     assert ITALIAN.number(0.4321) == "0,432"
-    assert ITALIAN.of(Remark.of(CheckKind.LIMIT_SHARE, share=0.4)) == "0,4 d₀"
-    assert ITALIAN.of(Remark.of(CheckKind.DISPLACEMENT_EXCEEDED, exceeding=3, motions=40)).endswith(
+    assert ITALIAN.of(RockingWarning.of(CheckKind.LIMIT_SHARE, share=0.4)) == "0,4 d₀"
+    assert ITALIAN.of(RockingWarning.of(CheckKind.DISPLACEMENT_EXCEEDED, exceeding=3, motions=40)).endswith(
         "3 dei 40 accelerogrammi"
     )
     assert ITALIAN.counted(1, "station") == "1 stazione" and ITALIAN.counted(2, "station") == "2 stazioni"
@@ -113,12 +113,12 @@ def test_an_italian_page_has_no_english_sentence():
             records=4,
             stations=3,
             verdicts={Verdict.PROBABLY_STANDS: 2, Verdict.CANNOT_BE_TOLD: 1},
-            doubts=(AssessmentKind.CONTACTS_OPEN,),
+            verdict_warnings=(AssessmentKind.CONTACTS_OPEN,),
             reserves=(
                 Reserve(low=0.8, median=1.1, high=1.2, limit=3.0),
                 Reserve(low=0.9, median=1.1, high=1.2, limit=3.0),
             ),
-            reserve_doubts=(AssessmentKind.CONTACTS_OPEN,),
+            reserve_warnings=(AssessmentKind.CONTACTS_OPEN,),
         )
         for case in (tied, Block.of_size(0.4, 3.0))
     ]
@@ -185,7 +185,7 @@ def printed(structure, *languages):
     try:
         checked, refusal = check(structure, SPECTRUM), ""
     except RockingError as error:
-        checked, refusal = None, error.remark or str(error)
+        checked, refusal = None, error.warning or str(error)
     has_ties = bool(getattr(structure, "tie_heights", ()))
     page = CheckedStructure(
         name="A",
@@ -198,7 +198,7 @@ def printed(structure, *languages):
         stations=3,
         verdicts=dict.fromkeys(Verdict, 1),
         mechanisms=mechanisms_of(structure),
-        remarks=(*structure.described.remarks, *structure.cautions),
+        warnings=(*structure.described.warnings, *structure.cautions),
     )
     settings = [Settings(language=language).for_pages_to_sign for language in languages]
     return [texts_of(structures_data([page], SPECTRUM, of_language)) for of_language in settings]
@@ -222,7 +222,7 @@ def test_the_catalogue_holds_what_every_page_prints(monkeypatch):
         assert len(italian) == len(english), "a page says the same in both languages"
         assert not any("Error" in text for text in italian)
     for kind in (*StructureKind, *CheckKind, *ReportKind, FloorKind.HEAVY_ON_SUPPORT, *AssessmentKind):
-        ITALIAN.of(Remark.of(kind, "A", **dict.fromkeys(kind.value_names, 1.5)))
+        ITALIAN.of(RockingWarning.of(kind, "A", **dict.fromkeys(kind.value_names, 1.5)))
     for verdict in Verdict:
         ITALIAN.verdict(verdict)
     for key in (key for forms in TYPES.values() for form in forms for key in form.fields):

@@ -26,7 +26,6 @@ from rocking.fragility.measures import compared
 from rocking.products.fragility.report import fragility_data, fragility_figure, ida_frame
 from rocking.products.fragility.rows import FragilityRow, FragilitySummaryRow, IdaRow, IntensityMeasureRow
 from rocking.products.fragility.work import Fragilities
-from rocking.remarks import Remark
 from rocking.reports.design_figure import (
     MOST_LINES,
     component_spectra,
@@ -42,6 +41,7 @@ from rocking.signal.measures import response_spectrum
 from rocking.structures import Wall
 from rocking.structures.kinds import StructureKind
 from rocking.tables import frame
+from rocking.warnings import RockingWarning
 from tests.unit.assessment.made_rows import case as run
 from tests.unit.assessment.made_rows import filled, station, verdicts
 
@@ -129,7 +129,7 @@ def test_the_summary_and_the_page_to_explore_say_whose_crack_is_known():
     structures = {"known": replace(wall, crack="known"), "free": wall}
     judged = [verdict("one", name, 0.5, 4) for name in structures]
     data = summary_data(summary_tables(CASES, verdicts=judged), SETTINGS, structures=structures)
-    known = str(Remark.of(StructureKind.CRACK_KNOWN_AT, height_m=1.6))
+    known = str(RockingWarning.of(StructureKind.CRACK_KNOWN_AT, height_m=1.6))
     assert {row[0].text: row[0].below for row in data.structures.table.rows} == {"known": known, "free": ""}
     page = explore_page([], structures).decode()
     assert page.count(known[1:]) == 1
@@ -161,13 +161,13 @@ def test_the_matrix_holds_a_word_for_each_record_the_worst_structure_first_and_w
     ]
     content = summary_data(summary_tables(CASES, verdicts=judged), SETTINGS).matrix
     assert [head.name for head in content.heads] == ["two", "one"]
-    words = {row.name: [cell.word for cell in row.cells] for row in content.rows}
+    words = {row.name: [cell.verdict for cell in row.cells] for row in content.rows}
     assert list(words.items()) == [
         ("wall", ["overturns", "overturns"]),
         ("pier", ["overturns", "stands"]),
         ("arch", ["probably stands", ""]),
     ]
-    assert [row.remark for row in content.rows] == ["", "", ""], "the words say it"
+    assert [row.warning for row in content.rows] == ["", "", ""], "the words say it"
 
 
 @pytest.mark.usefixtures("undrawn")

@@ -65,13 +65,13 @@ def test_each_variant_has_its_difference_to_the_first(made):
 def test_the_strip_says_it_in_words(made):
     (strip,) = strips(made, STRUCTURES, notes={"wall: thicker": ("It is checked.",)})
     first, thicker = strip.cells
-    assert [first.chip.word, first.difference] == ["probably overturns", "the first"]
+    assert [first.chip.verdict, first.difference] == ["probably overturns", "the first"]
     assert thicker.difference == "reserve × 1.8, −50 points of share"
     assert (first.notes, thicker.notes) == ((), ("It is checked.", "breadth 0.6 m"))
     (italian,) = strips(made, STRUCTURES, Sentences("it"))
     assert italian.cells[1].difference == "margine × 1,8, −50 punti percentuali"
     assert italian.cells[1].notes == ("larghezza 0,6 m",), "a list would have its commas as semicolons"
-    assert italian.cells[0].chip.word == "probab. ribalta"
+    assert italian.cells[0].chip.verdict == "probab. ribalta"
 
 
 def test_the_drawings_have_one_scale(made):
@@ -117,9 +117,9 @@ def test_a_difference_within_the_error_of_the_members_is_not_shown(made):
     few = {"members": 64, "overturning_members": 48}
 
     def with_share(variant, share, **counts):
-        verdict = replace(variant.conclusion.verdict, **counts)
-        verdict = replace(verdict, decision=replace(verdict.decision, share=share))
-        return replace(variant, conclusion=replace(variant.conclusion, verdict=verdict))
+        row = replace(variant.conclusion.row, **counts)
+        row = replace(row, decision=replace(row.decision, share=share))
+        return replace(variant, conclusion=replace(variant.conclusion, row=row))
 
     base = with_share(first, 0.75, **few)
     near = replace(with_share(own, 0.70, members=1024, overturning_members=677), first=base)

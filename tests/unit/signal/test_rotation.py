@@ -5,9 +5,9 @@ import pytest
 
 from rocking.errors import RecordError
 from rocking.records import Accelerogram
-from rocking.remarks import Remark
 from rocking.signal.kinds import SignalKind
 from rocking.signal.rotation import rotate, rotd
+from rocking.warnings import RockingWarning
 from tests.refusals import refused
 
 RNG = np.random.default_rng(1)
@@ -44,7 +44,7 @@ def test_what_came_before_the_record_turns_with_it() -> None:
 def test_unequal_lengths_are_cut_and_told() -> None:
     turned = rotate(component(0), component(90, n=490), 0.8)
     assert turned.acceleration.size == 490
-    assert turned.warnings[-1] == Remark.of(SignalKind.CUT_TO_THE_SHORTER, short=490, long=500)
+    assert turned.warnings[-1] == RockingWarning.of(SignalKind.CUT_TO_THE_SHORTER, short=490, long=500)
 
 
 @pytest.mark.parametrize(("one", "two"), [(0, 90), (318, 228), (260, 345), (10, 150)])

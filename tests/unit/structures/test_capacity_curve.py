@@ -211,12 +211,12 @@ def test_what_is_no_curve_is_refused_in_one_sentence(tmp_path, text, sentence):
     assert sentence in str(error.value)
 
 
-def test_millimetres_under_a_head_in_metres_get_a_remark(tmp_path):
+def test_millimetres_under_a_head_in_metres_get_a_warning(tmp_path):
     path = _written(tmp_path, "displacement_m,multiplier\n0,0.2\n400,0\n")
-    (remark,) = CapacityCurve.read(path, weight=50e3, restitution=0.8).described.remarks
-    assert remark.about == "displacements_m"
+    (warning,) = CapacityCurve.read(path, weight=50e3, restitution=0.8).described.warnings
+    assert warning.about == "displacements_m"
     path = _written(tmp_path, "displacement_mm,multiplier\n0,0.2\n400,0\n")
-    assert not CapacityCurve.read(path, weight=50e3, restitution=0.8).described.remarks
+    assert not CapacityCurve.read(path, weight=50e3, restitution=0.8).described.warnings
 
 
 def test_the_p_of_a_slender_block_follows_from_its_curve():

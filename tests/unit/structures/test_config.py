@@ -219,13 +219,13 @@ def test_a_list_is_asked_for_in_brackets_and_an_angle_by_its_key(load):
         ("type: wall, height_m: 0.6, thickness_m: 0.7", "thickness_m is 0.7 m and height_m 0.6 m"),
     ],
 )
-def test_a_body_that_is_broader_than_tall_gets_a_remark(tmp_path, sizes, told):
+def test_a_body_that_is_broader_than_tall_gets_a_warning(tmp_path, sizes, told):
     path = tmp_path / "list.yaml"
     path.write_text(f"- {{name: w, {sizes}}}\n")
     said = [
-        str(remark)
-        for remark in load_scenes(path)["w"].remarks
-        if remark.kind is StructureKind.BROADER_THAN_TALL
+        str(warning)
+        for warning in load_scenes(path)["w"].warnings
+        if warning.kind is StructureKind.BROADER_THAN_TALL
     ]
     assert [told in item for item in said] == ([True] if told else [])
 
@@ -265,12 +265,14 @@ def test_sizes_are_said_as_they_were_typed(load):
     assert moved.description.startswith("breadth 1.19"), "a copy with other sizes is described anew"
 
 
-def test_what_is_not_usual_is_a_remark_and_not_a_refusal(tmp_path):
+def test_what_is_not_usual_is_a_warning_and_not_a_refusal(tmp_path):
     text = "- {name: w, type: wall, height_m: 3200, hinge_height_m: 1600, thickness_m: 250}"
     path = tmp_path / "list.yaml"
     path.write_text(text)
     said = [
-        str(remark) for remark in load_scenes(path)["w"].remarks if remark.kind is StructureKind.SIZE_UNUSUAL
+        str(warning)
+        for warning in load_scenes(path)["w"].warnings
+        if warning.kind is StructureKind.SIZE_UNUSUAL
     ]
     assert len(said) == 3
     assert "w: height_m is 3200 m, but is usually between 0.5 and 60 m" in said[0]

@@ -37,7 +37,7 @@ def test_a_pier_of_no_density_of_masonry_is_refused():
         rocking.structure_from_config(piers | {"pier_density_ratio": 1e308})
 
 
-def test_a_very_stiff_tie_is_taken_with_the_same_remark_by_facade_and_wall():
+def test_a_very_stiff_tie_is_taken_with_the_same_warning_by_facade_and_wall():
     """An elastic tie never lets go: the wall reaches no balance, the façade none before it lies on the ground."""
     ties = {"unit_weight": 18e3, "tie_heights": (2.8,), "tie_stiffness": 1e9}
     facade = rocking.Facade(
@@ -47,7 +47,7 @@ def test_a_very_stiff_tie_is_taken_with_the_same_remark_by_facade_and_wall():
     assert not wall.mechanism().can_overturn
     assert facade.mechanism().critical_rotation == pytest.approx(np.pi / 2, abs=1e-3)
     for structure in (facade, wall):
-        unusual = structure.described.remarks[0]
+        unusual = structure.described.warnings[0]
         assert (unusual.kind, unusual.about) == (StructureKind.SIZE_UNUSUAL, "tie_stiffness_kN_m2")
         assert (unusual["value"], unusual["unit"]) == (pytest.approx(1e6), " kN/m²")
 

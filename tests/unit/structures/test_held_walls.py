@@ -436,10 +436,10 @@ def test_a_tie_that_yields_first_leaves_the_wall_to_overturn():
         assert wall.candidates()[0].name == name
 
 
-def test_remark_on_floors_behind_ends_where_it_is_said_what_stands_there():
-    assert StructureKind.FLOORS_BEHIND in {remark.kind for remark in THREE.cautions}
+def test_warning_on_floors_behind_ends_where_it_is_said_what_stands_there():
+    assert StructureKind.FLOORS_BEHIND in {warning.kind for warning in THREE.cautions}
     assert StructureKind.FLOORS_BEHIND not in {
-        one_remark.kind for one_remark in replace(THREE, behind="nothing").cautions
+        one_warning.kind for one_warning in replace(THREE, behind="nothing").cautions
     }
 
 

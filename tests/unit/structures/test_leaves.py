@@ -280,16 +280,18 @@ def test_bonders_alone_hold_a_leaf_that_they_hold():
 def test_taken_as_one_leaf_where_nothing_is_said():
     for kind in SIZES:
         (said,) = (
-            one_remark for one_remark in described(kind).cautions if one_remark.kind is StructureKind.ONE_LEAF
+            one_warning
+            for one_warning in described(kind).cautions
+            if one_warning.kind is StructureKind.ONE_LEAF
         )
         assert said["thickness"] == {"facade": "0.6, 0.5"}.get(kind, "0.5")
         assert not [
-            other_remark
-            for other_remark in described(kind, leaves_m=[0.2, 0.2]).cautions
-            if other_remark.kind is StructureKind.ONE_LEAF
+            other_warning
+            for other_warning in described(kind, leaves_m=[0.2, 0.2]).cautions
+            if other_warning.kind is StructureKind.ONE_LEAF
         ]
     for other in (Block.of_size(0.5, 2.0), rocking.Arch(5.0, 0.9, 2.7)):
-        assert StructureKind.ONE_LEAF not in {remark.kind for remark in other.cautions}
+        assert StructureKind.ONE_LEAF not in {warning.kind for warning in other.cautions}
 
 
 def test_leaves_are_drawn_with_their_bonders_and_dimensions():

@@ -47,8 +47,8 @@ def test_a_light_floor_does_not_hold_the_top():
     assert wall.mechanism().uplift_multiplier == pytest.approx(multiplier, rel=BY_HAND)
     assert top.needed == pytest.approx(force, rel=BY_HAND)
     assert (top.gives, top.friction, top.ties) == pytest.approx((2.4e3, 2.4e3, 0), rel=BY_HAND)
-    assert top.lets_go and top.remark.kind is StructureKind.TOP_SLIPS
-    assert top.remark["tie_kN_m"] == pytest.approx((force - 2.4e3) / 1e3, rel=BY_HAND)
+    assert top.lets_go and top.warning.kind is StructureKind.TOP_SLIPS
+    assert top.warning["tie_kN_m"] == pytest.approx((force - 2.4e3) / 1e3, rel=BY_HAND)
     by_hand = ((WEIGHT + FLOOR) * THICKNESS / 2 + 0.6 * FLOOR * HEIGHT) / (WEIGHT * HEIGHT / 2)
     slips = slipping(wall)
     assert slips.uplift_multiplier == pytest.approx(by_hand, rel=BY_HAND)
@@ -72,7 +72,7 @@ def test_the_top_slips_first_where_it_needs_more_than_it_gets_and_nowhere_else(s
 
 def test_a_tie_at_the_top_holds_what_friction_does_not():
     loose = replace(WALL, one_sided=True)
-    missing = loose.restraints()[0].remark["tie_kN_m"] * 1e3
+    missing = loose.restraints()[0].warning["tie_kN_m"] * 1e3
     for strength, holds in ((0.99 * missing, False), (1.01 * missing, True), (None, True)):
         tied = replace(loose, tie_heights=(HEIGHT,), tie_stiffness=2e7, tie_strength=strength)
         (top,) = tied.restraints()
@@ -96,10 +96,10 @@ def test_a_wall_at_a_ceiling_says_the_share_of_its_weight_that_its_top_needs():
     wall = Wall.hinged_at(3.2, 1.6, 0.25)
     (top,) = wall.restraints()
     assert top.needed == pytest.approx(4 * 0.25 / 3.2 / 4 + 0.25 / 3.2 / 2, rel=BY_HAND)
-    assert top.remark.kind is StructureKind.TOP_TAKEN_AS_HELD
+    assert top.warning.kind is StructureKind.TOP_TAKEN_AS_HELD
     (of_stone,) = replace(wall, unit_weight=20e3).restraints()
     assert of_stone.needed == pytest.approx(20e3 * 3.2 * 0.25 * top.needed, rel=BY_HAND)
-    assert of_stone.remark.kind is StructureKind.TOP_MUST_BE_HELD
+    assert of_stone.warning.kind is StructureKind.TOP_MUST_BE_HELD
 
 
 def test_the_word_is_that_of_the_wall_that_slips():
@@ -126,7 +126,7 @@ def test_ties_say_what_they_bear_and_what_they_give():
     for strength, kind in kinds.items():
         (tie,) = replace(facade, tie_strength=strength).restraints()
         assert tie.needed == pytest.approx(8.858030e3, abs=5e-3)
-        assert tie.remark.kind is kind
+        assert tie.warning.kind is kind
 
 
 @pytest.mark.parametrize("friction", [0.05, 0.3, 5.0])

@@ -182,9 +182,9 @@ def test_what_slides_before_it_lifts_cannot_be_told_by_its_mechanism():
         return case.decision(arch)
 
     between = 0.9 * SLIDES.static_multiplier
-    assert told(between, 0.6).word is told(0.9 * slides_at, 0.4).word is Verdict.STANDS
+    assert told(between, 0.6).verdict is told(0.9 * slides_at, 0.4).verdict is Verdict.STANDS
     sliding = told(between, 0.4)
-    assert sliding.word is Verdict.CANNOT_BE_TOLD
+    assert sliding.verdict is Verdict.CANNOT_BE_TOLD
     assert sliding.why == f"slides before it lifts, at {slides_at:.2g} g"
     apart = told(between, 0.1)
-    assert (apart.word, apart.why) == (Verdict.CANNOT_BE_TOLD, "slides apart at rest")
+    assert (apart.verdict, apart.why) == (Verdict.CANNOT_BE_TOLD, "slides apart at rest")

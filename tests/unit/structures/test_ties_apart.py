@@ -158,7 +158,7 @@ def test_triangle_joins_where_ties_stand_farther_apart_than_three_units():
     assert followed[f"crack at 0 m ({TRIANGLE})"].bulges
     assert TRIANGLE in {mechanism.name for mechanism in mechanisms_of(far)}
     unsaid = replace(FRONT, tie_spacing=None, unit_length=None)
-    kinds = [[remark.kind for remark in wall.cautions] for wall in (unsaid, near, floor)]
+    kinds = [[warning.kind for warning in wall.cautions] for wall in (unsaid, near, floor)]
     assert [StructureKind.TIES_ALL_ALONG in kind for kind in kinds] == [True, False, False]
 
 
@@ -277,8 +277,8 @@ def test_each_anchor_gives_the_friction_of_what_it_grips_and_needs_the_force_of_
     for width in (None, 0.25, 0.5, 20.0):
         (tie,) = replace(along, anchor_width=width).restraints()
         assert tie.grip * spacing == pytest.approx(per_metre.grip * min(width or 0.5, spacing))
-        assert tie.remarks[1]["needed_kN"] == pytest.approx(per_metre.needed * spacing / 1e3)
-        assert tie.remarks[1]["grip_kN"] == pytest.approx(tie.grip * spacing / 1e3)
+        assert tie.warnings[1]["needed_kN"] == pytest.approx(per_metre.needed * spacing / 1e3)
+        assert tie.warnings[1]["grip_kN"] == pytest.approx(tie.grip * spacing / 1e3)
     (held,) = replace(along, held_between="floor").restraints()
     assert held.grip == per_metre.grip
     assert replace(along, anchor_width=0.25).anchors_slide_at <= along.anchors_slide_at
@@ -306,8 +306,8 @@ def test_what_stands_but_for_its_anchors_stands_where_no_stack_whose_ties_they_h
     for peak in (0.4, 0.55):  # at the first nothing lifts by its mechanisms
         doubted = shaken(ALL_ALONG, peak, 0.25, "quick")
         assert doubted.verdict is rocking.Verdict.PROBABLY_STANDS
-        assert AssessmentKind.ANCHOR_GIVES in {doubt.kind for doubt in doubted.decision.doubts}
-        assert AssessmentKind.ANCHORS in {remark.kind for remark in doubted.decision.would_settle}
+        assert AssessmentKind.ANCHOR_GIVES in {warning.kind for warning in doubted.decision.warnings}
+        assert AssessmentKind.ANCHORS in {warning.kind for warning in doubted.decision.would_settle}
         some = shaken(ALL_ALONG, peak, 0.25)
         assert some.verdict is rocking.Verdict.PROBABLY_STANDS
         assert some.stacks.runs <= 24
@@ -394,7 +394,7 @@ def test_rods_are_spread_over_the_metre():
         tie_pretension=5e3,
     )
     assert rods.static_multiplier == spread.static_multiplier
-    (said,) = (remark for remark in rods.assumptions if remark.kind is StructureKind.RODS_SPREAD)
+    (said,) = (warning for warning in rods.assumptions if warning.kind is StructureKind.RODS_SPREAD)
     assert said["stiffness_kN_m2"] == pytest.approx(7540, rel=1e-3)
     assert replace(rods, floor_loads=(6e3,)).tie_stiffness == rods.tie_stiffness
 

@@ -24,7 +24,6 @@ from rocking.products.checks.conclusion import code_conclusion_in_words, code_co
 from rocking.products.checks.report import CheckedStructure, structures_data
 from rocking.products.checks.rows import CodeCheckRow, code_check_rows
 from rocking.products.checks.work import Checks, write_checks
-from rocking.remarks import Kind, Remark
 from rocking.reports.explore import explore_page
 from rocking.reports.pages import Fact
 from rocking.reports.sentences import Sentences
@@ -37,6 +36,7 @@ from rocking.study.settings import Settings, read_settings
 from rocking.study.terminal import conclusion_lines
 from rocking.tables import read_table
 from rocking.tables.workbook import workbook
+from rocking.warnings import Kind, RockingWarning
 from tests.made_pools import DESIGN, SETS, made_pool
 from tests.refusals import refused
 from tests.unit.assessment import made_rows
@@ -198,7 +198,7 @@ def test_a_structure_that_cannot_be_checked_costs_no_other(study):
 def found(passed, exceeding=0, **others):
     values = {
         "clause": "C8.7.1.2.1.9", "limit_state": "SLV", "capacity": 0.1, "demand": 0.05 if passed else 0.2,
-        "mechanism": AS_DESCRIBED, "unit": "m", "refusal": None if passed else Remark(CheckKind.CHECK_NOT_MET),
+        "mechanism": AS_DESCRIBED, "unit": "m", "refusal": None if passed else RockingWarning(CheckKind.CHECK_NOT_MET),
         "exceeding": exceeding,
         "motions": 40, "stations": 57,
         "earthquakes": 20, "sets": 200, "share": 1.0 if passed else 0.1, "interval": (0.0, 1.0),
@@ -208,8 +208,8 @@ def found(passed, exceeding=0, **others):
 
 FORMULAS = check(Block.of_size(0.6, 2.0), DesignSpectrum.ntc(1.0, 2.5, 0.3))
 WEAK = check(Block.of_size(0.1, 2.0), DesignSpectrum.ntc(1.0, 2.5, 0.3))
-FEW = Remark.of(CheckKind.SETS_TOO_FEW, sets=72, asked=200)
-UNLIKE = Remark.of(CheckKind.SETS_DISAGREE, share_percent=44.0, sets=200, least_percent=95.0)
+FEW = RockingWarning.of(CheckKind.SETS_TOO_FEW, sets=72, asked=200)
+UNLIKE = RockingWarning.of(CheckKind.SETS_DISAGREE, share_percent=44.0, sets=200, least_percent=95.0)
 
 
 @pytest.mark.parametrize(
@@ -231,7 +231,7 @@ def test_the_most_detailed_check_that_has_an_answer_decides(formulas, dynamic, c
     assert checked.verified == verified
     assert [checked.part_of(check) for check in checked.checks] == parts
     (conclusion,) = code_conclusions(code_check_rows("wall", checked))
-    assert str(conclusion.remark) == f"{'verified' if verified else 'not verified'} by {clause}"
+    assert str(conclusion.warning) == f"{'verified' if verified else 'not verified'} by {clause}"
     beside = "other stations would" in str(conclusion)
     assert beside == (verified and dynamic is not None)
 
@@ -273,7 +273,7 @@ def test_an_interval_that_spans_everything_is_told_as_too_few_stations():
     """ "0–100 %" tells a reader nothing, wherever it would stand."""
     rows = code_check_rows("pier", replace(FORMULAS, dynamic=found(True, interval=(0.004, 1.0))))
     (conclusion,) = code_conclusions(rows)
-    assert conclusion.other_sets == Remark(CheckKind.OTHER_SETS_UNKNOWN)
+    assert conclusion.other_sets == RockingWarning(CheckKind.OTHER_SETS_UNKNOWN)
     assert "too few stations" in conclusion.other_share_in_words
     assert "too few stations to speak for others" in code_conclusion_in_words([conclusion])
     (wide,) = code_conclusions(
@@ -372,7 +372,7 @@ def test_a_page_says_that_a_crack_is_known_and_what_the_check_would_be_were_it_n
         (told[case.crack],) = structures_data(
             [page], spectrum, Settings(language=language).for_pages_to_sign
         ).sheets
-    known = words.of(Remark.of(StructureKind.CRACK_KNOWN_AT, height_m=1.6))
+    known = words.of(RockingWarning.of(StructureKind.CRACK_KNOWN_AT, height_m=1.6))
     assert f"{known[:1].upper()}{known[1:]}." in told["known"].answers[0].assumptions
     assert not any(known in line.lower() for line in told[None].answers[0].assumptions)
     (other,) = (detail for detail in told["known"].details if words.number(0.888) in detail)
@@ -420,7 +420,7 @@ def test_the_page_names_the_client_and_what_the_checks_rest_on():
 def test_the_page_tells_a_reserve_that_was_not_sought_from_one_that_was_not_reached():
     spectrum = DesignSpectrum.ntc(1.0, 2.5, 0.3)
 
-    def share(*reserves: Reserve, doubts: tuple[Kind, ...] = ()) -> str:
+    def share(*reserves: Reserve, warnings: tuple[Kind, ...] = ()) -> str:
         page = CheckedStructure(
             name="parapet",
             structure=STRUCTURES["parapet"],
@@ -428,7 +428,7 @@ def test_the_page_tells_a_reserve_that_was_not_sought_from_one_that_was_not_reac
             overturning_share=0.5,
             stations=4,
             reserves=reserves,
-            reserve_doubts=doubts,
+            reserve_warnings=warnings,
         )
         (data,) = structures_data([page], spectrum, Settings().for_pages).sheets
         lines = [f"{sentence.value} {sentence.text}" for sentence in data.answers[0].sure[1:]]
@@ -445,7 +445,7 @@ def test_the_page_tells_a_reserve_that_was_not_sought_from_one_that_was_not_reac
     assert both.startswith("0.80\u00a0× applied to the most demanding record lets 5 %")
     assert both.endswith("; the median over 3 records is 1.6\u00a0×.")
     assert "the median over 3 records is > 3\u00a0×" in share(low, never, never)
-    assert share(low, doubts=(AssessmentKind.CONTACTS_OPEN,)).endswith("too high where contacts open.")
+    assert share(low, warnings=(AssessmentKind.CONTACTS_OPEN,)).endswith("too high where contacts open.")
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -516,7 +516,7 @@ def test_a_page_says_on_what_its_structure_stands_and_what_is_not_checked(tmp_pa
     assert ground[0] == "on the ground (for comparison)"
     assert ground[1] == pages[0].checked.linear.ratio_in_words
     assert page["plain"].answers[0].basis.periods.rows == ()
-    (tied,) = [one_page.checked.remark for one_page in pages if one_page.name == "tied"]
+    (tied,) = [one_page.checked.warning for one_page in pages if one_page.name == "tied"]
     assert tied.kind is StructureKind.TIE_MUST_BEAR
     assert str(tied) in " ".join(page["tied"].answers[0].basis.sentences)
     assert not any("strength" in text for text in page["plain"].answers[0].basis.sentences)

@@ -19,13 +19,13 @@ import yaml
 import rocking
 from rocking.assessment.scene import load_scenes, placed
 from rocking.errors import ConfigurationError
-from rocking.remarks import Remark
 from rocking.signal.kinds import SignalKind
 from rocking.study.cli import main
 from rocking.study.plan import check_config_file, make_plan
 from rocking.study.products import FRAGILITY
 from rocking.study.settings import Settings, read_settings
 from rocking.tables.yaml_file import scalar_value
+from rocking.warnings import RockingWarning
 from tests.refusals import refused
 
 ROOT = Path(rocking.__file__).parents[1]
@@ -85,7 +85,7 @@ def test_a_factor_that_takes_the_peak_above_three_g_is_told(record, capsys, scal
     """The file reaches 0.5 g: six times that is the limit."""
     assert main(["read", str(record), "--unit", "g", f"--scale={scale}"]) == 0
     peak = 0.5 * abs(float(scale))
-    told = Remark.of(SignalKind.PEAK_RARE_BY_FACTOR, factor=float(scale), peak_g=peak)
+    told = RockingWarning.of(SignalKind.PEAK_RARE_BY_FACTOR, factor=float(scale), peak_g=peak)
     assert (str(told) in capsys.readouterr().out) == warned
 
 

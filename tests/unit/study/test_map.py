@@ -100,7 +100,9 @@ def test_each_station_with_coordinates_is_a_point_with_its_row_and_its_words(mad
         for structure, share in shares.items():
             assert properties[f"{structure}: share"] == share
         words = {
-            verdict.structure: str(verdict.decision.word) for verdict in verdicts if verdict.record == record
+            verdict.structure: str(verdict.decision.verdict)
+            for verdict in verdicts
+            if verdict.record == record
         }
         assert {name: properties[f"{name}: word"] for name in STRUCTURES} == words
     (star,) = [feature for feature in found if feature["properties"]["kind"] == "epicentre"]

@@ -128,15 +128,15 @@ def test_a_refusal_names_the_key_as_it_is_typed(tmp_path: Path) -> None:
     ("heights", "is_told"),
     [([3.5, 6.5, 9.5], True), ([3.5, 3.2, 3.0], False), ([4.0, 5.0], False), ([9.5], False)],
 )
-def test_levels_in_place_of_storey_heights_get_a_remark(
+def test_levels_in_place_of_storey_heights_get_a_warning(
     tmp_path: Path, heights: list[float], is_told: bool
 ) -> None:
     path = tmp_path / "list.yaml"
     thicknesses = [0.6] * len(heights)
     sizes = f"storey_heights_m: {heights}, thicknesses_m: {thicknesses}, unit_weight_kN_m3: 18"
     path.write_text(f"- {{name: a, type: facade, {sizes}}}\n")
-    remarks = load_scenes(path)["a"].remarks
-    told = [remark for remark in remarks if remark.kind is StructureKind.LEVELS_TYPED]
+    warnings = load_scenes(path)["a"].warnings
+    told = [warning for warning in warnings if warning.kind is StructureKind.LEVELS_TYPED]
     assert bool(told) == is_told
     if told:
         assert "19.5 m" in str(told[0])

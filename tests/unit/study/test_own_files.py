@@ -11,7 +11,7 @@ import obspy
 import pytest
 from made_files import TRUE, by_obspy, knet, peer
 
-from rocking.assessment.rows import RemarkRow
+from rocking.assessment.rows import WarningRow
 from rocking.errors import ConfigurationError, RecordError
 from rocking.structures.kinds import StructureKind
 from rocking.study.cli import main
@@ -70,11 +70,11 @@ def test_a_folder_and_an_archive_give_the_record_that_their_files_give(folder: P
 def test_a_component_beside_a_file_that_is_not_given_is_named(folder: Path) -> None:
     (folder / "RSN2_OTHER_XX000.AT2").write_text(FILES["RSN1_MADE_ST000.AT2"].replace("Made", "Elsewhere"))
     own = stations_of(paths(folder)[:1], NOTHING)
-    assert {(remark.kind, remark["other"]) for remark in own.remarks} == {
+    assert {(warning.kind, warning["other"]) for warning in own.warnings} == {
         (StudyKind.SIBLING_NOT_USED, "RSN1_MADE_ST090.AT2"),
         (StudyKind.SIBLING_NOT_USED, "RSN1_MADE_ST-UP.AT2"),
     }
-    assert not stations_of(paths(folder), NOTHING).remarks
+    assert not stations_of(paths(folder), NOTHING).warnings
 
 
 def test_a_k_net_triple_is_one_record(tmp_path: Path) -> None:
@@ -165,7 +165,7 @@ def test_a_size_in_another_unit_is_told_beside_the_verdict(
         out = folder / f"out of {unusual}"
         assert main(["assess", *given, "--structures", wall, "--output", str(out)]) == 0
         told = capsys.readouterr().out.splitlines()
-        with (out / "summary" / RemarkRow.table.file_name).open(newline="") as table:
+        with (out / "summary" / WarningRow.table.file_name).open(newline="") as table:
             rows = [row for row in csv.DictReader(table) if row["kind"] == StructureKind.SIZE_UNUSUAL]
         assert bool(rows) is unusual
         assert [row["sentence"] for row in rows] == [line for line in told if "usually" in line]

@@ -14,7 +14,7 @@ from rocking.errors import ConfigurationError
 from rocking.structures.kinds import StructureKind
 from rocking.study import settings as settings_module
 from rocking.study.job import prepare
-from rocking.study.plan import Plan, make_plan, study_remarks
+from rocking.study.plan import Plan, make_plan, study_warnings
 from rocking.study.settings import Settings, read_settings, settings_sha256
 
 ROOT = Path(__file__).parents[3]
@@ -180,24 +180,24 @@ def test_every_file_that_is_read_counts_and_no_other(tmp_path, cells, content, f
     assert (_hash(record) != before) == counts
 
 
-def test_what_walls_are_taken_for_is_a_remark_of_the_study_that_asks_nothing_before_a_run(
+def test_what_walls_are_taken_for_is_a_warning_of_the_study_that_asks_nothing_before_a_run(
     tmp_path: Path,
 ) -> None:
     sizes = "height_m: 2.2, thickness_m: 0.3"
     entries = "".join(f"- {{name: w{number}, type: wall, {sizes}}}\n" for number in range(10))
     free = f"- {{name: boundary, type: free_wall, {sizes}}}\n"
     plan = make_plan(_write(tmp_path, f"a,a.AT2,{SHA256}\n", entries + free))
-    told = study_remarks(plan.settings, plan.scenes)
-    assert [(remark.kind, remark.about) for remark in told] == [
+    told = study_warnings(plan.settings, plan.scenes)
+    assert [(warning.kind, warning.about) for warning in told] == [
         (AssessmentKind.HELD_AT_CEILING, f"w{number}") for number in range(10)
     ]
-    assert plan.doubts == ()
+    assert plan.warnings == ()
 
 
 @pytest.mark.parametrize(("ag", "told"), [(0.26, False), (0.6, False), (2.55, True)])
-def test_a_design_level_typed_in_another_unit_gets_a_remark(tmp_path: Path, ag: float, told: bool) -> None:
+def test_a_design_level_typed_in_another_unit_gets_a_warning(tmp_path: Path, ag: float, told: bool) -> None:
     level = {"ag_g": ag, "f0": 2.4, "tc_star_s": 0.3}
     plan = make_plan(_write(tmp_path, f"a,a.AT2,{SHA256}\n", design_spectrum=level))
-    remarks = [str(remark) for remark in plan.doubts if remark.kind is StructureKind.SIZE_UNUSUAL]
+    warnings = [str(warning) for warning in plan.warnings if warning.kind is StructureKind.SIZE_UNUSUAL]
     said = "design_spectrum.ag_g is 2.55 g, but is usually between 0 and 0.6 g for a design level; check the unit."
-    assert remarks == [said] * told
+    assert warnings == [said] * told

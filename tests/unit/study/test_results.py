@@ -17,11 +17,11 @@ from rocking.assessment.rows import (
     VerdictRow,
 )
 from rocking.errors import RockingError
-from rocking.remarks import Remark, every_kind
 from rocking.study.kept import Kept, keep, kept_in
 from rocking.study.outputs import STEPS, former_files, outcome_of, outputs_of, remove, store_of
 from rocking.study.settings import Settings
 from rocking.tables import read_rows, write_rows
+from rocking.warnings import RockingWarning, every_kind
 from tests.refusals import refused
 from tests.unit.assessment.made_rows import case, station, verdicts
 
@@ -47,14 +47,18 @@ def test_a_table_of_the_summary_is_an_attribute(folder: Path) -> None:
 @pytest.mark.parametrize(
     "reserve", [None, Reserve(low=1.2, median=math.nan, high=math.nan, limit=3.0)], ids=["none", "sought"]
 )
-def test_an_outcome_keeps_the_decision_with_the_values_of_its_remarks(tmp_path: Path, reserve) -> None:
+def test_an_outcome_keeps_the_decision_with_the_values_of_its_warnings(tmp_path: Path, reserve) -> None:
     """Of every kind in the catalogue; a row read back from its print raised ValueError for each that has values."""
-    remarks = tuple(
-        Remark.of(kind, "pier", **{name: 0.1 * place for place, name in enumerate(kind.value_names, start=1)})
+    warnings = tuple(
+        RockingWarning.of(
+            kind, "pier", **{name: 0.1 * place for place, name in enumerate(kind.value_names, start=1)}
+        )
         for kind in every_kind().values()
     )
-    assert sum(bool(remark.values) for remark in remarks) > 20
-    decision = Decision(Verdict.UNCERTAIN, 1 / 3, (0.0, 2 / 3), "32 of 64 members overturn", remarks, remarks)
+    assert sum(bool(warning.values) for warning in warnings) > 20
+    decision = Decision(
+        Verdict.UNCERTAIN, 1 / 3, (0.0, 2 / 3), "32 of 64 members overturn", warnings, warnings
+    )
     (of_station,) = verdicts([station(case("EW", 0.3, falls=32))])
     row = replace(of_station, decision=decision, reserve=reserve)
     path = outcome_of(tmp_path, "a")

@@ -1,4 +1,4 @@
-"""The catalogue of remarks: each kind has its own code and a sentence that its values fill."""
+"""The catalogue of warnings: each kind has its own code and a sentence that its values fill."""
 
 import ast
 import inspect
@@ -13,8 +13,8 @@ from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.store import decoded, encoded
 from rocking.floors.kinds import FloorKind
 from rocking.records.kinds import RecordKind
-from rocking.remarks import Kind, Remark, every_kind, kind_of
 from rocking.signal.kinds import SignalKind
+from rocking.warnings import Kind, RockingWarning, every_kind, kind_of
 
 PACKAGE = Path(inspect.getfile(rocking)).parent
 TESTS = Path(__file__).parents[1]
@@ -26,10 +26,10 @@ KINDS = every_kind()
 @pytest.mark.parametrize("kind", KINDS.values())
 def test_every_sentence_is_filled_by_its_values_alone(kind):
     numbers = dict.fromkeys(kind.value_names, 1.5)
-    remark = Remark.of(kind, "wall", **numbers)
+    warning = RockingWarning.of(kind, "wall", **numbers)
     assert kind_of(kind.value) is kind
-    assert "{" not in str(remark)
-    assert all(remark[name] == 1.5 for name in numbers)
+    assert "{" not in str(warning)
+    assert all(warning[name] == 1.5 for name in numbers)
 
 
 def test_a_kind_that_says_nothing_cannot_be_declared():
@@ -44,27 +44,27 @@ def test_no_two_kinds_say_the_same_or_have_one_code():
 
 def test_values_that_the_sentence_does_not_name_are_refused():
     with pytest.raises(ValueError, match="force"):
-        Remark.of(AssessmentKind.CONTACTS_OPEN, force=2.0)
+        RockingWarning.of(AssessmentKind.CONTACTS_OPEN, force=2.0)
 
 
 def test_a_kind_that_the_catalogue_does_not_hold_is_refused():
     with pytest.raises(ValueError, match="'contacts open' is of no kind"):
-        Remark("contacts open")
+        RockingWarning("contacts open")
 
 
 def test_a_value_that_is_neither_text_nor_number_is_refused(monkeypatch):
     monkeypatch.setattr(AssessmentKind.CONTACTS_OPEN, "value_names", ("count",))
     with pytest.raises(ValueError, match=r"count is \[1\], but must be a text or a number"):
-        Remark.of(AssessmentKind.CONTACTS_OPEN, count=[1])
+        RockingWarning.of(AssessmentKind.CONTACTS_OPEN, count=[1])
 
 
-def test_every_remark_that_the_package_makes_has_the_values_of_its_sentence():
+def test_every_warning_that_the_package_makes_has_the_values_of_its_sentence():
     """Also those that no other test makes: the calls are read from the sources."""
     wrong = []
     for path in PACKAGE.rglob("*.py"):
         text = path.read_text(encoding="utf-8")
-        for call in ast.walk(ast.parse(text)) if "Remark" in text else ():
-            makes = ("Remark", "Remark.of")
+        for call in ast.walk(ast.parse(text)) if "RockingWarning" in text else ():
+            makes = ("RockingWarning", "RockingWarning.of")
             if not (isinstance(call, ast.Call) and ast.unparse(call.func) in makes and call.args):
                 continue
             named = ast.unparse(call.args[0]).rpartition(".")[2].lower()
@@ -81,27 +81,33 @@ def test_every_sentence_of_the_catalogue_is_said_somewhere():
     assert set(KINDS) <= {name.lower() for pair in named for name in pair}
 
 
-def test_what_a_remark_is_about_stands_before_a_sentence_that_does_not_name_it():
-    assert str(Remark(AssessmentKind.CONTACTS_OPEN, "pier")) == "pier: contacts open"
-    assert str(Remark(RecordKind.VERTICAL_AS_HORIZONTAL, "UD")).startswith("Component UD is vertical")
+def test_what_a_warning_is_about_stands_before_a_sentence_that_does_not_name_it():
+    assert str(RockingWarning(AssessmentKind.CONTACTS_OPEN, "pier")) == "pier: contacts open"
+    assert str(RockingWarning(RecordKind.VERTICAL_AS_HORIZONTAL, "UD")).startswith("Component UD is vertical")
 
 
-@pytest.mark.parametrize(("remark", "words"), [
-    (Remark.of(SignalKind.STEP_UNUSUAL, time_step_s=0.11, shortest_s=1e-4, longest_s=0.1), "is 0.11 s: accelerographs"),
-    (Remark.of(RecordKind.SAMPLE_ALONE, time_s=1.5, peak_g=3.0591, others_g=0.10197), "at 1.5 s is 3.06 g and"),
-    (Remark.of(FloorKind.STILL_RINGING, share=0.0314, after_s=60.0), "at 3.1% of its peak"),
-    (Remark.of(RecordKind.PEAK_UNLIKE_HEADER, peak_m_s2=9.80665, stated_m_s2=9.9), "is 9.80665 m/s², but the header"),
-    (Remark.of(RecordKind.RATE_NO_NUMBER, rate="1OO"), "a rate of '1OO', which is not a number"),
-    (Remark(RecordKind.LONE_MAY_BE_VERTICAL, "QQX"), "direction of the component QQX is unknown"),
+@pytest.mark.parametrize(("warning", "words"), [
+    (
+        RockingWarning.of(SignalKind.STEP_UNUSUAL, time_step_s=0.11, shortest_s=1e-4, longest_s=0.1),
+        "is 0.11 s: accelerographs",
+    ),
+    (RockingWarning.of(RecordKind.SAMPLE_ALONE, time_s=1.5, peak_g=3.0591, others_g=0.10197), "at 1.5 s is 3.06 g and"),
+    (RockingWarning.of(FloorKind.STILL_RINGING, share=0.0314, after_s=60.0), "at 3.1% of its peak"),
+    (
+        RockingWarning.of(RecordKind.PEAK_UNLIKE_HEADER, peak_m_s2=9.80665, stated_m_s2=9.9),
+        "is 9.80665 m/s², but the header",
+    ),
+    (RockingWarning.of(RecordKind.RATE_NO_NUMBER, rate="1OO"), "a rate of '1OO', which is not a number"),
+    (RockingWarning(RecordKind.LONE_MAY_BE_VERTICAL, "QQX"), "direction of the component QQX is unknown"),
 ])  # fmt: skip
-def test_the_words_give_numbers_as_a_person_reads_them(remark, words):
-    assert words in str(remark)
+def test_the_words_give_numbers_as_a_person_reads_them(warning, words):
+    assert words in str(warning)
 
 
 @pytest.mark.parametrize("value", ["wall", 3, 2.5])
-def test_a_remark_is_kept_with_its_values(monkeypatch, value):
+def test_a_warning_is_kept_with_its_values(monkeypatch, value):
     monkeypatch.setattr(AssessmentKind.CONTACTS_OPEN, "value_names", ("force",))
-    remark = Remark.of(AssessmentKind.CONTACTS_OPEN, "pier", force=value)
-    again = decoded(Remark, encoded(remark))
-    assert again == remark
+    warning = RockingWarning.of(AssessmentKind.CONTACTS_OPEN, "pier", force=value)
+    again = decoded(RockingWarning, encoded(warning))
+    assert again == warning
     assert type(again["force"]) is type(value)

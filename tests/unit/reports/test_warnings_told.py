@@ -1,4 +1,4 @@
-"""Remarks on sizes, levels and settings: rows of one table, which every document of a study reads."""
+"""Warnings on sizes, levels and settings: rows of one table, which every document of a study reads."""
 
 import re
 from dataclasses import replace
@@ -10,7 +10,7 @@ from rocking import Block, DesignSpectrum, check
 from rocking.assessment.case import RecordResult
 from rocking.assessment.conclusion import TO_CHECK
 from rocking.assessment.kinds import AssessmentKind
-from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, RecordRows, RemarkRow, rows_of_record
+from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, RecordRows, WarningRow, rows_of_record
 from rocking.assessment.scene import Scene, on_the_ground
 from rocking.errors import RockingError
 from rocking.products.checks.report import CheckedStructure, structures_data
@@ -19,7 +19,7 @@ from rocking.reports.explore import explore_page
 from rocking.reports.record import RecordReport
 from rocking.reports.summary import summary_data
 from rocking.structures.structure_list import TYPES, structure_from_config
-from rocking.study.plan import study_remarks
+from rocking.study.plan import study_warnings
 from rocking.study.settings import Settings, StudyDesign
 from rocking.study.terminal import closing_lines
 from rocking.tables.workbook import workbook
@@ -59,14 +59,14 @@ def slips(count: int):
 
 
 def study_of(key: str, entry: dict) -> tuple:
-    """The remarks on the study in which that was typed; None where it is refused."""
+    """The warnings on the study in which that was typed; None where it is refused."""
     try:
         if key.startswith("design_spectrum"):
-            return study_remarks(Settings(design_spectrum=StudyDesign(**entry)), {})
+            return study_warnings(Settings(design_spectrum=StudyDesign(**entry)), {})
         scene = Scene("front wall", structure_from_config(entry))
     except RockingError:
         return None
-    return study_remarks(Settings(), {scene.name: scene})
+    return study_warnings(Settings(), {scene.name: scene})
 
 
 def wall_in_millimetres(height: float):
@@ -74,9 +74,9 @@ def wall_in_millimetres(height: float):
     return structure_from_config({"type": "wall", "height_m": height, "thickness_m": 300.0})
 
 
-def notices(remarks) -> list[str]:
+def notices(warnings) -> list[str]:
     """What stands above page one of a record."""
-    of_study = RemarkRow.of_study(remarks)
+    of_study = WarningRow.of_study(warnings)
     report = RecordReport(RecordResult(record="r"), RecordRows(), {}, SETTINGS, of_study=of_study)
     return [notice.text for notice in report.page().notices]
 
@@ -88,8 +88,8 @@ def assumed(report: RecordReport) -> str:
 
 
 def lines_told(rows):
-    """What the end of a run tells of the remarks, one string a remark."""
-    text = "\n".join(closing_lines([], [], [], remarks=rows))
+    """What the end of a run tells of the warnings, one string a warning."""
+    text = "\n".join(closing_lines([], [], [], warnings=rows))
     return re.sub(r"\n {8}", " ", text).splitlines()
 
 
@@ -101,19 +101,19 @@ def test_a_size_or_a_level_in_another_unit_stands_on_page_one_or_is_refused(monk
     silent = []
     refused = 0
     for key, entry in slips(TYPED_WRONGLY):
-        remarks = study_of(key, entry)
-        if remarks is None:
+        warnings = study_of(key, entry)
+        if warnings is None:
             refused += 1
             continue
         told = [
-            one_remark
-            for one_remark in remarks
-            if one_remark.kind in TO_CHECK and one_remark.about.endswith(key)
+            one_warning
+            for one_warning in warnings
+            if one_warning.kind in TO_CHECK and one_warning.about.endswith(key)
         ]
         if not told:
             silent.append((key, entry))
-        page = notices(remarks)
-        assert all(any(str(remark) in notice for notice in page) for remark in told[:2]), (key, entry)
+        page = notices(warnings)
+        assert all(any(str(warning) in notice for notice in page) for warning in told[:2]), (key, entry)
     assert not silent, silent
     assert refused < TYPED_WRONGLY / 2
 
@@ -121,28 +121,28 @@ def test_a_size_or_a_level_in_another_unit_stands_on_page_one_or_is_refused(monk
 @pytest.mark.filterwarnings("ignore:restitution by momentum balance")
 def test_of_many_slips_page_one_tells_the_first_in_full_and_how_many_more_of_what():
     wall = wall_in_millimetres(2200.0)
-    remarks = study_remarks(Settings(), on_the_ground({f"wall {place}": wall for place in range(150)}))
-    to_check = [remark for remark in remarks if remark.kind in TO_CHECK]
+    warnings = study_warnings(Settings(), on_the_ground({f"wall {place}": wall for place in range(150)}))
+    to_check = [warning for warning in warnings if warning.kind in TO_CHECK]
     assert len(to_check) == 300
-    *first, rest = notices(remarks)[-3:]
+    *first, rest = notices(warnings)[-3:]
     assert first == [str(item) for item in to_check[:2]]
-    assert lines_told(RemarkRow.of_study(remarks)) == [*first, rest], "as the terminal tells them"
-    assert "298 values" in rest and "wall 1, wall 2, " in rest and "remarks.csv" in rest
+    assert lines_told(WarningRow.of_study(warnings)) == [*first, rest], "as the terminal tells them"
+    assert "298 values" in rest and "wall 1, wall 2, " in rest and "warnings.csv" in rest
 
 
 @pytest.mark.usefixtures("undrawn")
 @pytest.mark.filterwarnings("ignore:restitution by momentum balance")
-def test_every_document_of_a_study_reads_the_same_remarks(example):
+def test_every_document_of_a_study_reads_the_same_warnings(example):
     """Page one, summary, page to sign, page to explore and workbook; both tables are outputs of their rules."""
     settings = Settings(design_spectrum=StudyDesign(ag=1.96, f0=2.4, tc_star=0.35))
     wall = wall_in_millimetres(2200.0)
     scene = Scene("A", wall)
-    remarks = study_remarks(settings, {"A": scene})
-    rows = RemarkRow.of_study(remarks)
+    warnings = study_warnings(settings, {"A": scene})
+    rows = WarningRow.of_study(warnings)
     told = [row.sentence for row in rows if row.kind in TO_CHECK]
     assert [row.about for row in rows] == ["design_spectrum.ag_g", "A: height_m", "A: thickness_m", "A"]
     assert [row.kind for row in rows][-1] is AssessmentKind.HELD_AT_CEILING
-    assert RemarkRow in RECORD_TABLES and RemarkRow in SUMMARY_TABLES
+    assert WarningRow in RECORD_TABLES and WarningRow in SUMMARY_TABLES
 
     report = replace(example, of_study=rows)
     page = report.page()
@@ -150,37 +150,37 @@ def test_every_document_of_a_study_reads_the_same_remarks(example):
     (models,) = (topic.texts for topic in page.known.topics if topic.topic == "Models")
     assert rows[-1].sentence in models
 
-    tables = summarised(example.tables, example.structures) | {RemarkRow: rows}
+    tables = summarised(example.tables, example.structures) | {WarningRow: rows}
     assert told == [
         one_notice.text for one_notice in summary_data(tables, SETTINGS).notices if one_notice.text in told
     ]
 
     spectrum = DesignSpectrum.ntc(1.96 * GRAVITY, 2.4, 0.35)
     block = Block.of_size(0.6, 2.0)
-    signed = CheckedStructure(name="A", structure=block, checked=check(block, spectrum), remarks=remarks)
+    signed = CheckedStructure(name="A", structure=block, checked=check(block, spectrum), warnings=warnings)
     (sheet,) = structures_data([signed], spectrum, settings.for_pages).sheets
     assert told == [detail for detail in sheet.details if detail in told]
     assert rows[-1].sentence in sheet.answers[0].assumptions
 
     assert told == [line for line in lines_told([*rows, *rows]) if line in told]
 
-    html = explore_page([], {"A": block}, remarks=rows).decode()
+    html = explore_page([], {"A": block}, warnings=rows).decode()
     assert all(row.sentence in html for row in rows)
-    assert RemarkRow.table.file_name == "remarks.csv"
+    assert WarningRow.table.file_name == "warnings.csv"
     assert len(workbook(tables)) > 0
 
 
 def test_a_vertical_component_that_is_asked_for_and_missing_is_told(example):
-    asked, unasked = (rows_of_record(example.result, vertical=choice).remarks for choice in (True, False))
+    asked, unasked = (rows_of_record(example.result, vertical=choice).warnings for choice in (True, False))
     assert [row.kind for row in asked if row not in unasked] == [AssessmentKind.VERTICAL_MISSING]
     (row,) = (question for question in asked if question.kind is AssessmentKind.VERTICAL_MISSING)
     assert (row.record, row.about) == (example.result.record, "vertical")
-    report = replace(example, tables=replace(example.tables, remarks=asked))
+    report = replace(example, tables=replace(example.tables, warnings=asked))
     assert row.sentence in [notice.text for notice in report.page().notices]
-    assert "vertical" not in assumed(report), "the remark says it, and no second sentence does"
+    assert "vertical" not in assumed(report), "the warning says it, and no second sentence does"
     assert row.sentence in lines_told(asked) and row.sentence not in lines_told(unasked)
-    report = replace(example, tables=replace(example.tables, remarks=unasked))
+    report = replace(example, tables=replace(example.tables, warnings=unasked))
     assert "vertical component is left out" in assumed(report)
     acting = [replace(item, vertical_component="UP") for item in example.tables.record]
-    report = replace(example, tables=replace(example.tables, remarks=unasked, record=acting))
+    report = replace(example, tables=replace(example.tables, warnings=unasked, record=acting))
     assert "UP" in assumed(report)

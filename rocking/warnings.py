@@ -1,6 +1,6 @@
-"""Remarks: what there is to say of a file, a record, a structure or a case.
+"""Warnings: what there is to say of a file, a record, a structure or a case.
 
-A remark is made where the fact is known: its kind, what it is about, and its values. There its kind is declared, too,
+A warning is made where the fact is known: its kind, what it is about, and its values. There its kind is declared, too,
 with its sentence: `kinds.py` of each folder. Code compares kinds and reads values; the words are made where a person
 reads them.
 """
@@ -24,25 +24,25 @@ def values_named(text: str) -> set[str]:
 
 
 class Kind(StrEnum):
-    """A kind of remark: its code, which tables and results hold, and its sentence.
+    """A kind of warning: its code, which tables and results hold, and its sentence.
 
     Each folder declares its own kinds as members of a class of this one, a line each; a sentence that takes more lines
     is folded to one. The code is the name in small letters; no two kinds have the same.
     """
 
     sentence: str
-    """The sentence in English, with its values in braces; {about} is what the remark is about."""
+    """The sentence in English, with its values in braces; {about} is what the warning is about."""
     brief: str
     """The sentence in as few words as a line of a table has room for; itself where it is short."""
     value_names: tuple[str, ...]
     """The values that the sentence names, in order of the alphabet."""
     names_subject: bool
-    """Whether it also names what the remark is about."""
+    """Whether it also names what the warning is about."""
 
     def __new__(cls, code: str, sentence: str = "", short: str = "") -> "Kind":
         """Make a kind of its code, with what it says. Raises ValueError for one that says nothing."""
         if not sentence:
-            raise ValueError(f"remark {code} has no sentence.")
+            raise ValueError(f"warning {code} has no sentence.")
         kind = str.__new__(cls, code)
         kind._value_ = code
         kind.sentence = re.sub(r"\s*\n\s*", " ", sentence)
@@ -68,7 +68,7 @@ def every_kind() -> dict[str, Kind]:
 def kind_of(code: str) -> Kind:
     """Return the kind of a code. Raises ValueError for one that no folder declares that is imported."""
     if code not in (kinds := every_kind()):
-        raise ValueError(f"remark {code!r} is of no kind that is declared.")
+        raise ValueError(f"warning {code!r} is of no kind that is declared.")
     return kinds[code]
 
 
@@ -90,7 +90,7 @@ class Phrase(str):
 
 
 @dataclass(frozen=True)
-class Remark:
+class RockingWarning:
     """One thing to say: its kind, what it is about, and its values by name, in SI units unless their names say else.
 
     Parameters
@@ -110,7 +110,7 @@ class Remark:
     Examples
     --------
     >>> from rocking.assessment.kinds import AssessmentKind
-    >>> str(rocking.Remark(AssessmentKind.CONTACTS_OPEN))
+    >>> str(rocking.RockingWarning(AssessmentKind.CONTACTS_OPEN))
     'contacts open'
     """
 
@@ -120,19 +120,19 @@ class Remark:
 
     def __post_init__(self) -> None:
         if not isinstance(self.kind, Kind):
-            raise ValueError(f"remark {self.kind!r} is of no kind that is declared.")
+            raise ValueError(f"warning {self.kind!r} is of no kind that is declared.")
         given = [name for name, _ in self.values]
         if given != list(self.kind.value_names):
             raise ValueError(
-                f"remark {self.kind}: values {given}, but must be {list(self.kind.value_names)}."
+                f"warning {self.kind}: values {given}, but must be {list(self.kind.value_names)}."
             )
         for name, value in self.values:
             if not isinstance(value, Value):
-                raise ValueError(f"remark {self.kind}: {name} is {value!r}, but must be a text or a number.")
+                raise ValueError(f"warning {self.kind}: {name} is {value!r}, but must be a text or a number.")
 
     @classmethod
-    def of(cls, kind: Kind, about: str = "", **values: Value) -> "Remark":
-        """Return the remark of `kind` about a file, a record or a structure, with its values by name."""
+    def of(cls, kind: Kind, about: str = "", **values: Value) -> "RockingWarning":
+        """Return the warning of `kind` about a file, a record or a structure, with its values by name."""
         return cls(kind, about, tuple(sorted(values.items())))
 
     def __getitem__(self, name: str) -> Value:
@@ -140,11 +140,11 @@ class Remark:
         return dict(self.values)[name]
 
     def __str__(self) -> str:
-        """The remark in English; what it is about stands before a sentence that does not name it."""
+        """The warning in English; what it is about stands before a sentence that does not name it."""
         words = self.kind.sentence.format(about=self.about, **dict(self.values))
         return f"{self.about}: {words}" if self.about and not self.kind.names_subject else words
 
     @property
     def brief(self) -> str:
-        """The remark in as few words as a line of a table has room for."""
+        """The warning in as few words as a line of a table has room for."""
         return self.kind.brief.format(about=self.about, **dict(self.values))
