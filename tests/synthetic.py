@@ -91,11 +91,15 @@ SHIPPED = SyntheticRecord(
 
 
 def at2_text(recipe: SyntheticRecord) -> str:
-    """Return the record of `recipe` as the text of an AT2 file, in g, five numbers a line."""
+    """Return the record of `recipe` as the text of an AT2 file, in g, five numbers a line.
+
+    The shipped one says that it is made. Tests take the others for recorded ones, with the earthquakes that they name.
+    """
     record = synthetic_record(recipe)
     values = [f"{value:15.7e}" for value in record.acceleration / GRAVITY]
+    origin = "SYNTHETIC ACCELEROGRAM, NOT RECORDED" if recipe is SHIPPED else "RECORD OF A TEST"
     head = (
-        f"SYNTHETIC ACCELEROGRAM, NOT RECORDED; MADE BY python -m tests.synthetic, SEED {recipe.seed}",
+        f"{origin}; MADE BY python -m tests.synthetic, SEED {recipe.seed}",
         f"{record.event.split(',')[0]}, 1/1/2000, {recipe.name}, {record.component}",
         "ACCELERATION TIME SERIES IN UNITS OF G",
         f"NPTS= {len(values):6d}, DT= {record.time_step:8.5f} SEC",

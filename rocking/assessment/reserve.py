@@ -9,14 +9,15 @@ is computed for a structure on the ground, and on a support at the worst of its 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from rocking.assessment.ensemble import CAUSES, Situation, draw, followed_at
-from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import EnsembleSettings
 from rocking.structures import Mechanism
+
+if TYPE_CHECKING:
+    from rocking.assessment.motions import GroundMotions
 
 SHARES = (0.05, 0.5, 0.95)
 """Shares of the members that overturn at the low, the median and the high factor."""
@@ -122,7 +123,7 @@ class Reserve:
 
 def reserve_of_members(
     mechanism: Mechanism,
-    motions: GroundMotions,
+    motions: "GroundMotions",
     settings: EnsembleSettings | None = None,
     *,
     falls_beyond: float = math.inf,
@@ -139,6 +140,13 @@ def reserve_of_members(
     by which the points of the lattice are moved, for another sample of the same ensemble; none by default. A member
     that cannot be followed counts as one that overturns. Raises MotionError as `integrate` does.
     """
+    from rocking.assessment.ensemble import (
+        CAUSES,
+        Situation,
+        draw,
+        followed_at,
+    )  # which compile; a table has no need
+
     settings = settings or EnsembleSettings()
     strongest = motions.excitation
     lowest = (

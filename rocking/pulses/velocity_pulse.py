@@ -276,30 +276,24 @@ def coefficients(velocities: np.ndarray, scale: int, low: int, high: int) -> np.
 
 def transform(velocities: np.ndarray, scale: float) -> np.ndarray:
     """Coefficient of the wavelet of one scale centred at each sample of (n,) velocities, real or complex."""
+    from scipy import fft
+
     half = math.floor(SUPPORT / 2 * scale)
-    size = _fast_size(velocities.size + 2 * half)
+    size = fft.next_fast_len(velocities.size + 2 * half)
     spectrum = _kept_spectrum(scale, size) if size <= LARGEST_KEPT else _spectrum(scale, size)
     if np.iscomplexobj(velocities):
-        full: np.ndarray = np.fft.ifft(np.fft.fft(velocities, size) * spectrum)
+        full = fft.ifft(fft.fft(velocities, size) * spectrum)
     else:
-        full = np.fft.irfft(np.fft.rfft(velocities, size) * spectrum[: size // 2 + 1], size)
+        full = fft.irfft(fft.rfft(velocities, size) * spectrum[: size // 2 + 1], size)
     return np.concatenate([full[size - half :], full[: velocities.size]])[: velocities.size]
-
-
-@lru_cache(maxsize=1024)
-def _fast_size(least: int) -> int:
-    """Return the first length from `least` on without a factor above 11, of which a transform is fast."""
-    rest = least
-    for factor in (2, 3, 5, 7, 11):
-        while rest % factor == 0:
-            rest //= factor
-    return least if rest == 1 else _fast_size(least + 1)
 
 
 def _spectrum(scale: float, size: int) -> np.ndarray:
     """Fourier transform of the wavelet read backwards: the conjugate of its own, as it is real."""
-    half = np.fft.rfft(_wavelet(scale), size)
-    return np.concatenate([np.conj(half), half[1 : (size + 1) // 2][::-1]])
+    from scipy import fft
+
+    result: np.ndarray = np.conj(fft.fft(_wavelet(scale), size))
+    return result
 
 
 _kept_spectrum = lru_cache(maxsize=128)(_spectrum)

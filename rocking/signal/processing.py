@@ -152,7 +152,7 @@ def _butterworth(
     values: np.ndarray, time_step: float, kind: str, corner: float, order: int, margin: int
 ) -> np.ndarray:
     """Return `values` (n,) run both ways through a filter, its end values continued over `margin` samples."""
-    from rocking.signal.butterworth import filtered  # whose compiler takes a third of a second to import
+    from scipy.signal import butter, sosfiltfilt  # which takes half a second to import
 
     nyquist = 0.5 / time_step
     if not corner < nyquist:
@@ -161,7 +161,8 @@ def _butterworth(
             **{kind: corner},
         )
     whole = np.pad(values, margin, mode="edge")
-    return filtered(whole, order, corner / nyquist, is_high=kind == "highpass")[margin : margin + values.size]
+    filtered = sosfiltfilt(butter(order, corner / nyquist, kind, output="sos"), whole, padlen=0)
+    return np.asarray(filtered[margin : margin + values.size])
 
 
 def _resampled(record: Accelerogram, processing: Processing) -> Accelerogram:

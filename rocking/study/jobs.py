@@ -1,7 +1,6 @@
 """The jobs of a study: what each rule of the workflow does in its process, one function for each kind of rule."""
 
 import contextlib
-import errno
 from pathlib import Path
 from traceback import print_exception
 
@@ -14,7 +13,7 @@ from rocking.study.kept import Kept, keep
 from rocking.study.outputs import outputs_of
 from rocking.study.plan import Plan
 from rocking.study.products import BY_NAME
-from rocking.study.steps import Steps
+from rocking.study.steps import Steps, of_the_machine
 from rocking.study.summary import summarise
 from rocking.study.work import work_of
 from rocking.tables import write_whole
@@ -47,19 +46,14 @@ def product(job: Job) -> None:
     """
     try:
         made = work_of(BY_NAME[job.rule]).make(job)
-    except MemoryError:
-        raise
     except Exception as error:
-        if isinstance(error, OSError) and error.errno in _OF_THE_DISK:
+        if of_the_machine(error):
             raise
         print_exception(error)
         sentence = str(error) if isinstance(error, RockingError) else fault_in_words(error, job.log, job.rule)
         _say_why_not(job, sentence)
     else:
         keep(job.kept, Kept({FailureRow: [], **made.rows}, made.conclusion))
-
-
-_OF_THE_DISK = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)
 
 
 def _say_why_not(job: Job, sentence: str) -> None:

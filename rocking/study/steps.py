@@ -12,6 +12,7 @@ What a step computes it keeps, to the last bit, in a store of its own, in which 
 one before it for its result.
 """
 
+import errno
 import json
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -33,6 +34,14 @@ from rocking.study.job import Opened, Study, rows_of, write_record
 from rocking.study.kept import undamaged
 from rocking.study.outputs import STEPS, TABLES, store_of, times_of
 from rocking.tables import Row, read_whole, write_tables, write_whole, written_together
+
+_OF_THE_DISK = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)
+
+
+def of_the_machine(error: BaseException) -> bool:
+    """Whether memory or the disk is at fault, which ends a job, so that the next run does it again."""
+    cause = error.__cause__ if isinstance(error, RockingError) else error
+    return isinstance(cause, MemoryError) or (isinstance(cause, OSError) and cause.errno in _OF_THE_DISK)
 
 
 @dataclass(frozen=True)
@@ -60,13 +69,14 @@ class Steps:
             if failure is None:
                 getattr(self, step)()
                 return
-        except RockingError as error:
-            failure = Failure("read", error.without_place(self.record.id))
-        except (OSError, MemoryError):
-            raise
-        except Exception as fault:  # which the last step meets as well
-            print_exception(fault)
-            failure = Failure("fault", fault_in_words(fault, self.log))
+        except Exception as error:
+            if isinstance(error, OSError) or of_the_machine(error):
+                raise
+            if isinstance(error, RockingError):
+                failure = Failure("read", error.without_place(self.record.id))
+            else:  # which the last step meets as well
+                print_exception(error)
+                failure = Failure("fault", fault_in_words(error, self.log))
         if step == "read":
             self._hand_on([], {"failure": encoded(failure)})
         elif step == "report":

@@ -41,7 +41,7 @@ FLOORS = [
 ONLY_IN = {
     "pydantic": ("described.py", "catalogue/readings.py"),
     "obspy": ("records/", "signal/accelerogram.py", "catalogue/files.py"),
-    "numba": ("motion/", "pulses/", "sine_pulse/", "contacts/", "signal/butterworth.py"),
+    "numba": ("motion/", "pulses/", "sine_pulse/", "contacts/"),
     "matplotlib": ("reports/", "products/"),
     "typst": ("reports/",),
     "snakemake": ("study/",),

@@ -439,7 +439,7 @@ def test_drawing_and_traces_are_in_view(page, browser, width, height):
     assert browser.execute_script("return document.documentElement.scrollWidth") <= width
     assert browser.execute_script(edge.format("#mechanism", "right")) <= width
     assert browser.execute_script(edge.format("#matrix tbody button", "right")) <= width, "one whole cell"
-    told = ("record", "closed form")
+    told = ("record", "predict")
     warnings = [
         one_element
         for one_element in page("#histories text")

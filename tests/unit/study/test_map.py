@@ -104,7 +104,7 @@ def test_each_station_with_coordinates_is_a_point_with_its_row_and_its_words(mad
             for verdict in verdicts
             if verdict.record == record
         }
-        assert {name: properties[f"{name}: word"] for name in STRUCTURES} == words
+        assert {name: properties[f"{name}: verdict"] for name in STRUCTURES} == words
     (star,) = [feature for feature in found if feature["properties"]["kind"] == "epicentre"]
     assert star["geometry"]["coordinates"] == [13.38, 42.35], "once, though two rows give it"
 

@@ -20,6 +20,7 @@ from rocking.records import read
 from rocking.structures.kinds import StructureKind
 from rocking.study import run
 from rocking.study.cli import main
+from rocking.study.outputs import STEPS
 from rocking.study.own_files import Declared, read_files
 from rocking.study.plan import _curves
 from rocking.study.products import BY_NAME
@@ -253,7 +254,7 @@ def test_the_rules_of_a_study_are_those_of_a_study(study: Path, counts: Path) ->
     listed = subprocess.run(
         [sys.executable, "-m", "snakemake", "--list"], cwd=study, capture_output=True, text=True, check=True
     )
-    assert set(listed.stdout.split()) == {"all", "results", "record", "summary", *BY_NAME}
+    assert set(listed.stdout.split()) == {"all", "results", *STEPS, "summary", *BY_NAME}
 
 
 def test_a_study_without_snakemake_names_the_extra_that_has_it(
