@@ -4,6 +4,7 @@ A job of one record would otherwise import libraries and load kernels for longer
 forked is the standard library's (multiprocessing, start method "forkserver").
 """
 
+import contextlib
 import importlib
 import multiprocessing
 import os
@@ -78,8 +79,9 @@ def _work(log: str, work: str, *arguments: object) -> None:
         try:
             getattr(importlib.import_module(module), function)(*arguments)
         except BaseException as error:
-            traceback.print_exc()
-            stream.flush()
+            with contextlib.suppress(OSError):  # the disk that ended it takes no more of the log
+                traceback.print_exc()
+                stream.flush()
             said = "".join(traceback.format_exception_only(error)).strip()
             tell(str(error) if isinstance(error, RockingError) else said)
             os._exit(1)  # what would be printed later finds the log closed
@@ -87,6 +89,7 @@ def _work(log: str, work: str, *arguments: object) -> None:
 
 def tell(line: str) -> None:
     """Print a line into the log of this job, and to whoever started it."""
-    if sys.stderr is not sys.__stderr__:
-        print(line)
     print(line, file=sys.__stderr__, flush=True)
+    if sys.stderr is not sys.__stderr__:
+        with contextlib.suppress(OSError):
+            print(line)
