@@ -59,7 +59,8 @@ test: $(TOOLS)
 test-runs: $(TOOLS)
 	$(TESTS) -m "process and not slow"
 
-# Both at once, those files first that take long, so that no core waits for the last of them.
+# Both at once, those files first that take long, so that no core waits for the last of them; one worker more than cores, as
+# a test of a process waits for it.
 test-both: $(TOOLS)
 	$(TESTS) --no-loadscope-reorder -m "not slow"
 
@@ -89,7 +90,7 @@ near: $(TOOLS)
 # The scripts of the research, which are no part of the package.
 check-research: $(TOOLS)
 	$(BIN)/mypy docs/research
-	$(BIN)/python -m pytest -n logical --dist loadfile -m "" --hypothesis-profile thorough tests/research
+	$(BIN)/python -m pytest -n $$(expr $$(getconf _NPROCESSORS_ONLN) + 1) --dist loadfile -m "" --hypothesis-profile thorough tests/research
 
 # What the package's own fields say, written where the workflow reads it; a test compares.
 schema: setup

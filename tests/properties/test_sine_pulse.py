@@ -62,12 +62,16 @@ def test_only_the_two_ratios_and_restitution_matter(
     assert first.rotation_ratio == pytest.approx(second.rotation_ratio, rel=1e-9)
 
 
-@given(AMPLITUDES, FREQUENCIES, RESTITUTIONS)
+@given(st.floats(0.45, 1.2).map(lambda power: 10**power), st.floats(1.5, 8.0), st.floats(0.65, 0.95))
 @settings(
     suppress_health_check=[HealthCheck.filter_too_much], max_examples=settings.default.max_examples // 2
 )
-def test_equation_15_holds_exactly_in_its_regime(a: float, omega: float, eta: float) -> None:
-    """To 1e-12 where it is well conditioned: d(1 − √(1 − y))/dy grows as 1/√(1 − y) towards overturning."""
+def test_equation_15_holds_exactly_in_its_regime(a: float, omega_over_a: float, eta: float) -> None:
+    """To 1e-12 where it is well conditioned: d(1 − √(1 − y))/dy grows as 1/√(1 − y) towards overturning.
+
+    Its regime is narrow: strong, brief pulses on a block that loses little, of which one in two is in it.
+    """
+    omega = omega_over_a * a
     block = replace(BLOCK, restitution=eta)
     pulse = on(block, a, omega)
     predicted = predict_maximum(block, pulse)
