@@ -62,7 +62,7 @@ test-runs: $(TOOLS)
 # Both at once, those files first that take long, so that no core waits for the last of them; one worker more than cores, as
 # a test of a process waits for it.
 test-both: $(TOOLS)
-	$(TESTS) --no-loadscope-reorder -m "not slow"
+	$(TESTS) -n $$(expr $$(getconf _NPROCESSORS_ONLN) + 1) --no-loadscope-reorder -m "not slow"
 
 # The slow ones too: research, every page, ten thousand damaged files, and twenty runs that are killed and go on.
 test-all: check-research openquake
@@ -90,7 +90,7 @@ near: $(TOOLS)
 # The scripts of the research, which are no part of the package.
 check-research: $(TOOLS)
 	$(BIN)/mypy docs/research
-	$(BIN)/python -m pytest -n $$(expr $$(getconf _NPROCESSORS_ONLN) + 1) --dist loadfile -m "" --hypothesis-profile thorough tests/research
+	$(BIN)/python -m pytest -n logical --dist loadfile -m "" --hypothesis-profile thorough tests/research
 
 # What the package's own fields say, written where the workflow reads it; a test compares.
 schema: setup
