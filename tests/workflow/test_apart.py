@@ -38,7 +38,7 @@ def test_an_end_that_is_none_is_an_error_which_names_the_cause(tmp_path: Path) -
         f"    try: run_apart(Settings(), {str(tmp_path / 'log')!r}, *work)\n"
         "    except RuntimeError as error: print(error)"
     )
-    said = done.stdout.splitlines()
+    said = done.stdout.splitlines()[-len(ends) :]  # the first on a machine also says that it compiled
     assert len(said) == len(ends) and all(map(str.startswith, said, ends.values())), said
     told = [line.partition(":")[0] for line in done.stderr.splitlines()]
     assert told == ["SystemExit", "KeyboardInterrupt", "ValueError"], "a request to end is as Ctrl-C"
