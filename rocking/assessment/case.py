@@ -367,10 +367,13 @@ class PeriodResult:
 
     @property
     def reserve_warnings(self) -> tuple[RockingWarning, ...]:
-        """Why the reserve may be too high: what neither members nor contact dynamics could follow."""
+        """Why the reserve may be too high: what neither its members nor its contact dynamics follow."""
         failed = (AssessmentKind.MEMBERS_FAILED, AssessmentKind.COMPONENT_MISSING)
         warnings = [warning for warning in self.decision.warnings if warning.kind in failed]
         body = self.scene.structure
+        # Stacks whose ties yield at their anchors take seconds a run, and are followed at the record itself alone.
+        if math.isfinite(body.anchors_slide_at):
+            warnings.append(RockingWarning(AssessmentKind.ANCHOR_GIVES))
         if not stackable(body):
             both = [*self.cases.values(), *([self.directions] if self.directions else [])]
             warnings += [limit.warning for case in both for limit in case.limits if limit.is_untold]

@@ -430,15 +430,15 @@ class VerdictRow(DecidedRow[OfStructure]):
     )
     peak_side: int | None = of_structure(PEAK_SIDE, lambda of: of.period_result.peak_side)
     reserve_low: float = of_reserve(
-        "Factor on the record at which 5 % of the members overturn; empty: not reached",
+        "Factor on the record at which 5 % of the members or of the runs of contact dynamics fall; empty: not reached",
         lambda reserve: reserve.low,
     )
     reserve_median: float = of_reserve(
-        "Factor on the record at which half of the members overturn; empty: not reached",
+        "Factor on the record at which half of these fall; empty: not reached",
         lambda reserve: reserve.median,
     )
     reserve_high: float = of_reserve(
-        "Factor on the record at which 95 % of the members overturn; empty: not reached",
+        "Factor on the record at which 95 % of these fall; empty: not reached",
         lambda reserve: reserve.high,
     )
     reserve_limit: float = of_reserve(
@@ -447,7 +447,7 @@ class VerdictRow(DecidedRow[OfStructure]):
         lambda reserve: reserve.limit,
     )
     reserve_warnings: tuple[Kind, ...] = of_structure(
-        "Kinds of warning for which the reserve may be too high: contact dynamics cannot follow it",
+        "Kinds of warning for which the reserve may be too high: what neither members nor runs follow",
         lambda of: (
             tuple(warning.kind for warning in of.period_result.reserve_warnings)
             if of.period_result.reserve
