@@ -35,7 +35,8 @@ from rocking.study.kept import undamaged
 from rocking.study.outputs import STEPS, TABLES, store_of, times_of
 from rocking.tables import Row, read_whole, write_tables, write_whole, written_together
 
-_OF_THE_DISK = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)
+_OF_THE_DISK = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS)
+"""Errors of writing alone: a file that cannot be read costs its own record, and no other."""
 
 
 def of_the_machine(error: BaseException) -> bool:
