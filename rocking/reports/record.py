@@ -519,8 +519,7 @@ def _reserve_in_words(drawn: Sequence[Conclusion]) -> str:
     if both is None:
         return ""
     low, median = number(both.low, 2), number(both.median, 2)
-    what = "of the members or of the runs of contact dynamics"
-    return f"{low}–{median}: at {low} times this record 5 % {what} fall, at {median} times half."
+    return f"{low}–{median}: at {low} times this record 5 % of members or runs fall, at {median} times half."
 
 
 def _place(ratio: float) -> float | None:
