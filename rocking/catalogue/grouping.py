@@ -8,15 +8,10 @@ from itertools import combinations
 
 import numpy as np
 
-from rocking.catalogue.joining import SQUARE, Extent, why_apart
+from rocking.catalogue.joining import SQUARE, why_apart
 from rocking.catalogue.listing import ListedChannel, ListedFile
 from rocking.records.claims import direction_in_name, without_ending
-from rocking.records.direction import (
-    Direction,
-    angle_between,
-    names_no_direction,
-)
-from rocking.records.formats.peer import PEER_AT2
+from rocking.records.direction import Direction, angle_between, names_no_direction
 from rocking.records.formats.text import day_of
 from rocking.records.kinds import RecordKind
 from rocking.warnings import RockingWarning
@@ -165,10 +160,7 @@ def _why_apart(group: Sequence[ListedFile]) -> RockingWarning | None:
     unnamed = [file for file in by_name if not _direction(file)]
     if unnamed or len(by_name) not in (0, len(group)):
         return RockingWarning(RecordKind.COMPONENT_NOT_NAMED, (unnamed or by_name)[0].file)
-    extents = [
-        Extent(channel.samples, channel.shaking, channel.format == PEER_AT2.name) for channel in channels
-    ]
-    if why := why_apart(channels, extents):
+    if why := why_apart(channels):
         return why
     level = [channel for channel in channels if not channel.vertical]
     if len(level) > 2 or len(channels) - len(level) > 1:

@@ -1,19 +1,16 @@
 """Joining: when the files of one station are one motion, and what they hold on one span of time."""
 
 from collections import Counter
-from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from datetime import datetime
-from typing import Protocol
 
 import numpy as np
 
+from rocking.catalogue.listing import ListedChannel, without_samples
 from rocking.errors import RecordError
-from rocking.records.direction import Channel
 from rocking.records.formats.peer import PEER_AT2
 from rocking.records.kinds import RecordKind
 from rocking.signal.accelerogram import SAME_STEP, Accelerogram
-from rocking.signal.measures import end_of_shaking
 from rocking.warnings import RockingWarning
 
 LONGEST_TAIL = 0.02
@@ -25,27 +22,7 @@ stations. What differs by more is another record, or lacks its beginning; of PEE
 _OFF_GRID = 0.1  # share of a time step by which the samples of two files may lie between one another
 
 
-class ComponentFacts(Channel, Protocol):
-    """The facts that joining asks of a channel, with its samples or without."""
-
-    @property
-    def time_step(self) -> float: ...
-    @property
-    def start_time(self) -> str: ...
-    @property
-    def borehole(self) -> bool: ...
-
-
-@dataclass(frozen=True)
-class Extent:
-    """How long a file is, in samples, and up to the end of its D5–95; whether it is of PEER."""
-
-    samples: int
-    shaking: int
-    is_peer: bool
-
-
-def why_apart(channels: Sequence[ComponentFacts], extents: Collection[Extent]) -> RockingWarning | None:
+def why_apart(channels: Sequence[ListedChannel]) -> RockingWarning | None:
     """Return why channels of several files cannot be one station's; None where they can.
 
     Files of PEER, which never say when they begin, are one record at any length that leaves out nothing of D5–95. That
@@ -59,8 +36,10 @@ def why_apart(channels: Sequence[ComponentFacts], extents: Collection[Extent]) -
     if max(steps) / min(steps) - 1 > SAME_STEP:
         return RockingWarning.of(RecordKind.STEPS_UNLIKE, least_s=min(steps), most_s=max(steps))
     have_starts = [bool(channel.start_time) for channel in channels]
-    samples = [extent.samples for extent in extents]
-    is_still = all(extent.is_peer and extent.shaking <= min(samples) for extent in extents)
+    samples = [channel.samples for channel in channels]
+    is_still = all(
+        channel.format == PEER_AT2.name and channel.shaking <= min(samples) for channel in channels
+    )
     allowed = 0 if any(have_starts) else LONGEST_TAIL * max(samples)
     if max(samples) - min(samples) > allowed and not (all(have_starts) or is_still):
         return RockingWarning.of(RecordKind.BEGINNINGS_UNKNOWN, least=min(samples), most=max(samples))
@@ -69,15 +48,7 @@ def why_apart(channels: Sequence[ComponentFacts], extents: Collection[Extent]) -
 
 def joined(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
     """Return the channels of several files on their common span. Raises RecordError when they do not fit together."""
-    extents = [
-        Extent(
-            channel.acceleration.size,
-            end_of_shaking(channel.acceleration),
-            channel.source.format == PEER_AT2.name,
-        )
-        for channel in channels
-    ]
-    if why := why_apart(channels, extents):
+    if why := why_apart([without_samples(channel, is_known=False) for channel in channels]):
         raise RecordError(
             f"its files do not fit together: {why}; give each file a row of its own.", files=str(why)
         )

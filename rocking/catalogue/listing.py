@@ -165,13 +165,13 @@ def read_for_listing(
     warnings = list(_warnings_of(channels, () if is_unit_known else _OF_UNIT))
     if not is_unit_known and channels[0].source.format in OF_COUNTS:
         warnings.append(RockingWarning(RecordKind.COUNTS_WITHOUT_UNIT))
-    listed = tuple(_without_samples(channel, is_known) for channel in channels)
+    listed = tuple(without_samples(channel, is_known) for channel in channels)
     return Reading(sha256, listed, tuple(warnings), missing=missing, question=None if is_known else question)
 
 
 def reading_of(channels: Sequence[Accelerogram]) -> Reading:
     """Return what the channels of one file give, which were read with all that it leaves open."""
-    listed = tuple(_without_samples(channel, is_known=True) for channel in channels)
+    listed = tuple(without_samples(channel, is_known=True) for channel in channels)
     return Reading(channels[0].source.sha256, listed, _warnings_of(channels))
 
 
@@ -190,7 +190,7 @@ def _warnings_of(
     )
 
 
-def _without_samples(record: Accelerogram, is_known: bool) -> ListedChannel:
+def without_samples(record: Accelerogram, is_known: bool) -> ListedChannel:
     """Return what is listed of a channel, with its peaks where unit and time step are known."""
     of_record: dict[str, Any] = {fact.name: getattr(record, fact.name, "") for fact in fields(ListedChannel)}
     speed = ""  # of a record that is too short to be processed

@@ -24,31 +24,27 @@ What = Literal["unit", "time_step", "rate", "samples", "peak", "direction"]
 
 
 class Where(IntEnum):
-    """The place of a claim; of two that agree the higher one gives the value. The first two give none."""
+    """The place of a claim and its words; of two that agree the higher one gives the value. The first two give none."""
 
-    FILE_NAME = 0
-    SPOKEN = 1
-    OPTION = 2
-    FORMAT = 3
-    HEAD = 4
-    SAMPLES = 5
-    COLUMN = 6
-    ANSWER = 7
+    FILE_NAME = 0, "its name"
+    SPOKEN = 1, "a rate in its header"
+    OPTION = 2, "declared"
+    FORMAT = 3, "its format"
+    HEAD = 4, "its header"
+    SAMPLES = 5, "its numbers"
+    COLUMN = 6, "the name of the column"
+    ANSWER = 7, "layouts.csv"
 
-    def __str__(self) -> str:
-        return _PLACES[self]
+    words: str
+
+    def __new__(cls, rank: int, words: str) -> "Where":
+        """Make a place of its rank and its words."""
+        place = int.__new__(cls, rank)
+        place._value_ = rank
+        place.words = words
+        return place
 
 
-_PLACES = (
-    "its name",
-    "a rate in its header",
-    "declared",
-    "its format",
-    "its header",
-    "its numbers",
-    "the name of the column",
-    "layouts.csv",
-)
 _PERSONS = (Where.OPTION, Where.ANSWER)
 
 
@@ -63,7 +59,7 @@ class Claim:
 
     def __str__(self) -> str:
         value = f"{self.value:g} s" if self.what == "time_step" else repr(self.value)
-        return f"{repr(self.text[:60]) if self.text else value} ({self.where})"
+        return f"{repr(self.text[:60]) if self.text else value} ({self.where.words})"
 
 
 _SAME_STEP = 1e-3
@@ -72,14 +68,12 @@ _SAME: dict[str, Callable[[Any, Any], bool]] = {
     "unit": lambda one, other: acceleration_factor(one) == acceleration_factor(other),
     "time_step": lambda one, other: abs(one - other) <= _SAME_STEP * min(one, other),
     "peak": lambda one, other: abs(one - other) <= 0.01 * max(one, other),
-    "direction": lambda one, other: not point_apart(one, other),
     "samples": lambda one, other: float(one) == float(other),
 }
 
 
 def _same(one: Claim, other: Claim) -> bool:
-    same = _SAME.get(one.what)
-    return same(one.value, other.value) if same else bool(one.value == other.value)
+    return _SAME[one.what](one.value, other.value)
 
 
 class AnswerContradictedError(RecordError):
@@ -87,14 +81,15 @@ class AnswerContradictedError(RecordError):
 
 
 def agreed(what: What, claims: Collection[Claim]) -> Any:
-    """Return the value of `what` on which claims agree, None where none speaks of it.
+    """Return the value of `what` on which claims agree, None where none has one.
 
     What a person says settles what a file says twice, and may not contradict all that it says, nor against another
     person. So do the name or the numbers of a column where a header says several things, one of them the same. The name
     of a file is held against what a person says alone: of two words of one file that inside it counts. Raises
     RecordError where a person contradicts the file, UndeclaredError where it contradicts itself.
     """
-    spoken = sorted((claim for claim in claims if claim.what == what), key=lambda claim: -claim.where)
+    own = (claim for claim in claims if claim.what == what and claim.value)
+    spoken = sorted(own, key=lambda claim: -claim.where)
     by_person = [claim for claim in spoken if claim.where in _PERSONS]
     inside = [claim for claim in spoken if claim.where not in _PERSONS and claim.where > Where.SPOKEN]
     named = [claim for claim in spoken if claim.where <= Where.SPOKEN]
@@ -106,7 +101,7 @@ def agreed(what: What, claims: Collection[Claim]) -> Any:
         raise RecordError(f"{what} is {one}, but also {other}; omit one of the two.", **{what: other.value})
     for person in by_person:
         against = inside or named
-        if against and not any(_same(person, own) for own in against):
+        if against and not any(_same(person, claim) for claim in against):
             error = AnswerContradictedError if person.where == Where.ANSWER else RecordError
             raise error(
                 f"{what} is {person}, but the file says {against[0]}; {_MEND[against is named]}.",
@@ -122,12 +117,13 @@ def agreed(what: What, claims: Collection[Claim]) -> Any:
             f"of its {what.replace('_', ' ')} the file says both {one} and {other}; {wanted}.",
             **{what: one.value},
         )
-    holding = [
-        claim for claim in inside if not by_person or any(_same(claim, person) for person in by_person)
-    ]
-    return next(
-        (claim.value for claim in sorted([*holding, *by_person], key=lambda claim: -claim.where)), None
+    holding = (
+        claim.value
+        for claim in spoken
+        if claim in by_person
+        or (claim in inside and (not by_person or any(_same(claim, person) for person in by_person)))
     )
+    return next(holding, None)
 
 
 _MEND = ("omit it, or correct the file", "type that, or rename the file")
@@ -158,9 +154,7 @@ _OF_NO_MOTION = re.compile(
     r"(?i)shear|wave|vs[ _,]?30|\bond[ae]s?\b|welle|\bdalga\b|muestreo|chantillon|abtast|örnekle|campion"
 )
 """The velocity of a site, or of a recorder, is no record."""
-_SUFFIXES = {
-    "velocity": (".vt2", ".vel", ".vtx", ".semv"), "displacement": (".dt2", ".dis", ".disp", ".semd"),
-}  # fmt: skip
+_SUFFIX = re.compile(r"(?i)\.(?:(vt2|vel|vtx|semv)|dt2|disp?|semd)$")
 _SERIES_IN_NAME = re.compile(r"(?i)(?<![a-z])(?:(vt2)|dt2)(?![a-z\d])")
 _SPECTRUM = re.compile(
     r"(?i)(?<![a-z])((?:response|fourier|power|design|pseudo|spectral|elastic|amplitude|hazard)\w*[ _-]+(?:\w+[ _-]+)?"
@@ -204,10 +198,15 @@ def _of_spectrum(said: str) -> RecordError:
     )
 
 
+def _of_file(named: re.Pattern[str], file: str) -> str | None:
+    """Return "velocity" or "displacement" where the name of a file holds a word for it."""
+    match = named.search(file)
+    return ("velocity" if match[1] else "displacement") if match else None
+
+
 def refuse_other_quantity(file: str, text: str) -> None:
     """Raise RecordError when `text`, a header, or the ending of the name `file` speaks of another quantity."""
-    suffix = next((word for word, ends in _SUFFIXES.items() if file.lower().endswith(ends)), None)
-    if quantity := other_quantity(text) or suffix:
+    if quantity := other_quantity(text) or _of_file(_SUFFIX, file):
         raise of_another(quantity)
 
 
@@ -238,9 +237,7 @@ def refuse_other_table(file: str, above: str, columns: Sequence[str], *, is_stat
     refuse_other_quantity(file, above)
     if (word := _OTHER_TITLE.search(above)) and not (_ACCELERATION.search(above) or "match" in above.lower()):
         raise of_another(word[1].lower())
-    series = _SERIES_IN_NAME.search(file)
-    of_series = ("velocity" if series[1] else "displacement") if series else None
-    if not is_stated and (quantity := of_series or other_quantity(spaced(file))):
+    if not is_stated and (quantity := _of_file(_SERIES_IN_NAME, file) or other_quantity(spaced(file))):
         raise RecordError(
             f"its name speaks of {quantity}, and nothing in it of acceleration; use the acceleration of the same "
             "record, or rename the file if it is that.",
@@ -518,8 +515,12 @@ def _claims_of(line: str) -> tuple[Claim, ...]:
         if not (_TIMES.search(bare) or _SCALED.search(bare)):
             found += [("unit", unit) for unit in _units(bare)]
         if not _OF_PEAK.search(text):
-            found += [("time_step", step) for step in _steps(text)]
-            found += [("rate", rate) for rate in _rates(text)]
+            steps = [float(match[1] or match[2]) for match in _STEP.finditer(text)]
+            rates = [float(match[1] or match[2]) for match in _RATE.finditer(text)]
+            spoken = [] if _OF_FILTER.search(text) else map(float, _RATE_STATED.findall(text))
+            found += [("time_step", step) for step in steps if step > 0]
+            found += [("time_step", 1 / rate) for rate in rates if rate > 0]
+            found += [("rate", rate) for rate in spoken if rate >= _FEWEST_PER_SECOND]
             found += [("direction", name) for name in _components(text)]
     return tuple(Claim(what, value, Where.HEAD, line.strip()) for what, value in found)
 
@@ -640,20 +641,6 @@ def _units(line: str) -> set[str]:
         for match in _UNIT.finditer(clause)
     ]
     return {unit for word in found if word and (unit := acceleration_unit(word))}
-
-
-def _steps(line: str) -> set[float]:
-    """The time steps [s] that a line declares, or follow from the rates that it does."""
-    steps = {float(match[1] or match[2]) for match in _STEP.finditer(line)}
-    rates = {float(match[1] or match[2]) for match in _RATE.finditer(line)}
-    return {step for step in steps if step > 0} | {1 / rate for rate in rates if rate > 0}
-
-
-def _rates(line: str) -> set[float]:
-    """The rates [Hz] that a line speaks of, but for those of filters."""
-    if _OF_FILTER.search(line):
-        return set()
-    return {rate for match in _RATE_STATED.finditer(line) if (rate := float(match[1])) >= _FEWEST_PER_SECOND}
 
 
 def _components(line: str) -> list[str]:

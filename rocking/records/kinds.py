@@ -48,10 +48,8 @@ class RecordKind(Kind):
         damaged."""
     SAMPLES_SURPLUS = auto(), """The header declares {declared} samples; the file holds {held}, and all
         are used."""
-    LINE_SURPLUS = auto(), """The header declares {declared} samples; the 1 surplus line repeats the end and
-        is left out."""
-    LINES_SURPLUS = auto(), """The header declares {declared} samples; the {lines} surplus lines repeat the
-        end and are left out."""
+    LINES_SURPLUS = auto(), """The header declares {declared} samples; surplus lines at the end that repeat those
+        before, {lines}, are left out."""
     SEAM_CUT = auto(), """The header declares {declared} numbers or points: those after a seam in the file,
         which belong to another trace, are left out."""
     CHANNELS_UNLIKE_HEADER = auto(), "The header announces {announced:g} channels, but the file holds {held}."
@@ -146,8 +144,6 @@ class RecordKind(Kind):
     NOT_SQUARE_BY_NAME = auto(), """components {first} and {second}, as the files' names end, are not at right
         angles"""
     DECLARED_BY_SOME = auto(), "not all of them declare unit and time step"
-
-    # Which earthquakes the records of a figure are of.
 
     # A catalogue and its folder, and a study before its run.
     FILE_RENAMED = auto(), "{about}: the file {before} is now {now}, by its content; the row names it."

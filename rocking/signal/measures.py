@@ -6,7 +6,6 @@ Of the libraries made for spectra, pyrotd 0.6.1 wraps the end of a record round 
 import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
-from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -37,8 +36,6 @@ class RecordMeasures:
         Largest magnitude of the displacement, m, by the same rule.
     arias_intensity : float
         π/(2g) ∫a² dt, m/s (Arias 1970).
-    husid : ndarray
-        (n,) share of the Arias intensity that has been spent at each sample, from 0 to 1.
     significant_times : tuple of (float, float)
         Times at which 5 and 95 % of it have been spent, s.
 
@@ -52,7 +49,6 @@ class RecordMeasures:
     peak_velocity: float
     peak_displacement: float
     arias_intensity: float
-    husid: np.ndarray
     significant_times: tuple[float, float]
 
     @property
@@ -88,27 +84,20 @@ def record_measures(accelerogram: Accelerogram) -> RecordMeasures:
     """
     instance(RecordError, "accelerogram", accelerogram, Accelerogram)
     spent = integral(np.square(accelerogram.acceleration), accelerogram.time_step)
-    husid = spent / spent[-1] if spent[-1] > 0 else np.zeros_like(spent)
-    husid.flags.writeable = False
-    begin, end = (float(np.interp(share, husid, accelerogram.times)) for share in SIGNIFICANT_SHARES)
+    shares = spent / spent[-1] if spent[-1] > 0 else spent
+    begin, end = (float(np.interp(share, shares, accelerogram.times)) for share in SIGNIFICANT_SHARES)
     return RecordMeasures(
         peak_acceleration=accelerogram.peak_acceleration,
         peak_velocity=float(np.abs(velocity(accelerogram)).max()),
         peak_displacement=float(np.abs(displacement(accelerogram)).max()),
         arias_intensity=math.pi / (2 * GRAVITY) * float(spent[-1]),
-        husid=husid,
         significant_times=(begin, end),
     )
 
 
-_PEAK_VELOCITIES: WeakKeyDictionary[Accelerogram, float] = WeakKeyDictionary()
-
-
 def peak_velocity(accelerogram: Accelerogram) -> float:
     """Return PGV by the trapezoidal rule from rest, m/s; measured once, as every structure asks for it."""
-    if accelerogram not in _PEAK_VELOCITIES:
-        _PEAK_VELOCITIES[accelerogram] = record_measures(accelerogram).peak_velocity
-    return _PEAK_VELOCITIES[accelerogram]
+    return accelerogram.measures.peak_velocity
 
 
 PERIODS = np.geomspace(0.04, 8.0, 70)

@@ -372,18 +372,6 @@ def gse() -> bytes:
     return by_obspy("GSE2", np.round(1000 * TRUE).astype(np.int32))
 
 
-def win() -> bytes:
-    """One channel in blocks of a second with 32-bit differences, from 1 January 2020 on; the last one is filled up."""
-    rate = 10
-    counts = np.round(1000 * TRUE).astype(int)
-    content = b""
-    for second, part in enumerate(counts.reshape(-1, rate)):
-        samples = struct.pack(f">{rate}i", part[0], *np.diff(part))
-        body = bytes.fromhex(f"2001010000{second:02}") + struct.pack(">HH", 0xA100, 4 << 12 | rate) + samples
-        content += struct.pack(">i", 4 + len(body)) + body
-    return content
-
-
 def of_obspy(path: str) -> bytes:
     """The content of a file that obspy installs for its own tests, of a format that it does not write."""
     return (Path(obspy.__file__).parent / "io" / path).read_bytes()
@@ -463,13 +451,6 @@ OTHER_KINDS = {
     "StationXML": '<?xml version="1.0"?>\n<FDSNStationXML></FDSNStationXML>\n',
 }
 """A word of the sentence by which it is refused → a file of no format, which is known all the same."""
-
-OF_OBSPY = {
-    "SEISAN": "seisan/tests/data/2011-09-06-1311-36S.A1032_001BH_Z",
-    "REFTEK 130": "reftek/tests/data/104800000_000093F8",
-    "WIN": "win/tests/data/10030302.00",
-}
-"""Format → a file that obspy installs, of formats that it does not write: tests/contracts/test_by_obspy.py reads it."""
 
 
 def format_of(label: str) -> str:

@@ -82,9 +82,6 @@ WITHOUT_SAMPLE = {
     "USC Volume 2",
     "GSE",
     "SLIST or TSPAIR",
-    "WIN",
-    "SEISAN",
-    "REFTEK 130",
 }
 """Formats of which none lies here: one whose layout is on the page of its database (isesd.hi.is, "Datafile Format"),
 one of which two files are in the repository usgs/groundmotion-processing (017m30bt.s0a, 274o42pv.s0a of tests/data,

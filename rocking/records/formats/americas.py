@@ -106,10 +106,7 @@ def _without_repeats(table: np.ndarray, declared: int) -> tuple[np.ndarray, tupl
     before = table[declared - surplus : declared]
     if not (np.array_equal(last, before) or np.all(last == table[declared - 1])):
         return table, ()
-    warning = RockingWarning.of(RecordKind.LINE_SURPLUS, declared=declared)
-    if surplus > 1:
-        warning = RockingWarning.of(RecordKind.LINES_SURPLUS, declared=declared, lines=surplus)
-    return table[:declared], (warning,)
+    return table[:declared], (RockingWarning.of(RecordKind.LINES_SURPLUS, declared=declared, lines=surplus),)
 
 
 _SMC = Layout("cm/s2", {

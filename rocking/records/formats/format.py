@@ -84,8 +84,7 @@ class Options:
 
     def said(self, what: Literal["unit", "time_step"], in_file: str | float | None = None) -> list[Claim]:
         """Return what the head of a file, its caller and its name say of one fact."""
-        places = (in_file, Where.HEAD), (getattr(self, what), Where.OPTION)
-        claims = [Claim(what, value, where) for value, where in places if value is not None and value != ""]
+        claims = [Claim(what, in_file, Where.HEAD), Claim(what, getattr(self, what), Where.OPTION)]
         return claims if self.is_stand_in else [*claims, *claims_of_name(self.file)]
 
     def unit_in(self, words: Iterable[str], place: str) -> str | None:
@@ -103,7 +102,7 @@ class Options:
                     f"unit is {word!r} in {place}, which is none of acceleration; {advice('unit')} if it is one.",
                     unit=word,
                 )
-        found: str | None = agreed("unit", [Claim("unit", unit, Where.HEAD) for unit in units if unit])
+        found: str | None = agreed("unit", [Claim("unit", unit, Where.HEAD) for unit in units])
         return found
 
     def unit_of(self, in_file: str | None) -> str:

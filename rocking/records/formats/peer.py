@@ -70,8 +70,9 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     # What a line of its own says counts more than a title that speaks of an accelerogram.
     if quantity := next((other for line in head if (other := other_quantity(line))), None):
         raise of_another(quantity)
-    said = [*Declarations.of(head).of_numbers(), *options.said("unit")]
-    if any(claim.what == "unit" and claim.where == Where.HEAD for claim in said):
+    declarations = Declarations.of(head).of_numbers()
+    said = [*declarations, *options.said("unit")]
+    if any(claim.what == "unit" for claim in declarations):
         said.append(Claim("unit", "g", Where.FORMAT, "an AT2 of PEER is in g"))
     unit = agreed("unit", said) or ""
     declared = count("NPTS", size["npts"])

@@ -19,7 +19,6 @@ from rocking.records.claims import (
     AnswerContradictedError,
     Claim,
     Declarations,
-    What,
     Where,
     agreed,
     claims_of_name,
@@ -646,15 +645,16 @@ def _claims(
     """Return all that is said of the unit and the step of one column, step: of its times or above it."""
     said = table.said
     is_answer = layout.is_answer
-    said_of: tuple[tuple[What, Any, Where, str], ...] = (
-        ("unit", column.unit if is_answer else None, Where.ANSWER, ""),
-        ("unit", label.unit, Where.COLUMN, label.text),
-        ("time_step", layout.time_step if is_answer else None, Where.ANSWER, ""),
-        ("time_step", step, Where.SAMPLES, ""),
-        *(("time_step", rate, Where.SPOKEN, "") for rate in said.stated_steps if is_answer),
+    return (
+        Claim("unit", column.unit if is_answer else None, Where.ANSWER),
+        Claim("unit", label.unit, Where.COLUMN, label.text),
+        Claim("time_step", layout.time_step if is_answer else None, Where.ANSWER),
+        Claim("time_step", step, Where.SAMPLES),
+        *(Claim("time_step", spoken, Where.SPOKEN) for spoken in said.stated_steps if is_answer),
+        *said.of_numbers(),
+        *options.said("unit"),
+        *options.said("time_step"),
     )
-    own = (Claim(*words) for words in said_of if words[1])
-    return (*own, *said.of_numbers(), *options.said("unit"), *options.said("time_step"))
 
 
 _MEANT = {"n": "the number of samples", "dt": "the time step", "hz": "the rate", "-": "the number of series"}

@@ -62,6 +62,16 @@ def count(field: str, token: str) -> int:
 def numbers(text: bytes | str) -> np.ndarray:
     """Return the numbers of `text`, separated by blanks and line ends, (n,); RecordError at the first that is none."""
     text = text.encode() if isinstance(text, str) else text
+    if (values := _apart(text)) is not None:
+        return values
+    check_plain(text)
+    raise RecordError(
+        "the samples cannot be separated; every sample must be a plain decimal number.", samples=None
+    )
+
+
+def _apart(text: bytes) -> np.ndarray | None:
+    """Return the numbers of a text, (n,), None where it holds anything else; RecordError at one beyond any size."""
     if not text.translate(None, _NUMERIC):
         with suppress(DeprecationWarning, ValueError), warnings.catch_warnings():
             warnings.simplefilter("error")
@@ -73,10 +83,7 @@ def numbers(text: bytes | str) -> np.ndarray:
                     samples=float(values[at]),
                 )
             return values
-    check_plain(text)
-    raise RecordError(
-        "the samples cannot be separated; every sample must be a plain decimal number.", samples=None
-    )
+    return None
 
 
 def check_plain(text: bytes) -> None:
@@ -96,19 +103,19 @@ def fields(rows: list[str], width: int = 0, margin: int = 0) -> np.ndarray:
 
     width: 0 where they never touch. Raises RecordError where a word, or a column, is not one number.
     """
-    try:
-        return numbers("\n".join(rows))
-    except RecordError:
-        if not width or not all(map(str.isascii, rows)):
-            raise
+    text = "\n".join(rows)
+    if not width or not text.isascii():
+        return numbers(text)
+    with suppress(RecordError):
+        if (values := _apart(text.encode())) is not None:
+            return values
     bare = (row.rstrip()[margin:] for row in rows)
-    cells = [row[at : at + width] for row in bare for at in range(0, len(row), width)]
-    if broken := next((cell for cell in cells if len(cell.split()) != 1), ""):
-        raise RecordError(
-            f"a column of {width} characters holds {broken.strip()!r}, not one number.",
-            samples=broken.strip(),
-        )
-    return numbers(" ".join(cells))
+    cells = [row[at : at + width].strip() for row in bare for at in range(0, len(row), width)]
+    text = " ".join(cells)
+    if "" in cells or len(text.split()) != len(cells):
+        broken = next(cell for cell in cells if len(cell.split()) != 1)
+        raise RecordError(f"a column of {width} characters holds {broken!r}, not one number.", samples=broken)
+    return numbers(text)
 
 
 def table(rows: list[str], columns: int, width: int = 0, margin: int = 0) -> np.ndarray:

@@ -1,7 +1,6 @@
 """Traces of obspy as accelerograms: the same whether obspy read the file or this package did."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any, get_args
 
 import numpy as np
@@ -13,7 +12,7 @@ from rocking.records.direction import Direction, directed
 from rocking.records.formats.format import plain, without_offset
 from rocking.records.formats.text import LARGEST_SERIES
 from rocking.records.kinds import RecordKind
-from rocking.records.obspy.traces import STEEP, calibrated, names, quantity_order, site, unit_left_by
+from rocking.records.obspy.traces import STEEP, Motion, calibrated, names, quantity_order, site, unit_left_by
 from rocking.records.plausibility import BURIED
 from rocking.signal.accelerogram import OBSPY_EXTRAS, SAME_STEP, Accelerogram, Calibration, Source
 from rocking.warnings import RockingWarning
@@ -32,7 +31,7 @@ _UNDEFINED = -12345.0
 """What a SAC header holds where it says nothing."""
 _OTHER_SAC = {6: "displacement", 7: "velocity"}
 """Kinds of the dependent variable, `idep`, that are no acceleration (SAC manual: IDISP, IVEL)."""
-_SAC_PLACE = {"latitude": "stla", "longitude": "stlo", "elevation": "stel"}
+_PLACE = {"latitude": "stla", "longitude": "stlo", "elevation": "stel"}
 _COMPONENTS = "XYZ"
 
 
@@ -81,7 +80,7 @@ def _from_trace(
         own = {name: value for name, value in own.items() if name not in _DIRECTED}
     is_motion = bool(own) or "output=" in " ".join(steps)  # what was integrated or differentiated is known
     declared = _unit_of(trace, unit, own, is_motion, has_response=inventory is not None)
-    is_due = not _is_removed(trace) and _is_due(trace, calibration, is_counts=declared is None)
+    is_due = not quantity_order(trace)[1] and _is_due(trace, calibration, is_counts=declared is None)
     is_raw = all("remove_sensitivity(" in step or "trim(" in step for step in steps)
     of_file = form in _OF_FILES and is_raw
     fields: dict[str, Any] = {"processed": False if declared is None or of_file else None}
@@ -90,20 +89,14 @@ def _from_trace(
     place = site(trace, inventory)
     warnings = [*fields.get("warnings", ()), *place.pop("warnings", ())]
     fields |= place
-    processing = [*fields.get("processing", ()), *(f"obspy: {step}"[:200] for step in steps)]
+    done = *fields.get("processing", ()), *(f"obspy: {step}"[:200] for step in steps)
     if declared is None:
-        motion = calibrated(trace, inventory, response)
-        samples = motion.acceleration
-        processing.append(motion.sentence)
-        warnings += motion.warnings
+        motion, factor = calibrated(trace, inventory, response), 1.0
     else:
-        stated = as_stated(trace, declared, is_due)
-        samples = stated.samples * acceleration_factor(declared)
-        processing += stated.processing
-        warnings += stated.warnings
-        if stated.is_levelled and is_raw:
-            fields["processed"] = False
-    fields |= {"processing": tuple(processing), "warnings": tuple(warnings)}
+        motion, factor = as_stated(trace, declared, is_due), acceleration_factor(declared)
+    if motion.is_levelled and is_raw:
+        fields["processed"] = False
+    fields |= {"processing": (*done, *motion.processing), "warnings": (*warnings, *motion.warnings)}
     fields = {name: plain(value) if isinstance(value, str) else value for name, value in fields.items()}
     source = Source(format="obspy", unit=declared or "m/s2")
     # A step of single precision is stored as 0.0199999996, and that of a rate as 0.0100000000001.
@@ -111,26 +104,13 @@ def _from_trace(
     fields = directed(fields)
     if RecordKind.ORIENTATION_UNKNOWN in {warning.kind for warning in warnings}:
         fields["azimuth"] = None  # nor does the code of the channel say it
-    return Accelerogram(samples, step, source=source, **fields)
+    return Accelerogram(motion.samples * factor, step, source=source, **fields)
 
 
-@dataclass(frozen=True, eq=False)
-class Stated:
-    """Samples (n,) of a trace in the unit that is declared of them, how they came to it, and what is doubtful of it.
-
-    is_levelled: whether their mean is removed, the offset of the recorder.
-    """
-
-    samples: np.ndarray
-    processing: tuple[str, ...]
-    warnings: tuple[RockingWarning, ...]
-    is_levelled: bool
-
-
-def as_stated(trace: Any, unit: str, is_due: bool) -> Stated:
+def as_stated(trace: Any, unit: str, is_due: bool) -> Motion:
     """Return the samples of a trace that are in `unit`; is_due: once they are multiplied by its calibration."""
     form = str(trace.stats.get("_format", ""))
-    is_removed = _is_removed(trace)
+    order, is_removed = quantity_order(trace)
     factor = float(trace.stats.get("calib", 1.0))
     samples = np.asarray(trace.data, dtype=float)
     warnings: tuple[RockingWarning, ...] = ()
@@ -147,16 +127,11 @@ def as_stated(trace: Any, unit: str, is_due: bool) -> Stated:
         samples = samples * (GRAVITY / _OBSPY_G)
     done = [str(warning) for warning in warnings if warning.kind is RecordKind.SCALE_APPLIED]
     # To remove the sensitivity leaves the offset of the recorder in.
-    is_levelled = form in _RAW if not is_removed else quantity_order(trace)[0] is None
+    is_levelled = form in _RAW if not is_removed else order is None
     if is_levelled:
         samples, sentence = without_offset(samples, unit)
         done.append(sentence)
-    return Stated(samples, tuple(done), warnings, is_levelled)
-
-
-def _is_removed(trace: Any) -> bool:
-    """Whether obspy has removed the response or the sensitivity of the instrument: then no calibration is due."""
-    return quantity_order(trace)[1]
+    return Motion(samples, tuple(done), warnings, is_levelled)
 
 
 _OF_FILES = (*_RAW, *_TO_DISPLACEMENT, "MSEED", "SLIST", "TSPAIR", "WIN", "SEISAN", "REFTEK130")
@@ -249,17 +224,13 @@ def header(trace: Any) -> dict[str, Any]:
         return _of_knet(trace.stats)
     if form == "KINEMETRICS_EVT":
         return _of_evt(trace.stats)
-    named = _channel_named(trace.stats)
+    name = str(trace.stats.channel)
+    is_number = name.isdigit() and len(name) == 1  # of a channel, and no azimuth
+    named: dict[str, Any] = {"component": f"channel {name}", "azimuth": None} if is_number else {}
     if form == "WIN":  # whose channels have numbers and no directions
-        component = named.get("component", str(trace.stats.channel))
+        component = named.get("component", name)
         named["warnings"] = (RockingWarning(RecordKind.DIRECTION_UNKNOWN, component),)
     return named
-
-
-def _channel_named(stats: Any) -> dict[str, Any]:
-    """Return the name of a channel that is a mere number, by which it is no azimuth."""
-    name = str(stats.channel)
-    return {"component": f"channel {name}", "azimuth": None} if name.isdigit() and len(name) == 1 else {}
 
 
 def stated_by_sac(stats: Any) -> dict[str, float]:
@@ -272,11 +243,27 @@ def _of_sac(stats: Any) -> dict[str, Any]:
     if quantity := _OTHER_SAC.get(int(stats.sac.get("idep", 0))):
         raise of_another(quantity)
     header = stated_by_sac(stats)
-    facts: dict[str, Any] = {name: header[key] for name, key in _SAC_PLACE.items() if key in header}
+    is_as_read = not stats.get("processing") and stats.npts == stats.sac.get("npts")
+    if is_as_read and f"{stats.delta:.6g}" == f"{header.get('delta', 0.0):.6g}":
+        _check_end(header, stats.npts, float(f"{stats.delta:.6g}"))
+    facts: dict[str, Any] = {name: header[key] for name, key in _PLACE.items() if key in header}
     facts |= _sac_direction(header, stats.channel)
     if header.get("stdp", 0.0) >= BURIED:
         facts["borehole"] = True
     return facts
+
+
+def _check_end(header: dict[str, float], samples: int, step: float) -> None:
+    """Raise RecordError where the samples of a SAC file end elsewhere than its header states."""
+    begin = header.get("b", 0.0)
+    end = header.get("e", 0.0)
+    # Single precision keeps seven digits of the times.
+    allowed = 0.5 * step + 3e-7 * max(abs(begin), abs(end))
+    if {"b", "e"} <= header.keys() and begin != end and abs(end - begin - step * (samples - 1)) > allowed:
+        stated = f"the header states an end at {end:g} s, but {samples} samples every {step:g} s"
+        raise RecordError(
+            f"{stated} from {begin:g} s end elsewhere; the file is damaged; fetch it again.", e=end
+        )
 
 
 def _sac_direction(header: dict[str, float], component: str) -> dict[str, Any]:
@@ -303,8 +290,7 @@ def _of_knet(stats: Any) -> dict[str, Any]:
     component = _OF_KNET.get(name, name.rstrip("12"))
     facts: dict[str, Any] = {"component": component, "borehole": name.endswith("1")}
     facts["start_time"] = f"{stats.starttime.datetime.isoformat()}Z"
-    places = {"latitude": "stla", "longitude": "stlo", "elevation": "stel"}
-    facts |= {field: float(stats.knet[key]) for field, key in places.items() if key in stats.knet}
+    facts |= {field: float(stats.knet[key]) for field, key in _PLACE.items() if key in stats.knet}
     return facts
 
 

@@ -85,15 +85,19 @@ def measured_as(units: str) -> tuple[str, int]:
 
 
 @dataclass(frozen=True, eq=False)
-class Calibrated:
-    """Acceleration (n,) m/s² that counts were turned into, the sentence that says how, and what is doubtful of it."""
+class Motion:
+    """Samples (n,) of a trace in m/s² or a declared unit, how they came to it, and what is doubtful of them.
 
-    acceleration: np.ndarray
-    sentence: str
+    is_levelled: whether their mean is removed as the offset of the recorder.
+    """
+
+    samples: np.ndarray
+    processing: tuple[str, ...]
     warnings: tuple[RockingWarning, ...] = ()
+    is_levelled: bool = False
 
 
-def calibrated(trace: Any, inventory: Any, response: str) -> Calibrated:
+def calibrated(trace: Any, inventory: Any, response: str) -> Motion:
     """Return what the counts of a trace are as acceleration.
 
     inventory: obspy's; None where the trace holds its response itself. Raises RecordError where none can be removed.
@@ -167,19 +171,19 @@ def _check_epochs(trace: Any, inventory: Any) -> None:
 _NO_ORIENTATION = re.compile(r"(?i)orientation[^.;]*\b(not known|unknown|uncertain)|unknown orientation")
 
 
-def _by_sensitivity(trace: Any, per_unit: float, order: int) -> Calibrated:
+def _by_sensitivity(trace: Any, per_unit: float, order: int) -> Motion:
     """Return the counts of a trace over the overall sensitivity; order: 1 where it is one of velocity, else 0."""
     counts = trace.data.astype(float)
     mean = counts.mean() / per_unit
     done = f"Counts divided by the overall sensitivity {per_unit:g}"
     if order == 0:
-        return Calibrated(counts / per_unit - mean, f"{done}, and their mean removed, {mean:.6g} m/s².")
+        return Motion(counts / per_unit - mean, (f"{done}, and their mean removed, {mean:.6g} m/s².",))
     motion = np.gradient(counts / per_unit - mean, trace.stats.delta)
     stays = "the response of the seismometer has no stages and stays"
-    return Calibrated(motion, f"{done} to a velocity, its mean removed, and differentiated; {stays}.")
+    return Motion(motion, (f"{done} to a velocity, its mean removed, and differentiated; {stays}.",))
 
 
-def _by_response(trace: Any, inventory: Any) -> Calibrated:
+def _by_response(trace: Any, inventory: Any) -> Motion:
     """Return the counts of a trace without the full response of its instrument."""
     nyquist = trace.stats.sampling_rate / 2
     band = (_CORNERS[0], _CORNERS[1], _CORNERS[2] * nyquist, _CORNERS[3] * nyquist)
@@ -196,7 +200,7 @@ def _by_response(trace: Any, inventory: Any) -> Calibrated:
     removed = f"full instrument response removed to acceleration between {limits}"
     is_unlike = any("sensitivities" in line for line in lines)
     unlike = (RockingWarning(RecordKind.SENSITIVITY_UNLIKE_STAGES, trace.id),) if is_unlike else ()
-    return Calibrated(clean.data, f"Mean removed, 5 % cosine taper, {removed}.", unlike)
+    return Motion(clean.data, (f"Mean removed, 5 % cosine taper, {removed}.",), unlike)
 
 
 @contextmanager
