@@ -28,7 +28,7 @@ from rocking.codes.check import CodeTerms
 from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.static_check import kinematic_check
 from rocking.drawn import Drawn
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 from rocking.errors import ConfigurationError, DoesNotStandError, RockingError, StructureError
 from rocking.hashes import sha256_of_content
 from rocking.progress import bar
@@ -80,7 +80,7 @@ class Tried:
 
     value: float
     shares: np.ndarray
-    sample: Sample
+    sample: ClusterSample
     governing: str = ""
     undecided: int = 0
     slid: np.ndarray | None = None
@@ -121,7 +121,7 @@ class Tried:
         )
 
 
-def _bounds(shares: np.ndarray, sample: Sample) -> tuple[float, float]:
+def _bounds(shares: np.ndarray, sample: ClusterSample) -> tuple[float, float]:
     """The one-sided 90 % bounds of shares (n,) over the stations of a sample, nan where one was not followed."""
     followed = np.flatnonzero(~np.isnan(shares))
     low, high = sample.part(followed).share_bounds(shares[followed], 1 - CONFIDENCE)
@@ -140,7 +140,7 @@ class Strengthening(Drawn):
         Size of the structure that varies.
     target : float
         Share that overturns at the most.
-    sample : Sample
+    sample : ClusterSample
         The n stations that count, and their earthquakes.
     tried : tuple of Tried
         The values, smallest first.
@@ -169,7 +169,7 @@ class Strengthening(Drawn):
 
     field: Field
     target: float
-    sample: Sample
+    sample: ClusterSample
     tried: tuple[Tried, ...]
     given: Tried
     static_tie: float = math.nan
@@ -434,7 +434,7 @@ def strengthen(
             "its sizes change."
         )
     size = size_named(structure, key, {size.name: size for size in sizes(structure)})
-    sample = Sample.of(records, stations, events)
+    sample = ClusterSample.of(records, stations, events)
     return strengthen_scene(
         records, Scene("structure", structure), size, between, target, sample, early=early
     )
@@ -469,7 +469,7 @@ def strengthen_scene(
     size: Field,
     between: tuple[float, float],
     target: float,
-    sample: Sample,
+    sample: ClusterSample,
     settings: AssessmentSettings | None = None,
     spectrum: DesignSpectrum | None = None,
     terms: CodeTerms | None = None,
@@ -587,7 +587,7 @@ class _Following:
     records: Sequence[Accelerogram]
     scenes: Mapping[str, Scene]
     settings: AssessmentSettings
-    sample: Sample
+    sample: ClusterSample
     target: float
     early: bool
     store: Store | None
@@ -688,7 +688,11 @@ def _lifting(
 
 
 def _tried(
-    value: float, outcomes: Sequence[_Outcome | None], sample: Sample, moves: np.ndarray, counting: Sample
+    value: float,
+    outcomes: Sequence[_Outcome | None],
+    sample: ClusterSample,
+    moves: np.ndarray,
+    counting: ClusterSample,
 ) -> Tried:
     """The outcome at one value, by station; None of a record under which it was not followed.
 

@@ -24,7 +24,7 @@ from rocking import (
 from rocking.codes.check import LEAST_OTHERS, LEAST_SHARE, CodeTerms
 from rocking.codes.selection import SETS, Selection
 from rocking.codes.static_check import kinematic_check
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import GRAVITY
 from rocking.structures import Structure
@@ -116,7 +116,7 @@ def code_check(target: Target) -> None:
         for place, (kind, height, thickness) in enumerate(walls)
     ]
     kinds = np.array([row.kind for row in rows])
-    scores = list(_scores(fallen, kinds, ratios_of, Sample.named(sites)))
+    scores = list(_scores(fallen, kinds, ratios_of, ClusterSample.named(sites)))
     subtitle = (
         f"{len(bodies)} walls under {len(fallen)} components of {len(set(sites))} sites, {SPECTRUM.words}."
     )
@@ -244,7 +244,7 @@ def _scores(
     fallen: np.ndarray,
     kinds: np.ndarray,
     ratios_of: Mapping[tuple[str, float], np.ndarray],
-    sample: Sample,
+    sample: ClusterSample,
 ) -> Iterator[Score]:
     parts = {
         "cantilevers": kinds == "cantilever",

@@ -18,7 +18,7 @@ from docs.research.fragilities import RealSites, median_of, real_sites
 from docs.research.rates import hazard_of, rate_within, rates_of_sites
 from docs.research.report import Target
 from rocking.assessment.rows import interval_of_mean
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 from rocking.fragility.curves import crossing
 from rocking.fragility.hazard import rate_interval
 
@@ -61,11 +61,11 @@ def cover_earthquakes(target: Target) -> None:
     target.publish("What intervals over earthquakes cover", subtitle, {scores.Score: rows})
 
 
-def sample_of(earthquakes: int, stations: int, alone: bool = False) -> Sample:
+def sample_of(earthquakes: int, stations: int, alone: bool = False) -> ClusterSample:
     """Return as many stations of each earthquake. alone: as if each station were of another one."""
     names = [f"station {place}" for place in range(earthquakes * stations)]
     events = names if alone else [f"earthquake {place // stations}" for place in range(len(names))]
-    return Sample(tuple(names), tuple(events))
+    return ClusterSample(tuple(names), tuple(events))
 
 
 def made_scores(name: str, draw: Draw) -> Iterator[scores.Score]:
@@ -100,7 +100,7 @@ def made_scores(name: str, draw: Draw) -> Iterator[scores.Score]:
 
 
 def bounds_of(
-    share: float, falls: np.ndarray, sample: Sample, tried: np.ndarray | None = None
+    share: float, falls: np.ndarray, sample: ClusterSample, tried: np.ndarray | None = None
 ) -> dict[str, tuple[float, float]]:
     """Return the ends by each of BOUNDS for a share at a level, from what falls at each station, (s,)."""
     upper = sample.share_bounds(falls, 0.1, tried)[1]

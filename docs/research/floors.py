@@ -11,7 +11,7 @@ import numpy as np
 
 from docs.research import scores, sites
 from docs.research.report import Target
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 from rocking.floors.support import Mode, Support
 from rocking.motion.integration import integrate
 from rocking.pulses import extract_pulses
@@ -113,8 +113,8 @@ def _median(values: np.ndarray) -> scores.Measure:
     return measure
 
 
-def _sample_of(trials: list[FloorTrial]) -> Sample:
-    return Sample.named((trial.site, trial.earthquake) for trial in trials)
+def _sample_of(trials: list[FloorTrial]) -> ClusterSample:
+    return ClusterSample.named((trial.site, trial.earthquake) for trial in trials)
 
 
 def course_scores(trials: list[FloorTrial]) -> Iterator[scores.Score]:
@@ -139,4 +139,4 @@ def course_scores(trials: list[FloorTrial]) -> Iterator[scores.Score]:
             for course in courses.values()
         ]
         measures = {"outcome turns back as the period grows": back}
-        yield from scores.scored(structure, "over the periods", measures, Sample.named(courses))
+        yield from scores.scored(structure, "over the periods", measures, ClusterSample.named(courses))

@@ -15,7 +15,7 @@ import numpy as np
 from docs.research import scores, sites
 from docs.research.report import Target
 from rocking import Block
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 from rocking.fragility.curves import (
     LARGEST_FACTOR,
     Fragility,
@@ -79,7 +79,7 @@ class RealSites:
     levels: np.ndarray
     curves: np.ndarray
     within: np.ndarray
-    sample: Sample
+    sample: ClusterSample
 
 
 def real_sites(target: Target) -> Iterator[tuple[str, RealSites]]:
@@ -119,7 +119,7 @@ def _scores(
     """Coverage of the interval and bias of the median, at each number of stations. curve: (k,) of all of them."""
     truth = median_of(levels, curve[None])
     for count in STATIONS:
-        rng, names = np.random.default_rng(count), Sample.scattered(list(map(str, range(count))))
+        rng, names = np.random.default_rng(count), ClusterSample.scattered(list(map(str, range(count))))
         over = np.array([median_of(levels, draw(rng, count)) for _ in range(ESTIMATES)]) / truth
         ends = [fragility_of(levels, draw(rng, count), names).interval for _ in range(TRIALS)]
         covers = [low <= truth <= high for low, high in ends]

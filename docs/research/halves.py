@@ -15,7 +15,7 @@ from docs.research.scores import Score, scored
 from docs.research.sites import independent
 from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.selection import scaled_pool
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.strengthening import Strengthening, Tried, strengthen
@@ -96,7 +96,7 @@ def scores_of_halves(name: str, found: Strengthening) -> Iterator[Score]:
                 yield _told(name, part, measure, float(np.mean(right)), found.sample)
 
 
-def split(sample: Sample, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
+def split(sample: ClusterSample, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
     """Return the places of the stations of one half of the earthquakes, and those of the other."""
     chosen = rng.permutation(sample.earthquakes)[: sample.earthquakes // 2]
     here = np.isin(sample.of_station, chosen)
@@ -124,7 +124,7 @@ def seems(found: Strengthening, stations: np.ndarray, limit: float) -> Tried | N
     return next((trial for trial in found.tried if trial.shares[stations].mean() < limit), None)
 
 
-def _told(name: str, part: str, measure: str, value: float, sample: Sample) -> Score:
+def _told(name: str, part: str, measure: str, value: float, sample: ClusterSample) -> Score:
     """A number without an interval: halves share their stations, and are no independent trials."""
     return Score(
         subject=name,

@@ -14,7 +14,7 @@ from docs.research import scores, sites
 from docs.research.fragilities import ALL_LEVELS, responses_behind
 from docs.research.report import Target
 from rocking import Accelerogram
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 from rocking.errors import RecordError
 from rocking.fragility.curves import explanation, fragility
 from rocking.fragility.measures import IntensityMeasure, compared, intensity_measure
@@ -68,7 +68,7 @@ class Scatter:
         if drawn not in self.found:
             labels = [f"{place}" for place, _ in enumerate(rows)]
             fit = explanation(
-                self.logs[name][rows], self.falls[rows], np.zeros(rows.size), Sample.scattered(labels)
+                self.logs[name][rows], self.falls[rows], np.zeros(rows.size), ClusterSample.scattered(labels)
             )
             self.found[drawn] = fit.efficiency
         return self.found[drawn]

@@ -18,7 +18,7 @@ from scipy.special import ndtri
 from docs.research import scores
 from docs.research.fragilities import RealSites, real_sites
 from docs.research.report import Target
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 from rocking.fragility.hazard import AnnualRate, Hazard, annual_rate, rate_interval
 
 SLOPES = (1.5, 2.5, 3.5)
@@ -65,7 +65,7 @@ def interval_scores(
     for count in STATIONS:
         rng = np.random.default_rng(count)
         drawn = [draw(rng, count) for _ in range(TRIALS)]
-        sample = Sample.scattered(list(map(str, range(count))))
+        sample = ClusterSample.scattered(list(map(str, range(count))))
         low, high = np.array([rate_interval(row, sample) for row in drawn]).T
         rate = np.array([row.mean() for row in drawn])
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -85,7 +85,7 @@ def study_scores(subject: str, slope: float, pool: RealSites) -> Iterator[scores
     truth = float(rates_of_sites(pool.levels, pool.curves, slope).mean())
     for count in STATIONS:
         rng = np.random.default_rng(count)
-        sample = Sample.scattered(list(map(str, range(count))))
+        sample = ClusterSample.scattered(list(map(str, range(count))))
         of_draws = [
             rate_within(pool, rng.integers(0, pool.sample.count, count), sample, hazard)
             for _ in range(REAL_TRIALS)
@@ -106,7 +106,7 @@ def study_scores(subject: str, slope: float, pool: RealSites) -> Iterator[scores
         )
 
 
-def rate_within(pool: RealSites, places: np.ndarray, sample: Sample, hazard: Hazard) -> AnnualRate:
+def rate_within(pool: RealSites, places: np.ndarray, sample: ClusterSample, hazard: Hazard) -> AnnualRate:
     """Return the rate that a study tells by the real sites at `places` (n,), which are the stations of a sample."""
     curves = pool.within[places]
     tried = np.isfinite(curves)
@@ -160,7 +160,7 @@ def least_reach(
 def rates_of_sites(levels: np.ndarray, curves: np.ndarray, slope: float) -> np.ndarray:
     """Return the annual rate (n,) of each site by its curve, (n, k), under a hazard of one slope."""
     hazard = hazard_of(levels, slope)
-    alone = Sample.scattered(["alone"])
+    alone = ClusterSample.scattered(["alone"])
     return np.array([annual_rate(levels, own, own[None], alone, hazard).value for own in curves])
 
 

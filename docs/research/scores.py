@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from rocking.earthquakes.sample import REPLICATES, Sample
+from rocking.earthquakes.sample import REPLICATES, ClusterSample
 from rocking.tables import Row, column, row
 
 STATED, HAPPENED = "stated", "happened"
@@ -43,14 +43,14 @@ def scored(
     subject: str,
     part: str,
     measures: Mapping[str, Measured],
-    sample: Sample | Labels,
+    sample: ClusterSample | Labels,
     replicates: int = REPLICATES,
 ) -> Iterator[Score]:
     """Yield every measure of the cases (n,), with its interval, and how many sites, earthquakes and cases count.
 
     sample: the site and the earthquake of each case, or labels (n,) of what is independent.
     """
-    drawn = sample if isinstance(sample, Sample) else Sample.scattered(list(map(str, sample)))
+    drawn = sample if isinstance(sample, ClusterSample) else ClusterSample.scattered(list(map(str, sample)))
     every = np.arange(drawn.of_record.size)
     for name, rows in measures.items():
         measure = rows if callable(rows) else mean(rows)
@@ -71,7 +71,7 @@ def scored(
 
 
 def interval_of(
-    given: Measured, measure: Measure, sample: Sample, replicates: int = REPLICATES
+    given: Measured, measure: Measure, sample: ClusterSample, replicates: int = REPLICATES
 ) -> tuple[float, float]:
     """Return the 90 % interval of a measure of cases that are the records of a sample.
 
@@ -90,7 +90,7 @@ def interval_of(
     return (low, min(high, 1.0)) if is_share else (low, high)
 
 
-def rows_of(weights: np.ndarray, sample: Sample) -> np.ndarray:
+def rows_of(weights: np.ndarray, sample: ClusterSample) -> np.ndarray:
     """Return the cases of stations that are drawn so often, (s,), each case as often as its station."""
     return np.repeat(np.arange(sample.of_record.size), weights[sample.of_record].astype(int))
 
@@ -100,7 +100,7 @@ def reliability(
     part: str,
     probability: np.ndarray,
     outcomes: np.ndarray,
-    sample: Sample | Labels,
+    sample: ClusterSample | Labels,
     edges: Sequence[float],
 ) -> Iterator[Score]:
     """Yield what was STATED and what HAPPENED in the classes between `edges` that hold a case; (n,) in [0, 1]."""
@@ -109,7 +109,7 @@ def reliability(
         own = place == which
         called = f"{part}, {edges[which]:g} to {edges[which + 1]:g} stated"
         measures = {STATED: probability[own], HAPPENED: outcomes[own]}
-        part_of = sample.of_records(own) if isinstance(sample, Sample) else np.asarray(sample)[own]
+        part_of = sample.of_records(own) if isinstance(sample, ClusterSample) else np.asarray(sample)[own]
         yield from scored(subject, called, measures, part_of)
 
 

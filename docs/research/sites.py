@@ -12,7 +12,7 @@ from typing import TypedDict, TypeVar
 
 import numpy as np
 
-from rocking.earthquakes.sample import UNNAMED, Sample, earthquakes_of
+from rocking.earthquakes.sample import UNNAMED, ClusterSample, earthquakes_of
 from rocking.errors import RockingError
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
@@ -127,9 +127,9 @@ class _Site:
         return self.earthquake == earthquake and begins_alike and bool(words) and bool(self.words)
 
 
-def sample_of(names: Iterable[str], earthquakes: Iterable[str]) -> Sample:
+def sample_of(names: Iterable[str], earthquakes: Iterable[str]) -> ClusterSample:
     """Return the sample of cases by the site and the earthquake of each."""
-    return Sample.named(zip(names, earthquakes, strict=True))
+    return ClusterSample.named(zip(names, earthquakes, strict=True))
 
 
 def one_of_each(records: Iterable[SiteRecord]) -> list[SiteRecord]:

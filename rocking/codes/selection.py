@@ -16,7 +16,7 @@ import numpy as np
 from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.kinds import CheckKind
 from rocking.drawn import Drawn
-from rocking.earthquakes.sample import Sample, earthquakes_of, stations_of
+from rocking.earthquakes.sample import ClusterSample, earthquakes_of, stations_of
 from rocking.errors import ConfigurationError
 from rocking.quantities import positive
 from rocking.signal.accelerogram import Accelerogram
@@ -61,10 +61,10 @@ class ScaledPool:
     each_unnamed: bool = field(default=False, repr=False, kw_only=True)
 
     @cached_property
-    def sample(self) -> Sample:
+    def sample(self) -> ClusterSample:
         """The stations and the earthquakes of the records."""
         firsts = [first for first, *_ in self.pairs]
-        return Sample.of(firsts, self.stations, each_unnamed=self.each_unnamed)
+        return ClusterSample.of(firsts, self.stations, each_unnamed=self.each_unnamed)
 
     def scaled(self, place: int) -> tuple[Accelerogram, ...]:
         """Return the components of a record of the pool, scaled."""

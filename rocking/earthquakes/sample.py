@@ -1,9 +1,9 @@
 """The sample behind a figure: stations within earthquakes, and the intervals that follow from how they scatter.
 
 The stations of one earthquake have its source in common, so that many of them say less about another earthquake than as
-many scattered ones. Every interval over records is therefore one over earthquakes, and is made here: `Sample.interval`
-of any statistic (in two stages: earthquakes are drawn, and stations within each), `Sample.share_bounds` of a share, and
-`Sample.spread` for the laws of a mean. Components, directions and processings of a station are one station.
+many scattered ones. Every interval over records is therefore one over earthquakes, and is made by `ClusterSample`: its
+`interval` of any statistic (in two stages: earthquakes are drawn, and stations within each), `share_bounds` of a share,
+and `spread` for the laws of a mean. Components, directions and processings of a station are one station.
 """
 
 import math
@@ -251,13 +251,13 @@ def students(*, freedom: float, tail: float = TAIL) -> float:
 
 
 @dataclass(frozen=True, eq=False)
-class Sample:
-    """Which records are of one station, and which stations are of one earthquake.
+class ClusterSample:
+    """A two-stage cluster sample: which records are of one station, and which stations of one earthquake.
 
     stations, events: (r,) names. warnings: what there is to say of the names. Raises ConfigurationError unless each
     record has one of both.
 
-    >>> sample = Sample(("a", "a", "b", "c"), ("Kobe", "Kobe", "Kobe", "Landers"))
+    >>> sample = ClusterSample(("a", "a", "b", "c"), ("Kobe", "Kobe", "Kobe", "Landers"))
     >>> sample.words
     '3 stations of 2 earthquakes'
     """
@@ -282,7 +282,7 @@ class Sample:
         *,
         rows: Sequence[str] | None = None,
         each_unnamed: bool = False,
-    ) -> "Sample":
+    ) -> "ClusterSample":
         """Return the sample of records, by what they name or by given names, (r,).
 
         rows: of a catalogue, whose components are of one station where they name none. each_unnamed: declares that what
@@ -328,12 +328,12 @@ class Sample:
         return cls(made.stations, made.events, tuple(dict.fromkeys(warnings)))
 
     @classmethod
-    def scattered(cls, stations: Sequence[str]) -> "Sample":
+    def scattered(cls, stations: Sequence[str]) -> "ClusterSample":
         """Return stations (r,) of which each is of another earthquake."""
         return cls(tuple(map(str, stations)), tuple(map(str, stations)))
 
     @classmethod
-    def named(cls, names: Iterable[tuple[str, str]]) -> "Sample":
+    def named(cls, names: Iterable[tuple[str, str]]) -> "ClusterSample":
         """Return the sample of records by the station and the earthquake of each."""
         pairs = list(names)
         return cls(tuple(station for station, _ in pairs), tuple(event for _, event in pairs))
@@ -381,16 +381,16 @@ class Sample:
         """Both: "22 stations of 6 earthquakes"."""
         return f"{counted(self.count, 'station')} of {counted(self.earthquakes, 'earthquake')}"
 
-    def part(self, places: Sequence[int] | np.ndarray) -> "Sample":
+    def part(self, places: Sequence[int] | np.ndarray) -> "ClusterSample":
         """Return some of the stations, by their places, each with one record; one that comes twice counts as two."""
         names = [self.station_names[place] for place in places]
         event_of = dict(zip(self.stations, self.events, strict=True))
         again = [f"{name} {turn}" if names.index(name) != turn else name for turn, name in enumerate(names)]
-        return Sample(tuple(again), tuple(event_of[name] for name in names))
+        return ClusterSample(tuple(again), tuple(event_of[name] for name in names))
 
-    def of_records(self, chosen: np.ndarray) -> "Sample":
+    def of_records(self, chosen: np.ndarray) -> "ClusterSample":
         """Return the sample of some of the records, by their places or (r,) of bool."""
-        return Sample(
+        return ClusterSample(
             tuple(np.asarray(self.stations, dtype=object)[chosen]),
             tuple(np.asarray(self.events, dtype=object)[chosen]),
         )

@@ -23,7 +23,7 @@ from rocking.assessment.falls import Falls, Model, falls_along
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.drawn import Drawn
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 from rocking.errors import ConfigurationError, StructureError
 from rocking.floors.support import Support
 from rocking.fragility.exchange import CURVE, NRML, curve_frame, nrml
@@ -97,7 +97,7 @@ class Fragility(Drawn):
         Largest distance of the lognormal curve from the empirical one.
     exceedance : ndarray
         (r, k) share of the members of each record above the threshold.
-    sample : Sample
+    sample : ClusterSample
         Which records are of one station, and which stations of one earthquake.
     measure : str, default ''
         Name of the intensity measure.
@@ -136,7 +136,7 @@ class Fragility(Drawn):
     dispersion: float
     misfit: float
     exceedance: np.ndarray
-    sample: Sample
+    sample: ClusterSample
     measure: str = ""
     unit: str = ""
     threshold: float = np.inf
@@ -232,7 +232,7 @@ class Fragility(Drawn):
         return np.array([int((np.diff(steps.astype(int)) < 0).sum()) for steps in falls])
 
 
-def fragility_of(levels: np.ndarray, exceedance: np.ndarray, sample: Sample) -> Fragility:
+def fragility_of(levels: np.ndarray, exceedance: np.ndarray, sample: ClusterSample) -> Fragility:
     """Return the curve of outcomes at `levels` (k,) > 0, ascending.
 
     exceedance: (r, k) shares in [0, 1], one row a record, nan where it was not tried. sample: of the records; those of
@@ -240,7 +240,7 @@ def fragility_of(levels: np.ndarray, exceedance: np.ndarray, sample: Sample) -> 
     the levels can tell.
 
     >>> outcomes = np.array([[0, 0, 1, 1], [0, 1, 1, 1], [0, 0, 0, 1]])
-    >>> sample = Sample.scattered(["A", "B", "C"])
+    >>> sample = ClusterSample.scattered(["A", "B", "C"])
     >>> round(fragility_of(np.array([0.1, 0.2, 0.4, 0.8]), outcomes, sample).median, 3)
     0.283
     """
@@ -299,7 +299,7 @@ def crossing(levels: np.ndarray, over: np.ndarray, trials: np.ndarray) -> float:
 
 
 def _probit(
-    terms: Sequence[np.ndarray], outcomes: np.ndarray, sample: Sample
+    terms: Sequence[np.ndarray], outcomes: np.ndarray, sample: ClusterSample
 ) -> tuple[np.ndarray, np.ndarray]:
     """Coefficients (q,) of the shares (r, k) as Φ of an intercept and terms (r, k), each station with the same weight,
     by Fisher scoring; and their covariance by the scatter between the earthquakes (Liang & Zeger 1986).
@@ -353,7 +353,7 @@ class Explanation:
 
 
 def explanation(
-    log_levels: np.ndarray, exceedance: np.ndarray, figures: np.ndarray, sample: Sample
+    log_levels: np.ndarray, exceedance: np.ndarray, figures: np.ndarray, sample: ClusterSample
 ) -> Explanation:
     """Return how well the levels (r, k), together with the `figures` (r,), explain the outcomes (r, k).
 
@@ -399,7 +399,7 @@ class IncrementalDynamicAnalysis:
     levels: np.ndarray
     rotation_ratios: np.ndarray
     intensities: np.ndarray
-    sample: Sample
+    sample: ClusterSample
     falls: Sequence[Sequence[Falls | None]] = ()
 
     def __repr__(self) -> str:
@@ -549,7 +549,7 @@ def fragility(
             "structure is an equivalent block, but must be a structure or a mechanism.",
             structure="equivalent block",
         )
-    sample = checked_sample(Sample.of(records, stations, events))
+    sample = checked_sample(ClusterSample.of(records, stations, events))
     body = as_structure(structure if isinstance(structure, Structure) else reduced)
     counting = counting_cracks(body)
     first, *others = counting
@@ -589,7 +589,7 @@ def fragility(
     return replace(analysis.fragility(threshold), unreached=beyond)
 
 
-def checked_sample(sample: Sample) -> Sample:
+def checked_sample(sample: ClusterSample) -> ClusterSample:
     """Return the sample. Raises ConfigurationError for fewer than two stations."""
     if sample.count < 2:
         raise ConfigurationError(

@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 from rocking.errors import ConfigurationError
 from rocking.fragility.measures import of_openquake
 from rocking.quantities import UNPRINTABLE
@@ -34,7 +34,7 @@ class FragilityCurve(Protocol):
     @property
     def threshold(self) -> float: ...
     @property
-    def sample(self) -> Sample: ...
+    def sample(self) -> ClusterSample: ...
     @property
     def levels(self) -> np.ndarray: ...
     @property

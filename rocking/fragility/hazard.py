@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rocking.earthquakes.sample import Sample, students
+from rocking.earthquakes.sample import ClusterSample, students
 from rocking.errors import ConfigurationError
 from rocking.fragility.measures import intensity_measure, of_openquake
 from rocking.quantities import ACCELERATION_UNITS, GRAVITY, VELOCITY_UNITS, acceleration_unit, velocity_unit
@@ -336,7 +336,7 @@ def annual_rate(
     levels: np.ndarray,
     probability: np.ndarray,
     exceedance: np.ndarray,
-    sample: Sample,
+    sample: ClusterSample,
     hazard: Hazard,
 ) -> AnnualRate:
     """Return ∫ P dν over the hazard curve ν; both are linear in the logarithm of the level between their points.
@@ -402,7 +402,7 @@ def annual_rate(
     )
 
 
-def _curves_of_stations(exceedance: np.ndarray, sample: Sample) -> np.ndarray:
+def _curves_of_stations(exceedance: np.ndarray, sample: ClusterSample) -> np.ndarray:
     """The curve of each station, (s, k): the mean of its records, nan where none was tried."""
     tried = np.isfinite(exceedance)
     trials = sample.by_station(tried.astype(float))
@@ -424,7 +424,7 @@ def _filled(curves: np.ndarray, *, at_once: bool) -> np.ndarray:
     return filled
 
 
-def rate_interval(of_stations: np.ndarray, sample: Sample) -> tuple[float, float]:
+def rate_interval(of_stations: np.ndarray, sample: ClusterSample) -> tuple[float, float]:
     """Return the 90 % interval of the mean of the rates (s,) of the stations of a sample, by its earthquakes.
 
     Rates scatter by orders of magnitude, as the hazard curve raises a level to a power of 2 to 4. Resampling seldom

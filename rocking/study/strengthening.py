@@ -11,7 +11,7 @@ from rocking.assessment.store import RecordStore
 from rocking.catalogue import load_catalogue
 from rocking.codes.check import CodeTerms
 from rocking.codes.selection import scaled_pool
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 from rocking.errors import ConfigurationError
 from rocking.quantities import counted, shown
 from rocking.records import Accelerogram
@@ -182,7 +182,7 @@ def _size(scene: Scene, key: str, between: str) -> tuple[Field, tuple[float, flo
     return size, (factor * low, factor * high)
 
 
-def _records(study: Study) -> tuple[list[Accelerogram], Sample, list[str]]:
+def _records(study: Study) -> tuple[list[Accelerogram], ClusterSample, list[str]]:
     """The components at the design level, or as the catalogue scales them; their sample, and what there is to say."""
     checks = study.settings.checks
     spectrum = study.settings.design_spectrum.spectrum()
@@ -196,7 +196,7 @@ def _records(study: Study) -> tuple[list[Accelerogram], Sample, list[str]]:
         of_pool = [(name, component) for name, pair in pool.items() for component in pair]
         records = [component for _, component in of_pool]
         rows = [name for name, _ in of_pool]
-        return records, Sample.of(records, rows=rows, each_unnamed=each_unnamed), notes
+        return records, ClusterSample.of(records, rows=rows, each_unnamed=each_unnamed), notes
     limits = (checks.least_factor, checks.largest_factor)
     scaled = scaled_pool(
         joined_by_station(pool), spectrum, (checks.shortest_period, checks.longest_period), limits
@@ -209,4 +209,4 @@ def _records(study: Study) -> tuple[list[Accelerogram], Sample, list[str]]:
         )
     records = [component for place in within for component in scaled.scaled(place)]
     stations = [scaled.stations[place] for place in within for _ in scaled.pairs[place]]
-    return records, Sample.of(records, stations, each_unnamed=each_unnamed), notes
+    return records, ClusterSample.of(records, stations, each_unnamed=each_unnamed), notes

@@ -28,7 +28,7 @@ from rocking.assessment.rows import (
     sample_of_records,
     structure_rows,
 )
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 from rocking.errors import RockingError, one_structure
 from rocking.structures import Structure
 from rocking.structures.equivalent_block import Scale
@@ -106,7 +106,9 @@ def write_summary(
         write[WarningRow](of_sample)
         kept[WarningRow] += of_sample if reports else ()
         names = dict(zip(identifiers, zip(sample.stations, sample.events, strict=True), strict=True))
-        of_all = falls_over(falls_of_records, Sample.named(names[falls.record] for falls in falls_of_records))
+        of_all = falls_over(
+            falls_of_records, ClusterSample.named(names[falls.record] for falls in falls_of_records)
+        )
         kept[ExpectedFallsRow] = [*falls_of_records, *([of_all] if of_all else [])]
         kept[AgreementRow] = list(agreement_rows(cases, names, made_records(read)))
         write_tables({row_class: rows for row_class, rows in kept.items() if row_class not in write}, target)

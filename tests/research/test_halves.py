@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from docs.research.halves import TARGETS, scores_of_halves, seems, shown, split
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 from rocking.strengthening import GRID, Strengthening, Tried, sizes
 from rocking.structures import Block
 
@@ -13,7 +13,7 @@ VALUES = np.geomspace(0.1, 1.0, GRID).tolist()
 
 
 def _found(shares: np.ndarray) -> Strengthening:
-    sample = Sample.scattered([f"station {k}" for k in range(shares.shape[1])])
+    sample = ClusterSample.scattered([f"station {k}" for k in range(shares.shape[1])])
     tried = tuple(Tried(value, row, sample) for value, row in zip(VALUES, shares, strict=True))
     return Strengthening(BREADTH, 0.1, sample, tried, tried[0])
 
@@ -59,7 +59,7 @@ def test_the_least_value_that_seems_to_hold_fails_on_half_of_the_halves():
 
 def test_no_earthquake_is_on_both_sides_of_a_split():
     events = tuple(f"earthquake {k // 3}" for k in range(21))
-    sample = Sample(tuple(f"station {k}" for k in range(21)), events)
+    sample = ClusterSample(tuple(f"station {k}" for k in range(21)), events)
     here, elsewhere = split(sample, np.random.default_rng(1))
     assert sorted([*here, *elsewhere]) == list(range(21))
     assert not {events[place] for place in here} & {events[place] for place in elsewhere}

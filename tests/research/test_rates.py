@@ -16,7 +16,7 @@ from docs.research.rates import (
     rates_of_sites,
     study_scores,
 )
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 
 SLOPE = 1.5
 CLOSED_FORM = {
@@ -101,7 +101,7 @@ def test_a_rate_is_told_where_the_factor_of_a_study_reaches_and_else_its_ends(mo
     curves = np.tile((levels > 1.0).astype(float), (8, 1))
     for limit, told in ((4.0, 1.0), (0.5, 0.0)):
         pool = RealSites(
-            levels, curves, np.where(levels > limit, np.nan, curves), Sample.scattered("abcdefgh")
+            levels, curves, np.where(levels > limit, np.nan, curves), ClusterSample.scattered("abcdefgh")
         )
         found = {row.measure: row.value for row in study_scores("alike", SLOPE, pool)}
         assert found["rates that are told"] == told

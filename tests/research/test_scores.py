@@ -7,7 +7,7 @@ from scipy.optimize import minimize
 from docs.research import scores
 from docs.research.scores import HAPPENED, logistic, logit_slope
 from docs.research.sites import independent, spread
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 from rocking.records import Accelerogram
 
 
@@ -54,7 +54,7 @@ def test_intervals_draw_whole_sites():
 def test_intervals_draw_whole_earthquakes_and_what_none_shows_has_the_bounds_of_a_share():
     """Stations that say what their earthquake does have the interval of the earthquakes, by an oracle of draws."""
     of_earthquakes = np.random.default_rng(2).random(20)
-    sample = Sample.named((str(place), str(place // 4)) for place in range(80))
+    sample = ClusterSample.named((str(place), str(place // 4)) for place in range(80))
     (row,) = scores.scored("", "", {"mean": np.repeat(of_earthquakes, 4)}, sample)
     means = np.random.default_rng(5).choice(of_earthquakes, (4000, 20)).mean(axis=1)
     oracle = np.quantile(means, (0.05, 0.95))
@@ -117,7 +117,7 @@ def test_a_share_of_the_sites_has_as_many_earthquakes_as_can_be():
 
 def test_a_score_counts_the_cases_that_tell_it():
     """Cases of nan count nowhere: neither as cases nor by their sites and earthquakes."""
-    sample = Sample(("a", "a", "b", "c"), ("one", "one", "one", "two"))
+    sample = ClusterSample(("a", "a", "b", "c"), ("one", "one", "one", "two"))
     (told,) = scores.scored("s", "p", {"m": [1.0, np.nan, 0.0, np.nan]}, sample)
     assert (told.value, told.cases, told.sites, told.earthquakes) == (0.5, 2, 2, 1)
     (none,) = scores.scored("s", "p", {"m": [np.nan] * 4}, sample)

@@ -9,7 +9,7 @@ import numpy as np
 
 from rocking.assessment.rows import of_inputs as inputs
 from rocking.assessment.rows import of_record as rows
-from rocking.earthquakes.sample import INTERVAL, MADE, TAIL, UNNAMED, Sample
+from rocking.earthquakes.sample import INTERVAL, MADE, TAIL, UNNAMED, ClusterSample
 from rocking.records import Accelerogram
 from rocking.tables import Row, column, row
 
@@ -17,19 +17,19 @@ from rocking.tables import Row, column, row
 def named_records(
     records: Iterable[inputs.RecordRow], each_unnamed: bool = False
 ) -> dict[str, tuple[str, str]]:
-    """Return station and earthquake of each record, by its identifier. each_unnamed: as of `Sample.of`."""
+    """Return station and earthquake of each record, by its identifier. each_unnamed: as of `ClusterSample.of`."""
     names, sample = sample_of_records(records, each_unnamed)
     return dict(zip(names, zip(sample.stations, sample.events, strict=True), strict=True))
 
 
 def sample_of_records(
     records: Iterable[inputs.RecordRow], each_unnamed: bool = False
-) -> tuple[list[str], Sample]:
+) -> tuple[list[str], ClusterSample]:
     """Return the identifiers of the records (r,), and their sample with what there is to say of it."""
     firsts: dict[str, inputs.RecordRow] = {}
     for component in records:
         firsts.setdefault(component.record, component)
-    return list(firsts), Sample.of(list(firsts.values()), rows=list(firsts), each_unnamed=each_unnamed)
+    return list(firsts), ClusterSample.of(list(firsts.values()), rows=list(firsts), each_unnamed=each_unnamed)
 
 
 def made_records(records: Iterable[inputs.RecordRow]) -> set[str]:
@@ -111,7 +111,7 @@ def _agreement(
     made: bool = False,
 ) -> AgreementRow:
     """The counts of the cases of one structure ("": of all) that have both ratios; the rest as of `agreement_rows`."""
-    sample = Sample.named(names.get(row.record, (row.record, UNNAMED)) for row in cases)
+    sample = ClusterSample.named(names.get(row.record, (row.record, UNNAMED)) for row in cases)
     both_rock = [place for place, row in enumerate(cases) if row.within_factor_two is not None]
     within = np.array([float(bool(cases[place].within_factor_two)) for place in both_rock])
     low = high = math.nan
@@ -230,7 +230,7 @@ def falls_under(
     )
 
 
-def falls_over(records: Sequence[ExpectedFallsRow], sample: Sample) -> ExpectedFallsRow | None:
+def falls_over(records: Sequence[ExpectedFallsRow], sample: ClusterSample) -> ExpectedFallsRow | None:
     """Return the mean over the stations, with the interval of `interval_of_mean`; None without any.
 
     sample: of the records. What falls under one record falls together or not at all, so that each record is one
@@ -267,7 +267,7 @@ def hardly_spread(parts: np.ndarray, structures: int) -> bool:
     return bool(2 * are_between.sum() < falls.size or np.ptp(falls) == 0)
 
 
-def interval_of_mean(falls: np.ndarray, structures: int, sample: Sample) -> tuple[float, float]:
+def interval_of_mean(falls: np.ndarray, structures: int, sample: ClusterSample) -> tuple[float, float]:
     """Return the 90 % interval of the mean number that falls, of the numbers (s,) at the stations of a sample.
 
     What counts as one is an earthquake with the mean of its stations. The part of a class that falls is the normal

@@ -19,7 +19,7 @@ from rocking.catalogue import load_catalogue
 from rocking.codes.check import CodeTerms, StructureCheck
 from rocking.codes.dynamic_check import check
 from rocking.codes.selection import Selection
-from rocking.earthquakes.sample import INTERVAL, Sample
+from rocking.earthquakes.sample import INTERVAL, ClusterSample
 from rocking.errors import ConfigurationError, RockingError, one_structure
 from rocking.floors.support import Support
 from rocking.products.checks.conclusion import CodeConclusion, code_conclusion_in_words, code_conclusions
@@ -227,7 +227,7 @@ def _checked(
         checked = None
         refusal = error.warning or str(error)
     known = [row for row in verdicts if not math.isnan(row.overturning_share)]
-    sample = Sample.named(names[row.record] for row in known)
+    sample = ClusterSample.named(names[row.record] for row in known)
     shares = sample.by_station(np.array([row.overturning_share for row in known]))
     lifts = sample.by_station(np.array([float(row.rotation_ratio > 0) for row in known]))
     low, high = sample.share_bounds(shares) if known else (math.nan, math.nan)

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.special import ndtri
 
 from rocking.assessment.rows import RECORD, Placed, PlacedRow
-from rocking.earthquakes.sample import INTERVAL, Sample
+from rocking.earthquakes.sample import INTERVAL, ClusterSample
 from rocking.errors import ConfigurationError
 from rocking.fragility.curves import (
     Explanation,
@@ -363,7 +363,7 @@ class ExplainedOverturning(Placed):
 
     measure: IntensityMeasure
     figure: str
-    sample: Sample
+    sample: ClusterSample
     explanation: Explanation
 
     @property

@@ -8,7 +8,7 @@ from pathlib import Path
 from rocking.assessment.cracks import never_overturns_because
 from rocking.assessment.rows import FailureRow
 from rocking.catalogue import CatalogueRecord
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 from rocking.errors import ConfigurationError, RockingError
 from rocking.fragility.curves import Fragility, fragility
 from rocking.fragility.exchange import nrml, nrml_without
@@ -138,7 +138,9 @@ def _curves_of(
         f"{record} {component.component}".strip()
         for record, component in zip(of_records, accelerograms, strict=True)
     ]
-    sample = Sample.of(accelerograms, rows=of_records, each_unnamed=study.settings.unnamed_events == "each")
+    sample = ClusterSample.of(
+        accelerograms, rows=of_records, each_unnamed=study.settings.unnamed_events == "each"
+    )
     reasons += map(str, sample.warnings)
     curves: dict[tuple[str, float | None], Fragility] = {}
     rows: list[Row] = []

@@ -15,7 +15,7 @@ from typing import TypeVar
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
-from rocking.earthquakes.sample import Sample, interval_words
+from rocking.earthquakes.sample import ClusterSample, interval_words
 from rocking.errors import PulseError, RockingError
 from rocking.motion import integrate
 from rocking.motion.response import Response
@@ -92,8 +92,8 @@ def trade(
             tried.append(record)
             yield GroundMotions.of(record), cases
 
-    def sample() -> Sample:
-        return Sample.of(tried, each_unnamed=each_unnamed)
+    def sample() -> ClusterSample:
+        return ClusterSample.of(tried, each_unnamed=each_unnamed)
 
     return trade_of_cases(met(), sample, mechanisms, settings=settings, tell=tell, within=within)
 
@@ -124,7 +124,7 @@ class TradeCase:
 
 def trade_of_cases(
     met: Iterable[tuple[GroundMotions, Sequence[TradeCase]]],
-    sample: Callable[[], Sample],
+    sample: Callable[[], ClusterSample],
     structures: Iterable[str],
     *,
     settings: AssessmentSettings | None = None,

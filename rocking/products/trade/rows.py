@@ -9,7 +9,7 @@ from statistics import mean, median
 import numpy as np
 
 from rocking.assessment.methods import Agreement, agreement, ratio, rests
-from rocking.earthquakes.sample import INTERVAL, Sample
+from rocking.earthquakes.sample import INTERVAL, ClusterSample
 from rocking.tables import Row, column, row
 
 
@@ -116,7 +116,7 @@ def trade_row(
     answers: Sequence[TimedAnswer],
     by_mechanism: Sequence[TimedAnswer],
     machine: str,
-    sample: Sample,
+    sample: ClusterSample,
 ) -> TradeRow:
     """Return the row about one method by its answers for one structure ("": for all).
 

@@ -19,7 +19,7 @@ from rocking.assessment.rows import (
     made_records,
     named_records,
 )
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 from rocking.errors import RockingError
 from rocking.floors.support import Support
 from rocking.products.trade.measure import TradeCase, trade_of_cases, what_follows
@@ -60,7 +60,7 @@ class Trade(Work):
         names = named_records(read, study.settings.unnamed_events == "each")
         rows[TradeRow] += trade_of_cases(
             _met(study, job, cases, tried, motions_of, net),
-            lambda: Sample.named(names[record] for record in motions_of),
+            lambda: ClusterSample.named(names[record] for record in motions_of),
             study.structures,
             settings=study.settings,
             within=net,

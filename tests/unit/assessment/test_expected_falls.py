@@ -14,7 +14,7 @@ from rocking.assessment.rows import (
     interval_of_mean,
     worst_period_each,
 )
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 from tests.unit.assessment.made_rows import broken, case, station, verdicts
 
 
@@ -32,7 +32,7 @@ def under(shares: list[float], structures: int) -> list[ExpectedFallsRow]:
 
 def over(records: list[ExpectedFallsRow]) -> ExpectedFallsRow | None:
     """The mean over records of as many stations of as many earthquakes."""
-    return falls_over(records, Sample.scattered([record.record for record in records]))
+    return falls_over(records, ClusterSample.scattered([record.record for record in records]))
 
 
 def test_the_shares_of_those_that_have_one_are_added() -> None:
@@ -158,12 +158,12 @@ def test_a_wide_interval_says_why(shares, because) -> None:
 def test_stations_of_one_earthquake_say_no_more_than_their_mean() -> None:
     """Of equally many stations each, the interval is that of the means of the earthquakes; one tells nothing."""
     falls = np.array([5.0, 7.0, 20.0, 22.0, 11.0, 13.0])
-    pairs = Sample(tuple("abcdef"), ("one", "one", "two", "two", "three", "three"))
-    of_means = interval_of_mean(np.array([6.0, 21.0, 12.0]), 50, Sample.scattered("abc"))
+    pairs = ClusterSample(tuple("abcdef"), ("one", "one", "two", "two", "three", "three"))
+    of_means = interval_of_mean(np.array([6.0, 21.0, 12.0]), 50, ClusterSample.scattered("abc"))
     assert interval_of_mean(falls, 50, pairs) == pytest.approx(of_means)
-    apart = interval_of_mean(falls, 50, Sample.scattered("abcdef"))
+    apart = interval_of_mean(falls, 50, ClusterSample.scattered("abcdef"))
     assert of_means[0] < apart[0] and apart[1] < of_means[1]
-    assert interval_of_mean(falls, 50, Sample(tuple("abcdef"), ("one",) * 6)) == (0.0, 50.0)
+    assert interval_of_mean(falls, 50, ClusterSample(tuple("abcdef"), ("one",) * 6)) == (0.0, 50.0)
 
 
 def test_the_worst_verdict_comes_first() -> None:
@@ -173,7 +173,7 @@ def test_the_worst_verdict_comes_first() -> None:
 
 def test_one_earthquake_with_nearly_all_stations_says_nothing_of_others():
     stations = tuple(f"station {place}" for place in range(402))
-    sample = Sample(stations, ("one",) * 400 + ("two", "three"))
+    sample = ClusterSample(stations, ("one",) * 400 + ("two", "three"))
     with np.errstate(all="raise"):
         low, high = interval_of_mean(np.array([5.0] * 400 + [6.0, 7.0]), 12, sample)
     assert (low, high) == (pytest.approx(0.0, abs=1e-9), pytest.approx(12.0))

@@ -6,7 +6,7 @@ from scipy.optimize import minimize
 from scipy.stats import norm
 from scipy.stats import t as student
 
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 from rocking.fragility.curves import explanation
 
 LEVELS = np.log(np.geomspace(0.05, 20.0, 60))
@@ -23,9 +23,9 @@ def test_a_second_component_that_says_the_same_adds_nothing():
     figures = rng.standard_normal(12)
     levels, falls = outcomes(0.4 * figures + 0.5 * rng.standard_normal(12))
     names = [f"{k:02d}" for k in range(12)]
-    once = explanation(levels, falls, figures, Sample.scattered(names))
+    once = explanation(levels, falls, figures, ClusterSample.scattered(names))
     again = [np.repeat(case, 2, axis=0) for case in (levels, falls, figures)]
-    twice = explanation(*again, Sample.scattered(np.repeat(names, 2).tolist()))
+    twice = explanation(*again, ClusterSample.scattered(np.repeat(names, 2).tolist()))
     assert twice.p_value == pytest.approx(once.p_value, rel=1e-6)
     # Student's law for 12 stations less three, by which the power counts as well
     size, limit = student.isf([once.p_value / 2, 0.025], 9)
@@ -38,13 +38,13 @@ def test_the_slope_and_the_scatter_are_those_behind_the_outcomes():
     figures = rng.standard_normal(400)
     names = [str(k) for k in range(400)]
     columns = explanation(
-        *outcomes(0.3 * figures + 0.4 * rng.standard_normal(400)), figures, Sample.scattered(names)
+        *outcomes(0.3 * figures + 0.4 * rng.standard_normal(400)), figures, ClusterSample.scattered(names)
     )
     # its standard error is 0.4/20
     assert columns.slope == pytest.approx(0.3, abs=0.06)
     assert columns.p_value < 1e-6 and columns.power > 0.99
     # the logistic law of the same scatter, and 1/28 of it by chance
-    unlike = explanation(*outcomes(0.4 * rng.standard_normal(400)), figures, Sample.scattered(names))
+    unlike = explanation(*outcomes(0.4 * rng.standard_normal(400)), figures, ClusterSample.scattered(names))
     assert unlike.efficiency == pytest.approx(0.4, rel=0.12)
 
 
@@ -53,8 +53,8 @@ def test_a_figure_that_differs_only_in_a_record_that_no_level_reaches_explains_n
     rng = np.random.default_rng(0)
     levels, falls = outcomes(0.4 * rng.standard_normal(7))
     falls[6] = np.nan
-    columns = explanation(levels, falls, np.array([0.3] * 6 + [1.3]), Sample.scattered("abcdefg"))
-    without = explanation(levels[:6], falls[:6], np.full(6, 0.3), Sample.scattered("abcdef"))
+    columns = explanation(levels, falls, np.array([0.3] * 6 + [1.3]), ClusterSample.scattered("abcdefg"))
+    without = explanation(levels[:6], falls[:6], np.full(6, 0.3), ClusterSample.scattered("abcdef"))
     assert columns.efficiency == without.efficiency
     assert np.isnan([columns.slope, columns.p_value, columns.power]).all()
 
@@ -70,7 +70,7 @@ def test_the_scatter_of_outcomes_that_a_level_parts_cleanly_is_that_of_the_penal
         return float(1e-9 * levels.size * (slope * spread) ** 2 / 2 - likelihood)
 
     best = minimize(loss, (0.0, 10.0), method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-16})
-    columns = explanation(levels, falls, np.ones(len(falls)), Sample.scattered("abcd"))
+    columns = explanation(levels, falls, np.ones(len(falls)), ClusterSample.scattered("abcd"))
     assert columns.efficiency == pytest.approx(1 / best.x[1], rel=1e-3)
 
 
@@ -84,7 +84,7 @@ def test_a_record_that_never_overturns_counts():
     names = [str(k) for k in range(60)]
     assert (falls[:, low].sum(axis=1) == 0).sum() > 10
     assert explanation(
-        levels[:, low], falls[:, low], figures, Sample.scattered(names)
+        levels[:, low], falls[:, low], figures, ClusterSample.scattered(names)
     ).slope == pytest.approx(1.0, abs=0.25)
 
 
@@ -97,7 +97,7 @@ def test_stations_without_a_dependence_seldom_seem_to_have_one(trials):
         figures, capacities = (
             (rng.standard_normal((30, 1)) + 0.3 * rng.standard_normal((30, 2))).ravel() for _ in range(2)
         )
-        columns = explanation(*outcomes(0.5 * capacities), figures, Sample.scattered(names))
+        columns = explanation(*outcomes(0.5 * capacities), figures, ClusterSample.scattered(names))
         called.append(columns.p_value < 0.05)
         power.append(columns.power)
     # 5 % of n scatter by 22 % / √n; three deviations, and the error from 30 stations is somewhat small
@@ -107,8 +107,8 @@ def test_stations_without_a_dependence_seldom_seem_to_have_one(trials):
 
 def test_too_few_stations_say_nothing():
     levels, falls = outcomes(np.linspace(-1, 1, 6))
-    few = explanation(levels, falls, np.arange(6.0), Sample.scattered("aabbcc"))
-    equal = explanation(levels, falls, np.ones(6), Sample.scattered("abcdef"))
+    few = explanation(levels, falls, np.arange(6.0), ClusterSample.scattered("aabbcc"))
+    equal = explanation(levels, falls, np.ones(6), ClusterSample.scattered("abcdef"))
     for case in (few, equal):
         assert case.efficiency > 0
         assert np.isnan([case.slope, case.p_value, case.power]).all()
@@ -122,7 +122,7 @@ def test_of_a_slope_near_zero_both_signs_count_in_the_power(seed):
     levels = np.broadcast_to(np.linspace(-1.0, 1.0, 15), (12, 15))
     figures = rng.normal(size=12)
     limits = (0.05 * seed * figures + rng.normal(scale=0.3, size=12))[:, None]
-    found = explanation(levels, (levels > limits).astype(float), figures, Sample.scattered(names))
+    found = explanation(levels, (levels > limits).astype(float), figures, ClusterSample.scattered(names))
     errors = student.isf(found.p_value / 2, 9)
     limit = student.isf(0.025, 9)
     assert found.power == pytest.approx(norm.sf(limit, loc=errors) + norm.cdf(-limit, loc=errors), rel=1e-6)

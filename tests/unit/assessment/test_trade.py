@@ -9,7 +9,7 @@ import pytest
 
 import rocking
 from rocking.assessment.rows import FailureRow
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 from rocking.products.trade import measure as trade_module
 from rocking.products.trade.measure import TradeMethod, what_follows
 from rocking.products.trade.report import write_trade_report
@@ -136,7 +136,7 @@ def test_below_so_many_structures_under_a_motion_the_closed_form_costs_more():
         of_case = partial(TimedAnswer, rotation_ratio=0.1, reference=0.1, record=place)
         by_sine += 2 * [of_case(cpu=4e-5, preparation=search)]
         by_mechanism += 2 * [of_case(cpu=usual, preparation=0.0)]
-    sample = Sample.scattered("abc")
+    sample = ClusterSample.scattered("abc")
     row = trade_row(TradeMethod.ONE_SINE, "", by_sine, by_mechanism, "Abacus", sample)
     assert (row.break_even_low, row.break_even, row.break_even_high) == (23, 45, math.inf)
     assert row.break_even_in_words == "45 structures per record (23 to ∞, by the record)"
@@ -147,7 +147,7 @@ def test_below_so_many_structures_under_a_motion_the_closed_form_costs_more():
 def test_a_sine_that_begins_after_the_fall_has_not_found_it():
     fall = TimedAnswer(rotation_ratio=math.inf, reference=math.inf, cpu=1e-3, preparation=1e-2)
     late = replace(fall, record=1, is_late=True)
-    row = trade_row(TradeMethod.ONE_SINE, "", [fall, late], [], "Abacus", Sample.scattered("ab"))
+    row = trade_row(TradeMethod.ONE_SINE, "", [fall, late], [], "Abacus", ClusterSample.scattered("ab"))
     assert (row.cases, row.falls, row.falls_found, row.false_alarms) == (2, 2, 1, 0)
     assert (row.wrong_verdicts, row.unsafe_verdicts) == (1, 1)
 

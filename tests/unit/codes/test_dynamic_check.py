@@ -21,7 +21,7 @@ from rocking import (
 )
 from rocking.codes import dynamic_check
 from rocking.codes.kinds import CheckKind
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 from rocking.records import Accelerogram
 from rocking.warnings import RockingWarning
 from tests.made_pools import made_answers, made_pool
@@ -232,7 +232,7 @@ class Pool:
     """A pool of single records in place of a selection: sets of any of its stations, drawn with them again."""
 
     def __init__(self, stations, events, size):
-        self.sample = Sample(stations, events)
+        self.sample = ClusterSample(stations, events)
         self.chosen = np.arange(size)
 
     def redrawn(self, drawn, rng):

@@ -9,7 +9,7 @@ from scipy.stats import beta, t
 
 from docs.research.earthquakes import sample_of, weighted_median
 from rocking.earthquakes.kinds import SampleKind
-from rocking.earthquakes.sample import CORRELATION, FEWEST, Sample, earthquakes_of, interval_words
+from rocking.earthquakes.sample import CORRELATION, FEWEST, ClusterSample, earthquakes_of, interval_words
 from rocking.errors import ConfigurationError
 from rocking.records import Accelerogram
 from tests.refusals import refused
@@ -55,19 +55,19 @@ def test_what_says_one_time_is_one_earthquake_by_whatever_name_and_of_two_days_t
 
 def test_what_names_no_earthquake_counts_as_one_unless_each_is_declared():
     records = [Named(station=name) for name in "abc"] + [Named("Kobe", "d")]
-    told = Sample.of(records)
+    told = ClusterSample.of(records)
     assert (told.count, told.earthquakes) == (4, 2)
     assert [warning.kind for warning in told.warnings] == [
         SampleKind.EARTHQUAKES_UNNAMED,
         SampleKind.EARTHQUAKES_FEW,
     ]
     assert told.warnings[0]["records"] == 3
-    declared = Sample.of(records, each_unnamed=True)
+    declared = ClusterSample.of(records, each_unnamed=True)
     assert declared.earthquakes == 4
 
 
 def test_one_event_for_all_says_that_nothing_is_told_of_others():
-    sample = Sample.of([Named("Kobe", name) for name in "abcdef"])
+    sample = ClusterSample.of([Named("Kobe", name) for name in "abcdef"])
     assert [warning.kind for warning in sample.warnings] == [SampleKind.EARTHQUAKE_ONE]
     assert sample.interval(lambda weights: float(weights.sum())) == (0.0, np.inf)
     low, high = sample.share_bounds(np.array([1.0, 0, 0, 0, 0, 0]))
@@ -79,34 +79,34 @@ def test_a_motion_under_two_earthquakes_is_named():
     records = [Accelerogram(wave, 0.01, station="a", event=event) for event in ("Kobe", "Landers")]
     twice = next(
         warning
-        for warning in Sample.of(records).warnings
+        for warning in ClusterSample.of(records).warnings
         if warning.kind is SampleKind.EARTHQUAKE_NAMED_TWICE
     )
     assert (twice["first"], twice["second"]) == ("Kobe", "Landers")
 
 
 def test_a_station_that_is_given_for_two_earthquakes_counts_for_the_first():
-    sample = Sample.of([Named(), Named(), Named()], ["a", "a", "b"], ["one", "two", "two"])
+    sample = ClusterSample.of([Named(), Named(), Named()], ["a", "a", "b"], ["one", "two", "two"])
     assert sample.events == ("one", "one", "two")
     assert sample.warnings[0].kind is SampleKind.STATION_OF_TWO_EARTHQUAKES
 
 
 def test_components_and_processings_of_a_station_are_one():
     names = ["Rinaldi Receiving Sta", "RINALDI RECEIVING STA RRS", "Sylmar"]
-    sample = Sample.of([Named("Northridge", name) for name in names])
+    sample = ClusterSample.of([Named("Northridge", name) for name in names])
     assert sample.words == "2 stations of 1 earthquake"
     unnamed = [Named("Kobe"), Named("Kobe"), Named("Kobe")]
-    assert Sample.of(unnamed, rows=["r1", "r1", "r2"]).count == 2
+    assert ClusterSample.of(unnamed, rows=["r1", "r1", "r2"]).count == 2
 
 
 def test_as_many_names_as_records_are_asked_for():
     with refused(ConfigurationError, "events", 1):
-        Sample.of([Named(), Named()], events=["one"])
+        ClusterSample.of([Named(), Named()], events=["one"])
 
 
 def test_the_bounds_of_scattered_stations_are_those_of_clopper_and_pearson():
     shares = np.array([1.0, 0.5] + [0.0] * 18)
-    low, high = Sample.scattered(range(20)).share_bounds(shares, 0.1)
+    low, high = ClusterSample.scattered(range(20)).share_bounds(shares, 0.1)
     assert (low, high) == pytest.approx((beta.ppf(0.1, 1.5, 19.5), beta.ppf(0.9, 2.5, 18.5)), rel=1e-9)
 
 
@@ -152,7 +152,7 @@ def test_the_interval_of_few_earthquakes_is_that_of_student_on_their_logarithms(
 
 
 def test_each_draw_has_as_many_stations_of_as_many_earthquakes():
-    sample = Sample.of(
+    sample = ClusterSample.of(
         [Named("Kobe", "a"), Named("Kobe", "b"), Named("Landers", "c"), Named("Erzincan", "d")]
     )
     drawn = sample.redrawn(500)
@@ -165,7 +165,7 @@ def test_each_draw_has_as_many_stations_of_as_many_earthquakes():
 
 def test_the_mean_of_means_scatters_as_by_hand():
     """Two stations of one and one of two further earthquakes: weights ½, ¼, ¼."""
-    sample = Sample(tuple("abcd"), ("one", "one", "two", "three"))
+    sample = ClusterSample(tuple("abcd"), ("one", "one", "two", "three"))
     spread = sample.spread(np.array([1.0, 3.0, 4.0, 8.0]))
     assert spread.mean == 4.0 and spread.count == pytest.approx(8 / 3)
     squares = 0.5 * (2 - 4) ** 2 + 0.25 * 0 + 0.25 * (8 - 4) ** 2
@@ -192,8 +192,8 @@ def test_the_order_of_the_catalogue_draws_no_other_samples():
     """Each station is drawn as often, wherever it stands; by the share of its draws that are zero, one, two, ..."""
     stations, events = tuple("abcdefg"), tuple("XXYZZZY")
     order = np.random.default_rng(2).permutation(7)
-    drawn = Sample(stations, events).redrawn(200)
-    again = Sample(
+    drawn = ClusterSample(stations, events).redrawn(200)
+    again = ClusterSample(
         tuple(stations[place] for place in order), tuple(events[place] for place in order)
     ).redrawn(200)
     assert np.array_equal(again, drawn[:, order])
@@ -209,4 +209,4 @@ def test_the_order_of_the_catalogue_draws_no_other_samples():
 )
 def test_an_interval_is_called_by_how_many_earthquakes_are_behind_it(earthquakes, words):
     assert interval_words(earthquakes) == words
-    assert Sample.scattered([f"{number}" for number in range(earthquakes)]).interval_words == words
+    assert ClusterSample.scattered([f"{number}" for number in range(earthquakes)]).interval_words == words

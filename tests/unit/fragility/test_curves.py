@@ -13,7 +13,7 @@ from scipy.stats import norm
 import rocking
 from rocking.assessment.ensemble import drawn
 from rocking.assessment.settings import EnsembleSettings
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 from rocking.errors import ConfigurationError
 from rocking.fragility import curves
 from rocking.fragility.curves import Fragility, IncrementalDynamicAnalysis, fragility, fragility_of
@@ -41,8 +41,8 @@ PEAK = int(_record(0.9, "").acceleration.argmax())
 RECORDS = [_record(period, f"{k // 2}") for k, period in enumerate((0.6, 0.7, 0.9, 1.0, 1.3, 1.5))]
 
 
-def _scattered(count: int) -> Sample:
-    return Sample.scattered(list(map(str, range(count))))
+def _scattered(count: int) -> ClusterSample:
+    return ClusterSample.scattered(list(map(str, range(count))))
 
 
 def _counted(levels: list[float], shares: list[float], stations: int) -> Fragility:
@@ -72,7 +72,7 @@ def _made(rng: np.random.Generator, stations: int, median: float = 1.0, dispersi
     shared, own = rng.standard_normal((stations, 1)), rng.standard_normal((stations, 2))
     threshold = median * np.exp(dispersion * (shared + own) / 2**0.5)
     exceedance = (threshold.reshape(-1, 1) < LEVELS).astype(float)
-    return exceedance, Sample.scattered([str(k // 2) for k in range(2 * stations)])
+    return exceedance, ClusterSample.scattered([str(k // 2) for k in range(2 * stations)])
 
 
 @pytest.mark.parametrize(("trials", "scatter"), [(16, 0.12), pytest.param(60, 0.08, marks=pytest.mark.slow)])
@@ -104,7 +104,7 @@ def test_a_curve_that_is_no_lognormal_has_the_median_of_the_rising_curve_beside_
 
 def test_a_record_overturns_at_a_level_where_more_than_half_of_its_members_do():
     shares = np.array([[0.6, 0.5, 0.6], [0.5, 0.4, 0.5], [0.6, 0.7, 0.4]])
-    curve = fragility_of(np.array([1.0, 2.0, 3.0]), shares, Sample.scattered("abc"))
+    curve = fragility_of(np.array([1.0, 2.0, 3.0]), shares, ClusterSample.scattered("abc"))
     assert curve.reversals.tolist() == [1, 0, 1]
 
 
@@ -196,7 +196,7 @@ def test_a_row_of_the_analysis_tells_the_lower_median_of_its_members(members):
     ratios = np.array([0.4, 0.1, math.inf, 0.2])[None, None, :members]
     measure = INTENSITY_MEASURES["pgv"]
     analysis = IncrementalDynamicAnalysis(
-        measure, np.ones(1), ratios, np.full(1, 0.5), Sample.scattered(["one"])
+        measure, np.ones(1), ratios, np.full(1, 0.5), ClusterSample.scattered(["one"])
     )
     (row,) = ida_rows("block", ["record"], analysis)
     assert row.rotation_ratio_median == statistics.median_low(ratios[0, 0])
@@ -321,7 +321,7 @@ def test_what_curve_and_hazard_leave_out_is_said():
     # the same where the hazard curve ends at the last level: all that is rarer occurs beyond it
     ended = curve.annual_rate(_points([0.5, 2.0], [0.16, 0.04]))
     assert ended.remainder == pytest.approx(0.02, rel=1e-9)
-    falling = fragility_of(np.array([0.1, 0.2]), np.ones((4, 2)), Sample.scattered("abcd"))
+    falling = fragility_of(np.array([0.1, 0.2]), np.ones((4, 2)), ClusterSample.scattered("abcd"))
     # between 0.1 and 0.5, which the hazard curve does not reach, there occurs 0.8 − 0.16
     assert falling.annual_rate(points).remainder == pytest.approx(0.64, rel=0.02)
 

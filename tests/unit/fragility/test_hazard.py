@@ -10,7 +10,7 @@ import pytest
 from scipy.stats import lognorm, norm
 
 import rocking
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 from rocking.errors import ConfigurationError
 from rocking.fragility.curves import Fragility, fragility_of
 from rocking.fragility.hazard import Hazard
@@ -28,7 +28,7 @@ HEAD = (
 def _lognormal(measure: str = "pgv", unit: str = "m/s") -> Fragility:
     """The curve of four stations, each of which has the same lognormal."""
     shares = np.tile(norm.cdf(np.log(LEVELS / MEDIAN) / DISPERSION), (4, 1))
-    return replace(fragility_of(LEVELS, shares, Sample.scattered("abcd")), measure=measure, unit=unit)
+    return replace(fragility_of(LEVELS, shares, ClusterSample.scattered("abcd")), measure=measure, unit=unit)
 
 
 def _file(folder, name, levels, rows, *, kind="mean", imt="PGV", time="50.0"):
@@ -279,7 +279,7 @@ def test_a_rate_is_told_where_nine_in_ten_stations_reach_where_half_of_it_is_mad
     shares = np.tile((LEVELS >= 1.0).astype(float), (10, 1))
     shares[:weak, LEVELS > 0.5] = np.nan
     ends = LEVELS[[0, -1]]
-    rate = fragility_of(LEVELS, shares, Sample.scattered("abcdefghij")).annual_rate(
+    rate = fragility_of(LEVELS, shares, ClusterSample.scattered("abcdefghij")).annual_rate(
         Hazard(ends, 1e-3 * ends**-2.0)
     )
     assert (rate.reaching, rate.stations, rate.is_stated) == (10 - weak, 10, is_stated)

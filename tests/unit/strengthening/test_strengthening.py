@@ -9,7 +9,7 @@ from scipy.stats import beta
 
 import rocking
 from rocking.codes.design_spectrum import DesignSpectrum
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 from rocking.errors import ConfigurationError
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
@@ -56,10 +56,13 @@ def _records(count: int, amplitude: float = 3.0) -> list[Accelerogram]:
 
 
 def _made(
-    shares: np.ndarray, target: float = 0.1, sample: Sample | None = None, slid: np.ndarray | None = None
+    shares: np.ndarray,
+    target: float = 0.1,
+    sample: ClusterSample | None = None,
+    slid: np.ndarray | None = None,
 ) -> Strengthening:
     """What was found where the stations have these shares, (GRID, n), of which `slid` slide; each of one earthquake."""
-    sample = sample or Sample.scattered([f"station {k}" for k in range(shares.shape[1])])
+    sample = sample or ClusterSample.scattered([f"station {k}" for k in range(shares.shape[1])])
     nothing = np.zeros(shares.shape)
     slides = nothing if slid is None else slid
     tried = tuple(
@@ -293,7 +296,7 @@ def test_one_earthquake_shows_nothing_and_few_show_less_than_scattered_stations(
     shares = np.zeros((GRID, 30))
     names = [f"station {k}" for k in range(30)]
     one, six, thirty = (
-        _made(shares, 0.1, Sample(tuple(names), tuple(f"earthquake {k % number}" for k in range(30))))
+        _made(shares, 0.1, ClusterSample(tuple(names), tuple(f"earthquake {k % number}" for k in range(30))))
         for number in (1, 6, 30)
     )
     assert math.isnan(one.value) and one.tried[0].interval == (0.0, 1.0)
@@ -331,7 +334,7 @@ def test_another_target_follows_nothing_again(monkeypatch, tmp_path):
     from rocking.assessment.store import RecordStore
 
     records = _records(8)
-    scene, sample = Scene("parapet", PARAPET), Sample.of(records)
+    scene, sample = Scene("parapet", PARAPET), ClusterSample.of(records)
     path = tmp_path / "parapet.cases"
     told: list[str] = []
     store = RecordStore(path)

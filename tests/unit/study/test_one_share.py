@@ -10,7 +10,7 @@ import rocking
 from rocking.assessment.decide import Verdict
 from rocking.assessment.rows import ExpectedFallsRow, RecordRow, VerdictRow
 from rocking.catalogue import load_catalogue
-from rocking.earthquakes.sample import Sample
+from rocking.earthquakes.sample import ClusterSample
 from rocking.products.checks.work import write_checks
 from rocking.strengthening import sizes, strengthen_scene
 from rocking.study.job import Study
@@ -108,7 +108,7 @@ def test_four_tables_say_one_share_of_a_pinnacle_whose_stacks_fall(folder: Path,
     (side,) = (size for size in sizes(scene.structure) if size.name == "width")
     motions = [rocking.read(folder / f"{one_record.id}.txt", unit="m/s2")[0] for one_record in catalogue]
     names = tuple(record.id for record in catalogue)
-    sample = Sample(names, names)
+    sample = ClusterSample(names, names)
     found = strengthen_scene(motions, scene, side, (1.5, 2.0), 0.1, sample, study.assessment)
     assert found.given.undecided == 0
     assert found.given.share == pytest.approx(shares.mean())
