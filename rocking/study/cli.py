@@ -149,7 +149,7 @@ def _parser() -> argparse.ArgumentParser:
         made.add_argument(
             "folder", type=Path, nargs="?", default=Path(), help="folder of the study (default: this one)"
         )
-        made.set_defaults(run=_product, product=product)
+        made.set_defaults(run=_product, snakemake=[product.name])
     add = verb(_assess, "assess structures under accelerograms", channels)
     of_list = "list of structures: a file (YAML, CSV, XLSX), - for what comes in, or '{type: block, breadth_m: 1, ...}'"
     add("--structures", required=True, type=_list_of_structures, metavar="LIST", help=of_list)
@@ -233,9 +233,7 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _product(options: argparse.Namespace) -> int:
-    from rocking.study.run import run_product
-
-    return run_product(options.folder, options.product)
+    return _run(options)
 
 
 def _select(options: argparse.Namespace) -> None:

@@ -250,7 +250,7 @@ def write_record(
     tables = {row_class: list(of_it) for row_class, of_it in rows.tables.items()}
     sums = {path: sha256 for step in STEPS for path, sha256 in sums_of(step, settings, record.id).items()}
     keep(outcome_of(results, record.id), Kept(tables, page=page, spectra=spectra, sums=sums))
-    tell(f"{record.id}: {record_line(result.scenes.values(), rows.failures)}")
+    tell(f"{record.id}: {record_line(rows.verdicts, rows.failures)}")
 
 
 def _drawn(result: RecordResult, rows: RecordRows) -> set[tuple[str, str, float | None]]:

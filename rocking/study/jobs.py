@@ -1,6 +1,7 @@
 """The jobs of a study: what each rule of the workflow does in its process, one function for each kind of rule."""
 
 import contextlib
+from dataclasses import replace
 from pathlib import Path
 from traceback import print_exception
 
@@ -15,8 +16,9 @@ from rocking.study.plan import Plan
 from rocking.study.products import BY_NAME
 from rocking.study.steps import Steps, of_the_machine
 from rocking.study.summary import summarise
+from rocking.study.terminal import failing_lines, wrapped
 from rocking.study.work import work_of
-from rocking.tables import write_whole
+from rocking.tables import rows_of, write_whole
 
 _DRAWN = (".pdf", ".svg", ".xlsx", ".html")
 
@@ -40,28 +42,27 @@ def run(rule: str, plan: Plan, log: str, cores: int, folder: str) -> None:
 
 
 def product(job: Job) -> None:
-    """Make what stands over all records besides the summary, and keep what this shows of it.
+    """Make what stands over all records besides the summary, and keep what this and the terminal show of it.
 
     Where it cannot be made, its pages and a row say why, and the summary and all tables stand.
     """
+    face = BY_NAME[job.rule]
+    work = work_of(face)
     try:
-        made = work_of(BY_NAME[job.rule]).make(job)
+        made = work.make(job)
     except Exception as error:
         if of_the_machine(error):
             raise
         print_exception(error)
         sentence = str(error) if isinstance(error, RockingError) else fault_in_words(error, job.log, job.rule)
-        _say_why_not(job, sentence)
-    else:
-        keep(job.kept, Kept({FailureRow: [], **made.rows}, made.conclusion))
-
-
-def _say_why_not(job: Job, sentence: str) -> None:
-    work = work_of(BY_NAME[job.rule])
-    for path in outputs_of(job.rule, job.plan.settings).values():
-        if path.suffix in _DRAWN:
-            write_reason(path, [sentence])
-        else:
-            write_whole(path, b"")
-    fault = FailureRow(stage=job.rule, message=sentence)
-    keep(job.kept, Kept({row_class: [] for row_class in work.shown} | {FailureRow: [fault]}))
+        for path in outputs_of(job.rule, job.plan.settings).values():
+            if path.suffix in _DRAWN:
+                write_reason(path, [sentence])
+            else:
+                write_whole(path, b"")
+        fault = FailureRow(stage=job.rule, message=sentence)
+        made = Kept({row_class: [] for row_class in work.shown} | {FailureRow: [fault]})
+    rows = {FailureRow: [], **made.rows}
+    lines = [*work.lines(rows), *failing_lines(rows_of(FailureRow, rows)), *wrapped(made.conclusion)]
+    opened = [f"{face.folder}/{name}" for name in face.files if name.endswith(".pdf")]
+    keep(job.kept, replace(made, rows=rows, lines=lines, opened=opened))

@@ -18,15 +18,19 @@ Rows = Mapping[type[Row], Sequence[Row]]
 
 @dataclass(frozen=True)
 class Kept:
-    """What a record, or a product over all records, leaves for what is made of it.
+    """What a record, the summary or a product over all records leaves for what is made of it.
 
-    conclusion: the sentence that a product comes down to. Of a record, page: what the page to explore shows; spectra:
-    of the components, m/s², where there is a design level; both are empty without reports. sums: the sha256 of its
-    report and its tables, by their paths from the folder of the results.
+    conclusion: the sentence that a product comes down to, on page one of the summary, on the page to explore and at the
+    end of a run; "" for none. lines: what the terminal shows after the job; opened: the files that are read first, from
+    the folder of the results. Of a record, page: what the page to explore shows; spectra: of the components, m/s²,
+    where there is a design level; both are empty without reports. sums: the sha256 of its report and its tables, by
+    their paths from the folder of the results.
     """
 
     rows: Rows
     conclusion: str = ""
+    lines: Sequence[str] = ()
+    opened: Sequence[str] = ()
     page: dict[str, Any] = field(default_factory=dict)
     spectra: Mapping[str, Sequence[float]] = field(default_factory=dict)
     sums: Mapping[str, str] = field(default_factory=dict)

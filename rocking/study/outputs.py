@@ -111,6 +111,7 @@ OUTPUTS: Mapping[str, tuple[Output, ...]] = {
         Output("summary/summary_figures.zip", _draws_reports),
         Output("summary/provenance.json"),
         Output("summary/datapackage.json"),
+        Output(f"{KEPT}/rows/summary.json"),
         Output(SUMS),
     ),
     **{product.name: product.outputs for product in PRODUCTS},
@@ -141,7 +142,7 @@ def log_of(rule: str, record: str = "") -> str:
 
 
 def kept_of(results: Path, product: str) -> Path:
-    """Return the file that keeps the rows of a product over all records."""
+    """Return the file that keeps what summary and terminal show of a product over all records, or of the summary."""
     return results / KEPT / "rows" / f"{product}.json"
 
 

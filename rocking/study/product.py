@@ -3,8 +3,8 @@
 It is data, and loads nothing: every command, its help and the plan read it.
 """
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -73,8 +73,6 @@ class Product:
         Whether every run of a study makes it, rather than its verb alone.
     folder : str
         In the results, where its files lie.
-    opened : Mapping[str, str]
-        Files that a reader opens after a run, and what each is to them.
     opens_records : bool
         Whether it reads the files of the records.
     after_records : bool
@@ -100,7 +98,6 @@ class Product:
     named_files: tuple[str, ...] = ()
     pool: str = ""
     folder: str = "summary"
-    opened: Mapping[str, str] = field(default_factory=dict)
     opens_records: bool = False
     after_records: bool = False
     is_measured: bool = False

@@ -18,7 +18,6 @@ CHECKS = Product(
         if settings.design_spectrum.is_given
         else "setting design_spectrum.ag_g is null, and so is points, but checks need a design level; give one."
     ),
-    opened={"structures.pdf": "a page of each structure, to sign"},
     after_records=True,
 )
 FRAGILITY = Product(

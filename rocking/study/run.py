@@ -10,15 +10,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import BinaryIO
 
-from rocking.assessment.rows import (
-    ComparisonRow,
-    ExpectedFallsRow,
-    FailureRow,
-    RecordRow,
-    VerdictRow,
-    WarningRow,
-    made_records,
-)
+from rocking.assessment.rows import FailureRow
 from rocking.errors import ConfigurationError, RockingError
 from rocking.progress import fitting
 from rocking.quantities import counted
@@ -28,16 +20,7 @@ from rocking.study.flow import SNAKEFILE, workflow_folder
 from rocking.study.kept import kept_in
 from rocking.study.outputs import kept_of
 from rocking.study.plan import Plan, check_config_file, check_files, config_file, make_plan
-from rocking.study.product import Product
-from rocking.study.products import PRODUCTS
-from rocking.study.terminal import (
-    check_any_read,
-    closing_lines,
-    conclusion_lines,
-    failing_lines,
-    paths_to_read,
-)
-from rocking.tables import read_rows, read_table, rows_of
+from rocking.study.products import BY_NAME
 
 _LOCK = Path(".snakemake") / "rocking_run.lock"
 """Locked by `rocking run` while it works, in the folder of the study; holds the marks of a run until it has ended."""
@@ -53,14 +36,16 @@ _PART = ("--until", "-U", "--omit-from", "-O")
 def run(folder: Path, options: Sequence[str]) -> int:
     """Run the workflow on the study in `folder`, with further options for snakemake, and return the exit status.
 
-    The status is 0, or 1 when a record or a job failed. Raises ConfigurationError, before
-    snakemake starts, when the folder holds no study or the study has defects; RockingError when another run
-    works in it.
+    The status is 0, or 1 when a record, a product or a job failed. Raises ConfigurationError, before
+    snakemake starts, when the folder holds no study, the study has defects, or its settings cannot make the product
+    that is asked for; RockingError when another run works in it.
     """
     plan = _plan(folder)
     target = options[0] if options and not options[0].startswith("-") else ""
     if any(len(option) > 4 and "--trust-io-cache".startswith(option.partition("=")[0]) for option in options):
         raise ConfigurationError("--trust-io-cache would run what .snakemake/iocache holds; leave it out.")
+    if target in BY_NAME and (refusal := BY_NAME[target].refusal(plan.settings)):
+        raise ConfigurationError(refusal, setting=target)
     arguments = [
         *("--snakefile", SNAKEFILE, "--directory", str(folder)),
         *("--workflow-profile", str(workflow_folder() / "workflow" / "profiles" / "default")),
@@ -87,33 +72,17 @@ def run(folder: Path, options: Sequence[str]) -> int:
     if status:
         print(f"Not finished: {_end_of(log)}\nWhat is finished stays; to go on: rocking run {folder}")
         return 1
-    if target or any(option.startswith(_PART) for option in options):
+    if target not in ("", "summary", *BY_NAME) or any(option.startswith(_PART) for option in options):
         print(f"Finished: {' '.join(options)}; what it wrote lies in {folder / plan.results}")
         return 0
-    return _print_outcome(folder, plan)
-
-
-def run_product(folder: Path, product: Product) -> int:
-    """Make a product over all records of the study in `folder`, print its lines, and return the status of `run`.
-
-    Raises ConfigurationError, before a record is computed, for settings that cannot make it.
-    """
-    if refusal := product.refusal(_plan(folder).settings):
-        raise ConfigurationError(refusal, setting=product.name)
-    status = run(folder, [product.name])
-    if not status:
-        from rocking.study.work import work_of  # what draws takes a second to import
-
-        results = folder / _plan(folder).results
-        work = work_of(product)
-        kept = kept_in(kept_of(results, product.name), (*work.shown, FailureRow))
-        documents = [results / product.folder / name for name in product.files if name.endswith(".pdf")]
-        failures = rows_of(FailureRow, kept.rows)
-        lines = [*work.lines(kept.rows), *failing_lines(failures), *conclusion_lines(kept.conclusion)]
-        for line in (*lines, *(f"{'Open':<8}{path}" for path in documents)):
-            print(fitting(line, sys.stdout))
-        status = int(bool(failures))
-    return status
+    kept = kept_in(kept_of(folder / plan.results, target or "summary"), [FailureRow])
+    heads = ("Open", *[""] * len(kept.opened))
+    paths = (
+        f"{head:<8}{folder / plan.results / name}" for head, name in zip(heads, kept.opened, strict=False)
+    )
+    for line in (*kept.lines, *paths):
+        print(fitting(line, sys.stdout))
+    return int(bool(kept.rows[FailureRow]))
 
 
 def _end_of(log: Path) -> str:
@@ -123,30 +92,6 @@ def _end_of(log: Path) -> str:
         line for line in lines if line and not line.startswith(("Complete log", "Shutting down", "Exiting"))
     ]
     return f"{' '.join(said[-3:])} ({log} says more)"
-
-
-def _print_outcome(folder: Path, plan: Plan) -> int:
-    """Print what came of a whole study, and return the exit status."""
-    results = folder / plan.results
-    made = [product for product in PRODUCTS if product.name in plan.products]
-    failures = read_table(FailureRow, results / "summary")
-    # Not by verdicts.csv: a table is print.
-    of_records = (kept_in(folder / path, [VerdictRow]).rows for path in plan.outcomes)
-    verdicts = [row for rows in of_records for row in rows_of(VerdictRow, rows)]
-    comparison = read_rows(ComparisonRow, results / "summary" / ComparisonRow.table.file_name)
-    falls = read_table(ExpectedFallsRow, results / "summary")
-    warnings = read_rows(WarningRow, results / "summary" / WarningRow.table.file_name)
-    not_recorded = made_records(read_rows(RecordRow, results / "summary" / RecordRow.table.file_name))
-    lines = [*closing_lines(verdicts, comparison, failures, falls, warnings, not_recorded)]
-    for product in made:
-        lines += conclusion_lines(kept_in(kept_of(results, product.name), ()).conclusion)
-    opened = {
-        results / product.folder / name: what for product in made for name, what in product.opened.items()
-    }
-    check_any_read(results / "summary", plan.records)
-    for line in (*lines, *paths_to_read(results, verdicts, plan.settings.reports, opened)):
-        print(fitting(line, sys.stdout))
-    return int(bool(failures))
 
 
 def _plan(folder: Path) -> Plan:

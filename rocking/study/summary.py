@@ -2,19 +2,22 @@
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rocking.assessment.conclusion import conclusions, worst_of_each
+from rocking.assessment.decide import worst_first
 from rocking.assessment.rows import (
     SUMMARY_TABLES,
     ComparisonRow,
+    ExpectedFallsRow,
     FailureRow,
     PulseRow,
     TimingRow,
     VariationRow,
     VerdictRow,
+    WarningRow,
+    worst_period_each,
 )
 from rocking.assessment.scene import variants_of
 from rocking.assessment.variants import VariantRow, variants
@@ -23,12 +26,13 @@ from rocking.reports.printing import write_document
 from rocking.reports.style import svg
 from rocking.study.documents import made_or_failed
 from rocking.study.job import Job, Study
-from rocking.study.kept import Rows, kept_in
+from rocking.study.kept import Kept, keep, kept_in
 from rocking.study.outputs import SUMS, former_files, kept_of, remove, sums_of
 from rocking.study.plan import versions
 from rocking.study.products import BY_NAME
 from rocking.study.settings import package_sha256, structure_hashes
 from rocking.study.summary_tables import write_summary
+from rocking.study.terminal import closing_lines, wrapped
 from rocking.study.work import Work, work_of
 from rocking.tables import (
     Row,
@@ -48,17 +52,10 @@ _NAMED = 4
 """Files that are removed which a line names."""
 WORKBOOK = "study.xlsx"
 """The tables of the summary in one file."""
+MadeProduct = tuple[Work, Kept]
+"""A product over all records that the summary shows."""
 _NOT_IN_THE_WORKBOOK = (TimingRow, VariationRow)
 """The times differ from run to run; the variations of each case are ten times as many as the cases."""
-
-
-@dataclass(frozen=True)
-class MadeProduct:
-    """A product over all records that the summary shows: its work, its rows, and what they come down to."""
-
-    work: Work
-    rows: Rows
-    conclusion: str
 
 
 # Whole on purpose: the list of what stands over all records, in the order in which one comes from the other.
@@ -68,12 +65,11 @@ def summarise(job: Job) -> None:
     target = job.results / "summary"
     instead = [name for name, scene in study.scenes.items() if scene.variant_of]
     made = [_read_product(job, name) for name in job.plan.products]
-    faults = [fault for product in made for fault in product.rows[FailureRow]]
+    faults = [fault for _, kept in made for fault in kept.rows[FailureRow]]
     shown, pages, spectra, sums = write_summary(
         job.outcomes(),
         study.structures,
         target,
-        study.settings.reports,
         instead,
         faults,
         study.settings.unnamed_events == "each",
@@ -94,11 +90,15 @@ def summarise(job: Job) -> None:
     text = json.dumps(provenance, indent=1, sort_keys=True, default=str)
     write_whole(target / "provenance.json", (text + "\n").encode())
     if study.settings.reports:
-        _documents(job, target, shown, made, pages, spectra)
+        faults = _documents(job, target, shown, made, pages, spectra)
+        shown[FailureRow] += faults
+        if faults:
+            write_tables({FailureRow: shown[FailureRow]}, target)
     for rule in (*job.plan.products, "summary"):
         sums |= sums_of(rule, study.settings)
     lines = (f"{sha256}  {path}\n".encode() for path, sha256 in sorted(sums.items()))
     write_whole(job.results / SUMS, lines)
+    keep(kept_of(job.results, job.rule), _kept(job, shown, made))
     if not job.plan.by_name:  # else the results of other jobs lie elsewhere
         _remove_former(job)
 
@@ -121,8 +121,8 @@ def _documents(
     made: Sequence[MadeProduct],
     pages: Sequence[dict[str, Any]],
     spectra: Sequence[Sequence[float]],
-) -> None:
-    """Write report, figure, page to explore and workbook over all records.
+) -> list[FailureRow]:
+    """Write report, figure, page to explore and workbook over all records; return a row for each that cannot be made.
 
     shown: the rows of the summary. made: the other products. pages: of each record. spectra: of the components.
     """
@@ -135,9 +135,9 @@ def _documents(
         if row_class not in _NOT_IN_THE_WORKBOOK
     }
     notes: dict[str, list[str]] = {}
-    for product in made:
-        sheets |= {of_sheet: [*rows] for of_sheet in product.work.sheets if (rows := product.rows[of_sheet])}
-        for structure, note in product.work.notes(product.rows).items():
+    for work, kept in made:
+        sheets |= {of_sheet: [*rows] for of_sheet in work.sheets if (rows := kept.rows[of_sheet])}
+        for structure, note in work.notes(kept.rows).items():
             notes.setdefault(structure, []).append(note)
     drawn: list[Strip] = []
     if groups := variants_of(study.scenes):
@@ -146,7 +146,7 @@ def _documents(
         compared = variants(groups, worst_of_each(conclusions(rows_of(VerdictRow, shown), [])))
         drawn = strips(compared, study.structures, notes=notes)
         sheets[VariantRow] = [VariantRow.of(variant) for row in compared.values() for variant in row]
-    findings = [product.conclusion for product in made if product.conclusion]
+    findings = [kept.conclusion for _, kept in made if kept.conclusion]
     title = study.settings.study or ""
     figures = study.settings.figures
     pdf, scatter = target / "summary.pdf", target / SCATTER
@@ -163,15 +163,29 @@ def _documents(
     faults += made_or_failed(
         book, lambda: write_whole(book, workbook(sheets, title, opens_on=VerdictRow)), job.log
     )
-    if faults:
-        write_tables({FailureRow: [*shown.get(FailureRow, []), *faults]}, target)
+    return faults
+
+
+def _kept(job: Job, shown: Mapping[type[Row], list[Row]], made: Sequence[MadeProduct]) -> Kept:
+    """What `rocking run` says at its end."""
+    verdicts = rows_of(VerdictRow, shown)
+    failures = rows_of(FailureRow, shown)
+    warnings = rows_of(WarningRow, shown)
+    lines = [*closing_lines(verdicts, failures, rows_of(ExpectedFallsRow, shown), warnings)]
+    for _, kept in made:
+        lines += wrapped(kept.conclusion)
+    records = worst_first((row.record, row.severity) for row in worst_period_each(verdicts))
+    opened = ["summary/summary.pdf", *(f"{record}/report.pdf" for record in records[:1])]
+    opened += [*(path for _, kept in made for path in kept.opened), "summary/study.html"]
+    if not job.study.settings.reports:
+        opened = ["summary"]
+    return Kept({FailureRow: failures}, lines=lines, opened=opened)
 
 
 def _read_product(job: Job, name: str) -> MadeProduct:
-    """What another product over all records has kept, and its work."""
+    """The work of another product over all records, and what it has kept."""
     work = work_of(BY_NAME[name])
-    kept = kept_in(kept_of(job.results, name), (*work.shown, FailureRow))
-    return MadeProduct(work, kept.rows, kept.conclusion)
+    return work, kept_in(kept_of(job.results, name), (*work.shown, FailureRow))
 
 
 def _report(
@@ -190,8 +204,8 @@ def _report(
 
     level = study.settings.design_spectrum.spectrum()
     design = (level, spectra) if level is not None and spectra else None
-    panels = [panel for product in made if (panel := product.work.panel(product.rows))]
-    findings = [product.conclusion for product in made if product.conclusion]
+    panels = [panel for work, kept in made if (panel := work.panel(kept.rows))]
+    findings = [kept.conclusion for _, kept in made if kept.conclusion]
     page = summary_data(rows, study.settings.for_pages, design, strips, findings, panels, study.structures)
     write_document(pdf, page, study.settings.figures)
 

@@ -49,7 +49,6 @@ def write_summary(
     outcomes: Iterable[Kept],
     structures: Mapping[str, Structure],
     target: Path,
-    reports: bool,
     variants: Collection[str] = (),
     faults: Collection[Row] = (),
     each_unnamed: bool = False,
@@ -58,11 +57,10 @@ def write_summary(
 ) -> tuple[dict[type[Row], list[Row]], list[dict[str, Any]], list[Sequence[float]], dict[str, str]]:
     """Write the tables of the summary into `target`, record by record.
 
-    reports: whether the rows of ON_PAGES, and what the page to explore and the spectra show of each record, are
-    returned as well. variants: names of structures that
-    stand for another one. faults: of what else stands over all records. each_unnamed: whether records that name no
-    earthquake are of one each. warnings: on the study itself. scale: the block that predicts. Returned as the last are
-    the hashes of the files of the records.
+    variants: names of structures that stand for another one. faults: of what else covers all records. each_unnamed:
+    whether records that name no earthquake are of one each. warnings: on the study itself. scale: the block that
+    predicts. Returned are the rows of ON_PAGES and of the tables over all records, what the page to explore and the
+    spectra show of each record, and the hashes of the files of the records.
     """
     kept: dict[type[Row], list[Row]] = {row_class: [] for row_class in SUMMARY_TABLES}
     pages: list[dict[str, Any]] = []
@@ -78,11 +76,11 @@ def write_summary(
             for row_class in of_records
         }
         write[WarningRow](warnings)  # what was typed, before what records say
-        kept[WarningRow] += warnings if reports else ()
+        kept[WarningRow] += warnings
         for outcome in outcomes:
             for row_class in of_records:
                 write[row_class](outcome.rows[row_class])
-            for row_class in ON_PAGES if reports else ():
+            for row_class in ON_PAGES:
                 kept[row_class] += outcome.rows[row_class]
             read += rows_of(RecordRow, outcome.rows)[:1]
             verdicts = rows_of(VerdictRow, outcome.rows)
@@ -90,9 +88,8 @@ def write_summary(
             sums |= outcome.sums
             if falls := falls_under(verdicts, variants):
                 falls_of_records.append(falls)
-            if reports:
-                pages.append(outcome.page)
-                spectra += outcome.spectra.values()
+            pages.append(outcome.page)
+            spectra += outcome.spectra.values()
         failures = [*faults]
         for name, structure in structures.items():
             with failures_of_structure(failures, name):
@@ -100,11 +97,11 @@ def write_summary(
             with failures_of_structure(failures, name):
                 kept[CapacityRow] += capacity_rows({name: structure})
         write[FailureRow](failures)
-        kept[FailureRow] += failures if reports else ()
+        kept[FailureRow] += failures
         identifiers, sample = sample_of_records(read, each_unnamed)
         of_sample = WarningRow.of_study(sample.warnings)
         write[WarningRow](of_sample)
-        kept[WarningRow] += of_sample if reports else ()
+        kept[WarningRow] += of_sample
         names = dict(zip(identifiers, zip(sample.stations, sample.events, strict=True), strict=True))
         of_all = falls_over(
             falls_of_records, ClusterSample.named(names[falls.record] for falls in falls_of_records)

@@ -2,7 +2,6 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from typing import ClassVar
@@ -13,21 +12,9 @@ from rocking.reports.printing import Figures, faults_in_words
 from rocking.reports.style import new_figure, svg
 from rocking.study.documents import write_reason
 from rocking.study.job import Job, costs_no_other
-from rocking.study.kept import Rows
+from rocking.study.kept import Kept, Rows
 from rocking.study.product import Product
 from rocking.tables import Row, write_whole
-
-
-@dataclass(frozen=True)
-class Made:
-    """What a job has made: the rows of its tables and of its faults, which are kept for the summary.
-
-    conclusion: the sentence that it comes down to, on page one of the summary, on the page to explore and at the end of
-    a run; "" for none.
-    """
-
-    rows: Rows
-    conclusion: str = ""
 
 
 class Work(ABC):
@@ -39,8 +26,8 @@ class Work(ABC):
     """Those of them that are sheets of study.xlsx."""
 
     @abstractmethod
-    def make(self, job: Job) -> Made:
-        """Write the files of the product into `job.folder`."""
+    def make(self, job: Job) -> Kept:
+        """Write the files of the product into `job.folder`; return its rows, those of faults and its conclusion."""
 
     def panel(self, rows: Rows) -> Panel | None:
         """Return what the summary shows; None for nothing."""

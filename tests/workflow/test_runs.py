@@ -124,5 +124,6 @@ def test_a_study_of_broken_records_only_has_failed(start, tmp_path: Path) -> Non
     study.write_catalogue([])
     for name in ("one", "two"):
         study.add(name, name.encode())
-    assert "none of 2 records could be read" in study.rocking("run", str(study.folder), status=1).stderr
+    told = study.rocking("run", str(study.folder), status=1).stdout
+    assert "2 records failed, wholly or in part: one, two; the first: " in told
     assert (study.results / "summary" / "failures.csv").read_text().count("\n") == 3, "the tables say why"

@@ -30,10 +30,10 @@ from rocking.reports.printing import sentence, strong, table_of, words, write_do
 from rocking.structures.structure import Candidate
 from rocking.study.documents import made_or_failed
 from rocking.study.job import Job, Study
-from rocking.study.kept import Rows
+from rocking.study.kept import Kept, Rows
 from rocking.study.products import CHECKS
 from rocking.study.selection import pool_of, select_for
-from rocking.study.work import Made, Work
+from rocking.study.work import Work
 from rocking.tables import rows_of, write_tables
 from rocking.warnings import RockingWarning
 
@@ -44,7 +44,7 @@ class Checks(Work):
     shown = (CodeCheckRow,)
     sheets = (CodeCheckRow,)
 
-    def make(self, job: Job) -> Made:
+    def make(self, job: Job) -> Kept:
         """Check every structure, and set against it what became of it under the records of the study."""
         rows = [outcome.rows for outcome in job.outcomes()]
         checked, faults = write_checks(
@@ -55,7 +55,7 @@ class Checks(Work):
             job.show_line,
             [row for table_rows in rows for row in rows_of(MechanismRow, table_rows)],
         )
-        return Made(
+        return Kept(
             {CodeCheckRow: checked, FailureRow: faults}, code_conclusion_in_words(code_conclusions(checked))
         )
 

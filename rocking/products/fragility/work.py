@@ -30,8 +30,8 @@ from rocking.reports.pages import Panel
 from rocking.reports.printing import faults_in_words
 from rocking.structures import Mechanism
 from rocking.study.job import Job, Study, costs_no_other
-from rocking.study.kept import Rows
-from rocking.study.work import Made, Work, write_documents
+from rocking.study.kept import Kept, Rows
+from rocking.study.work import Work, write_documents
 from rocking.tables import Row, write_tables, write_whole
 
 OPENQUAKE = "fragility.xml"
@@ -43,14 +43,14 @@ class Fragilities(Work):
 
     shown = (FragilitySummaryRow, IdaRow)
 
-    def make(self, job: Job) -> Made:
+    def make(self, job: Job) -> Kept:
         """Scale the records until the structures overturn."""
         folder = job.folder
         rows, reasons = write_fragility(job.records, job.study, folder, job.show_line, job.log)
         write = partial(write_fragility_report, rows) if rows[FragilityRow] else None
         write_documents(write, folder / "fragility.pdf", folder / "fragility.svg", job, rows[FailureRow])
         job.show_line("\n".join([*reasons, *faults_in_words(rows)]) or "All records were used.")
-        return Made(rows)
+        return Kept(rows)
 
     def panel(self, rows: Rows) -> Panel | None:
         """Return what the curves of each structure come down to."""

@@ -7,8 +7,8 @@ from rocking.products.map.rows import StationRow, station_rows
 from rocking.quantities import counted
 from rocking.reports.pages import Panel
 from rocking.study.job import Job
-from rocking.study.kept import Rows
-from rocking.study.work import Made, Work
+from rocking.study.kept import Kept, Rows
+from rocking.study.work import Work
 from rocking.tables import rows_of, write_tables, write_whole
 
 
@@ -18,7 +18,7 @@ class Map(Work):
     shown = (StationRow, VerdictRow)
     sheets = (StationRow,)
 
-    def make(self, job: Job) -> Made:
+    def make(self, job: Job) -> Kept:
         """Write the stations as table and GeoJSON."""
         instead = [name for name, scene in job.study.scenes.items() if scene.variant_of]
         records: list[list[RecordRow]] = []
@@ -35,7 +35,7 @@ class Map(Work):
         if missing := sum(map(bool, records)) - len(stations):
             job.show_line(f"{counted(missing, 'station')} without coordinates, which the map leaves out")
         placed = {station.record for station in stations}
-        return Made({StationRow: stations, VerdictRow: [row for row in verdicts if row.record in placed]})
+        return Kept({StationRow: stations, VerdictRow: [row for row in verdicts if row.record in placed]})
 
     def panel(self, rows: Rows) -> Panel | None:
         """Return a map of each of the worst structures at the stations of one earthquake; None without one to draw."""

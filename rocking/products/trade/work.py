@@ -29,9 +29,9 @@ from rocking.records import Accelerogram
 from rocking.reports.pages import Panel
 from rocking.structures import Structure
 from rocking.study.job import Job, Study, costs_no_other
-from rocking.study.kept import Rows
+from rocking.study.kept import Kept, Rows
 from rocking.study.terminal import WIDTH
-from rocking.study.work import Made, Work, write_documents
+from rocking.study.work import Work, write_documents
 from rocking.tables import Row, rows_of, write_tables
 
 
@@ -40,7 +40,7 @@ class Trade(Work):
 
     shown = (TradeRow,)
 
-    def make(self, job: Job) -> Made:
+    def make(self, job: Job) -> Kept:
         """Measure the error and the time of every method, on records and structures of the study."""
         study = job.study
         folder = job.folder
@@ -68,7 +68,7 @@ class Trade(Work):
         write_tables({TradeRow: rows[TradeRow]}, folder, "rocking-trade", "trade.json")
         write = partial(write_trade_report, rows)
         write_documents(write, folder / "trade.pdf", folder / "trade.svg", job, rows[FailureRow])
-        return Made(rows)
+        return Kept(rows)
 
     def panel(self, rows: Rows) -> Panel | None:
         """Return the figure of error against time, and what follows."""

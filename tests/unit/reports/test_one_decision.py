@@ -115,7 +115,7 @@ def test_the_workbook_holds_it(report, decisions):
 
 
 def test_the_terminal_says_it(report, decisions):
-    line = record_line(report.result.scenes.values(), [])
+    line = record_line(report.tables.verdicts, [])
     told = [text for period in report.result.periods for text in _lines_of(period, 1.0)]
     for name, decision in decisions.items():
         (own,) = (text for text in told if text.startswith(f"{name}: "))
@@ -242,7 +242,7 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
     rows = {row.name: row for row in data.page_one.rows}
     cells = {row.name: row.cells[0] for row in summary.matrix.rows}
     table = {line[0].text: line for line in summary.structures.table.rows}
-    line = record_line(result.scenes.values(), [])
+    line = record_line(tables.verdicts, [])
     page = explore_page([content], study.structures).decode()
     assert data.conclusion == summary.conclusion and data.conclusion in page
     for name, station in worst.items():

@@ -33,7 +33,7 @@ from rocking.structures.structure import AS_DESCRIBED
 from rocking.study.job import Study
 from rocking.study.kept import Kept, keep, kept_in
 from rocking.study.settings import Settings, read_settings
-from rocking.study.terminal import conclusion_lines
+from rocking.study.terminal import wrapped
 from rocking.tables import read_table
 from rocking.tables.workbook import workbook
 from rocking.warnings import Kind, RockingWarning
@@ -289,7 +289,7 @@ def test_the_same_conclusion_stands_in_terminal_summary_workbook_and_page_to_exp
     sentence = code_conclusion_in_words(concluded)
     keep(tmp_path / "checks.json", Kept({CodeCheckRow: rows}, sentence))
     kept = kept_in(tmp_path / "checks.json", ()).conclusion
-    assert " ".join(line.strip(" ") for line in conclusion_lines(kept)) == sentence
+    assert " ".join(line.strip(" ") for line in wrapped(kept)) == sentence
     work = Checks()
     beside = {CodeCheckRow: rows}
     panel = work.panel(beside)

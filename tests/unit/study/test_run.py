@@ -2,7 +2,11 @@
 
 import pytest
 
+from rocking.assessment.rows import FailureRow
 from rocking.study import run as module
+from rocking.study.kept import Kept, keep
+from rocking.study.outputs import kept_of
+from tests.unit.assessment.made_rows import failure
 
 
 @pytest.fixture
@@ -14,17 +18,32 @@ def study(tmp_path, monkeypatch):
     (tmp_path / "structures.yaml").write_text("- {name: pier, type: block, breadth_m: 1, height_m: 4}\n")
     (tmp_path / "config.yaml").write_text("")
     monkeypatch.setattr(module, "warm_up", lambda settings: None)
-    monkeypatch.setattr(module, "_print_outcome", lambda folder, plan: 7)
     return tmp_path
 
 
 @pytest.mark.parametrize(
-    ("ended", "options", "status"),
-    [(0, [], 7), (1, [], 1), (3, [], 1), (1, ["summary"], 1), (0, ["summary"], 0)],
+    ("ended", "options", "failures", "status"),
+    [
+        (0, [], 0, 0),
+        (0, [], 2, 1),
+        (0, ["trade"], 1, 1),
+        (1, [], 0, 1),
+        (3, [], 0, 1),
+        (1, ["summary"], 0, 1),
+        (0, ["--until", "read"], 1, 0),
+    ],
 )
-def test_the_status_of_a_run_is_that_of_its_jobs(study, monkeypatch, ended, options, status):
+def test_the_status_of_a_run_is_that_of_its_jobs_and_of_what_failed(
+    study, monkeypatch, capsys, ended, options, failures, status
+):
     monkeypatch.setattr(module, "_snakemake", lambda arguments: ended)
+    made = Kept({FailureRow: [failure("")] * failures}, lines=["what came of it"], opened=["a.pdf", "b.pdf"])
+    target = "trade" if options == ["trade"] else "summary"
+    keep(kept_of(study / "results", target), made)
     assert module.run(study, options) == status
+    told = capsys.readouterr().out
+    shown = not ended and "--until" not in options
+    assert ("what came of it" in told) == (f"Open    {study / 'results' / 'a.pdf'}" in told) == shown
 
 
 @pytest.mark.parametrize("ended", [None, 0, 5])
