@@ -20,11 +20,12 @@ def made_or_failed(
     log: Path | str,
     figures: Figures = "none",
     record: str = "",
+    image: Path | None = None,
 ) -> list[FailureRow]:
     """Let `make` write the document `path`; where it cannot, write a page there that says why, and return its row.
 
-    log: what holds the traceback. record: that the document is about; "" for all. What is wrong with the machine
-    passes.
+    log: what holds the traceback. record: that the document is about; "" for all. image: the figure of the document,
+    which is then an empty one. What is wrong with the machine passes.
     """
     try:
         make()
@@ -34,7 +35,8 @@ def made_or_failed(
     except Exception as fault:
         print_exception(fault)
         sentence = fault_in_words(fault, log, path.name)
-        write_reason(path, [sentence], figures)
+        for file in filter(None, (path, image)):
+            write_reason(file, [sentence], figures)
         return [FailureRow(record=record, stage="document", message=sentence)]
 
 

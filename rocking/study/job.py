@@ -210,19 +210,18 @@ def costs_no_other(
         faults.append(FailureRow(record=record, structure=structure, stage="fault", message=sentence))
 
 
-def write_record(
-    result: RecordResult, record: CatalogueRecord, study: Study, log: Path, pulses_sha256: str
-) -> None:
-    """Write what the report of a record gives, and its outcome for what stands over all records.
-
-    pulses_sha256: names what its pulses are made from in the rows about its components.
-    """
+def write_record(result: RecordResult, record: CatalogueRecord, study: Study, log: Path) -> None:
+    """Write what the report of a record gives, and its outcome for what covers all records."""
     settings = study.settings
     if settings.histories:
         result = with_histories(result, settings.tolerance)
     rows = rows_of(result, record, study)
-    of_pulses = rows_of(result, record, replace(study, settings_sha256=pulses_sha256))
-    rows = replace(rows, record=of_pulses.record, pulses=of_pulses.pulses)
+    of_pulses = settings_sha256(settings.only(MADE_FROM["pulses"]), {})  # by which their own step names them
+    rows = replace(
+        rows,
+        record=[replace(row, settings_sha256=of_pulses) for row in rows.record],
+        pulses=[replace(row, settings_sha256=of_pulses) for row in rows.pulses],
+    )
     results = Path(settings.results)
     folder = results / record.id
     page: dict[str, Any] = {}

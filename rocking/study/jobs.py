@@ -10,7 +10,7 @@ from rocking.assessment.rows import FailureRow
 from rocking.errors import RockingError, fault_in_words
 from rocking.study.documents import write_reason
 from rocking.study.job import Job, Study
-from rocking.study.kept import Kept, keep
+from rocking.study.kept import Kept, Rows, keep
 from rocking.study.outputs import outputs_of
 from rocking.study.plan import Plan
 from rocking.study.products import BY_NAME
@@ -33,8 +33,7 @@ def run(rule: str, plan: Plan, log: str, cores: int, folder: str) -> None:
         match rule:
             case "read" | "pulses" | "predict" | "integrate" | "report":
                 (record,) = plan.records.values()
-                pulses_sha256 = Study.of_step(plan, "pulses").settings_sha256
-                Steps(record, Study.of_step(plan, rule), Path(log), pulses_sha256).take(rule)
+                Steps(record, Study.of_step(plan, rule), Path(log)).take(rule)
             case "summary":
                 summarise(Job(rule, plan, Study.of(plan), Path(log)))
             case _:
@@ -61,8 +60,8 @@ def product(job: Job) -> None:
             else:
                 write_whole(path, b"")
         fault = FailureRow(stage=job.rule, message=sentence)
-        made = Kept({row_class: [] for row_class in work.shown} | {FailureRow: [fault]})
-    rows = {FailureRow: [], **made.rows}
+        made = Kept({**dict.fromkeys(work.shown, ()), FailureRow: [fault]})
+    rows: Rows = {FailureRow: [], **made.rows}
     lines = [*work.lines(rows), *failing_lines(rows_of(FailureRow, rows)), *wrapped(made.conclusion)]
     opened = [f"{face.folder}/{name}" for name in face.files if name.endswith(".pdf")]
     keep(job.kept, replace(made, rows=rows, lines=lines, opened=opened))

@@ -6,6 +6,7 @@ rule of the study gives any more is removed.
 
 import re
 from collections.abc import Iterable, Mapping
+from operator import attrgetter
 from pathlib import Path
 
 from rocking.assessment.rows import (
@@ -16,9 +17,9 @@ from rocking.assessment.rows import (
     RecordRow,
     TimingRow,
 )
-from rocking.catalogue.catalogue import is_safe_id
+from rocking.catalogue.catalogue import NAME_OF_RECORD
 from rocking.hashes import sha256_of_file
-from rocking.study.product import KEPT, Output, draws
+from rocking.study.product import KEPT, KEPT_ROWS, Output, draws
 from rocking.study.products import PRODUCTS
 from rocking.study.settings import Settings
 from rocking.tables import Row
@@ -27,12 +28,7 @@ SUMS = "SHA256SUMS"
 """In the folder of the results: the hashes of the pages to sign and of the tables, for sha256sum -c."""
 
 
-def _reports(settings: Settings) -> bool:
-    return settings.reports
-
-
-def _histories(settings: Settings) -> bool:
-    return settings.histories
+_reports = attrgetter("reports")
 
 
 def _draws_reports(settings: Settings) -> bool:
@@ -59,21 +55,29 @@ def _tables(step: str) -> list[Output]:
 
 
 def _times(step: str, is_store: bool = False) -> Output:
-    return Output(f"{KEPT}/times/{step}/{{record}}.json", is_store=is_store)
+    return Output(_TIMES.format(step=step, record="{record}"), is_store=is_store)
 
 
+_OUTCOME = f"{KEPT}/outcomes/{{record}}.json"
+_TIMES = f"{KEPT}/times/{{step}}/{{record}}.json"
+_STORES = {
+    "pulses": "{record}/pulses.json",
+    "predict": "{record}/predictions.json",
+    "integrate": f"{KEPT}/cases/{{record}}.json",
+}
+"""The results of a step, by its name, which later steps and the next run look up."""
 OUTPUTS: Mapping[str, tuple[Output, ...]] = {
     "read": (Output("{record}/motion.mseed"), Output("{record}/motion.json"), _times("read")),
-    "pulses": (*_tables("pulses"), Output("{record}/pulses.json"), _times("pulses")),
-    "predict": (*_tables("predict"), Output("{record}/predictions.json"), _times("predict")),
-    "integrate": (Output(f"{KEPT}/cases/{{record}}.json", is_store=True), _times("integrate", is_store=True)),
+    "pulses": (*_tables("pulses"), Output(_STORES["pulses"]), _times("pulses")),
+    "predict": (*_tables("predict"), Output(_STORES["predict"]), _times("predict")),
+    "integrate": (Output(_STORES["integrate"], is_store=True), _times("integrate", is_store=True)),
     "report": (
         *_tables("report"),
-        Output("{record}/histories.csv", _histories),
-        Output("{record}/report.pdf", _reports, label="report", caption="record", category="Records"),
+        Output("{record}/histories.csv", attrgetter("histories")),
+        Output("{record}/report.pdf", _reports, label="report", category="Records"),
         Output("{record}/explore.js", _reports),
         Output("{record}/report_figures.zip", _draws_reports),
-        Output(f"{KEPT}/outcomes/{{record}}.json"),
+        Output(_OUTCOME),
     ),
     "summary": (
         *(
@@ -81,37 +85,23 @@ OUTPUTS: Mapping[str, tuple[Output, ...]] = {
                 f"summary/{row_class.table.file_name}",
                 is_measured=row_class is TimingRow,
                 label=row_class.table.description,
-                caption="table",
                 category="Tables",
             )
             for row_class in SUMMARY_TABLES
         ),
-        Output(
-            "summary/summary.pdf",
-            _reports,
-            label="report on all records",
-            caption="summary",
-            category="Study",
-        ),
+        Output("summary/summary.pdf", _reports, label="report on all records", category="Study"),
         Output(
             "summary/prediction_against_integration.svg",
             _reports,
             label="prediction against integration",
-            caption="scatter",
             category="Study",
         ),
-        Output(
-            "summary/study.html",
-            _reports,
-            label="page to explore the study",
-            caption="explore",
-            category="Study",
-        ),
+        Output("summary/study.html", _reports, label="page to explore the study", category="Study"),
         Output("summary/study.xlsx", _reports),
         Output("summary/summary_figures.zip", _draws_reports),
         Output("summary/provenance.json"),
         Output("summary/datapackage.json"),
-        Output(f"{KEPT}/rows/summary.json"),
+        Output(KEPT_ROWS.format(rule="summary")),
         Output(SUMS),
     ),
     **{product.name: product.outputs for product in PRODUCTS},
@@ -143,27 +133,22 @@ def log_of(rule: str, record: str = "") -> str:
 
 def kept_of(results: Path, product: str) -> Path:
     """Return the file that keeps what summary and terminal show of a product over all records, or of the summary."""
-    return results / KEPT / "rows" / f"{product}.json"
+    return results / KEPT_ROWS.format(rule=product)
 
 
 def outcome_of(results: Path, record: str) -> Path:
     """Return the file that keeps the outcome of a record."""
-    return results / KEPT / "outcomes" / f"{record}.json"
+    return results / _OUTCOME.format(record=record)
 
 
 def store_of(results: Path, step: str, record: str) -> Path:
-    """Return the file of the results of a step of a record, which later steps and the next run look up."""
-    names = {"pulses": "pulses", "predict": "predictions"}
-    return (
-        results / record / f"{names[step]}.json"
-        if step in names
-        else results / KEPT / "cases" / f"{record}.json"
-    )
+    """Return the file of the results of a step of a record."""
+    return results / _STORES[step].format(record=record)
 
 
 def times_of(results: Path, step: str, record: str) -> Path:
     """Return the file of how long those results took."""
-    return results / KEPT / "times" / step / f"{record}.json"
+    return results / _TIMES.format(step=step, record=record)
 
 
 def former_files(settings: Settings, products: Iterable[str], records: Iterable[str]) -> list[Path]:
@@ -189,12 +174,8 @@ def _may_be_ours(path: str) -> bool:
     """Whether a rule can give a file of this path, from the folder of the results."""
     names = [output.path for outputs in OUTPUTS.values() for output in outputs]
     names += [log_of(rule, "{record}" if rule in STEPS else "") for rule in OUTPUTS]
-    for name in names:
-        begin, record, end = name.partition("{record}")
-        found = re.fullmatch(f"{re.escape(begin)}([^/]+){re.escape(end)}", path) if record else None
-        if path == name or (found and is_safe_id(found[1])):
-            return True
-    return False
+    patterns = (re.escape(name).replace(r"\{record\}", NAME_OF_RECORD) for name in names)
+    return any(re.fullmatch(pattern, path) for pattern in patterns)
 
 
 def remove(results: Path, files: Iterable[Path]) -> None:

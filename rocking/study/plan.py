@@ -66,12 +66,6 @@ MADE_FROM: Mapping[str, tuple[str, ...]] = {
     **{product.name: (*NUMBERS, *product.settings) for product in PRODUCTS},
 }
 """The settings, and sections of settings, that each rule is made from. The steps of a record get no others."""
-NAMED_FILES: Mapping[str, tuple[str, ...]] = {
-    "report": ("design_spectrum.points",),
-    "summary": ("design_spectrum.points",),
-    **{product.name: product.named_files for product in PRODUCTS},
-}
-"""Those of them that name a file which the job reads."""
 
 
 def study_warnings(settings: Settings, scenes: Mapping[str, Scene]) -> tuple[RockingWarning, ...]:
@@ -168,18 +162,14 @@ class Plan:
     def files(self, rule: str, record: str = "") -> list[str]:
         """Return the further files that a job reads: of its records, and those that its settings name."""
         product = BY_NAME.get(rule)
+        of_rule = [name for name in file_settings() if {name, name.partition(".")[0]} & {*MADE_FROM[rule]}]
+        named = self.settings.values_of(of_rule)
         rows = [self.of(record).records[record]] if rule == "read" else []
-        if (product and product.opens_records) or (product and product.pool and not self._pool(rule)):
-            rows += self.records.values()
-        named = [path for path in self.settings.values_of(NAMED_FILES.get(rule, ())).values() if path]
-        if pool := self._pool(rule):
-            named.append(pool)
-            rows += _rows_of(pool)
-        return [*dict.fromkeys([*named, *(file for row in rows for file in self.files_of(row))])]
-
-    def _pool(self, rule: str) -> str:
-        name = BY_NAME[rule].pool if rule in BY_NAME else ""
-        return self.settings.values_of([name])[name] or "" if name else ""
+        if product and (product.opens_records or product.pool):
+            pool = named.get(product.pool)
+            rows += _rows_of(pool) if pool else self.records.values()
+        files = [file for row in rows for file in self.files_of(row)]
+        return [*dict.fromkeys([*filter(None, named.values()), *files])]
 
     # What it is made from --------------------------------------------------------------------------------
 

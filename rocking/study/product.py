@@ -12,13 +12,10 @@ if TYPE_CHECKING:
 
 KEPT = ".kept"
 """The folder in the results that holds what is kept for other products, and for the next run."""
+KEPT_ROWS = f"{KEPT}/rows/{{rule}}.json"
+"""What summary and terminal show of a rule over all records."""
 TOLD = ("study", "client", "project_number", "author", "date", "display_units")
 """The settings that the head of every document prints."""
-
-
-def always(_settings: "Settings") -> bool:
-    """Return that a file belongs to every study."""
-    return True
 
 
 def draws(settings: "Settings") -> bool:
@@ -32,16 +29,15 @@ class Output:
 
     path: from the folder of the results; {record} is the name of a record. when: whether the settings ask for it.
     is_store: whether it serves the next run alone, so that nobody misses it. is_measured: whether it holds measured
-    times: alone of all it may differ between two runs of the same input. label, caption, category: its place in the
-    page that snakemake --report makes; "" for none.
+    times: alone of all it may differ between two runs of the same input. label, category: its place in the page that
+    snakemake --report makes; "" for none.
     """
 
     path: str
-    when: Callable[["Settings"], bool] = always
+    when: Callable[["Settings"], bool] = lambda _settings: True
     is_store: bool = False
     is_measured: bool = False
     label: str = ""
-    caption: str = ""
     category: str = ""
 
 
@@ -65,8 +61,6 @@ class Product:
         Names of the files beside these.
     settings : tuple[str, ...]
         Settings, sections of settings and section.name that it is made from, beside those that change a number.
-    named_files : tuple[str, ...]
-        Those of them that name a file which it reads.
     pool : str
         The one that names another catalogue, the records of which it reads; "" for none.
     in_every_run : Callable[[Settings], bool]
@@ -95,7 +89,6 @@ class Product:
     files: tuple[str, ...]
     settings: tuple[str, ...]
     in_every_run: Callable[["Settings"], bool]
-    named_files: tuple[str, ...] = ()
     pool: str = ""
     folder: str = "summary"
     opens_records: bool = False
@@ -114,5 +107,5 @@ class Product:
         return (
             *(Output(f"{self.folder}/{name}", is_measured=self.is_measured) for name in names),
             *(Output(f"{self.folder}/{name}", draws) for name in figures),
-            Output(f"{KEPT}/rows/{self.name}.json"),
+            Output(KEPT_ROWS.format(rule=self.name)),
         )

@@ -10,7 +10,6 @@ CHECKS = Product(
     tables=("code_checks",),
     files=("code_checks.json", "structures.pdf"),
     settings=(*TOLD, "language", "figures", "design_spectrum", "checks"),
-    named_files=("design_spectrum.points",),
     pool="checks.pool",
     in_every_run=lambda settings: settings.design_spectrum.is_given,
     refusal=lambda settings: (
@@ -31,7 +30,6 @@ FRAGILITY = Product(
         "figures",
         *(f"fragility.{name}" for name in ("intensity_measure", "members", "largest_factor", "hazard")),
     ),
-    named_files=("fragility.hazard",),
     in_every_run=lambda settings: settings.fragility.in_every_run,
     folder="fragility",
     opens_records=True,

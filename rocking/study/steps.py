@@ -49,14 +49,12 @@ def of_the_machine(error: BaseException) -> bool:
 class Steps:
     """The steps of one record.
 
-    study: with the settings and structures from which the step is made. log: of the job. pulses_sha256: names what the
-    rows about components are made from.
+    study: with the settings and structures from which the step is made. log: of the job.
     """
 
     record: CatalogueRecord
     study: Study
     log: Path
-    pulses_sha256: str
     clock: Clock = field(default_factory=Clock)
 
     def take(self, step: str) -> None:
@@ -177,7 +175,7 @@ class Steps:
         """Write what comes of the record, with what it took to read it."""
         self.clock.add(json.loads(read_whole(self._read_times, LARGEST, RockingError)))
         result = replace(result, durations=dict(self.clock.durations))
-        write_record(result, self.record, self.study, self.log, self.pulses_sha256)
+        write_record(result, self.record, self.study, self.log)
 
     def _hand_on(self, channels: list[Accelerogram], facts: dict[str, Any]) -> None:
         """Write what is read, and apart from it what that took, which differs from run to run."""

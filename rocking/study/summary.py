@@ -90,9 +90,9 @@ def summarise(job: Job) -> None:
     text = json.dumps(provenance, indent=1, sort_keys=True, default=str)
     write_whole(target / "provenance.json", (text + "\n").encode())
     if study.settings.reports:
-        faults = _documents(job, target, shown, made, pages, spectra)
-        shown[FailureRow] += faults
-        if faults:
+        unmade = _documents(job, target, shown, made, pages, spectra)
+        shown[FailureRow] += unmade
+        if unmade:
             write_tables({FailureRow: shown[FailureRow]}, target)
     for rule in (*job.plan.products, "summary"):
         sums |= sums_of(rule, study.settings)

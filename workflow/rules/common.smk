@@ -37,9 +37,7 @@ def in_report(output, path):
         labels = {"record": "{record}", **labels}
     elif output.category == "Tables":
         labels = {"table": Path(path).name, "content": output.label}
-    return report(
-        path, caption=f"{HOME}/workflow/report/{output.caption}.rst", category=output.category, labels=labels
-    )
+    return report(path, category=output.category, labels=labels)
 
 
 def targets(rule, record=""):

@@ -29,9 +29,10 @@ from rocking.records import Accelerogram
 from rocking.reports.pages import Panel
 from rocking.reports.printing import faults_in_words
 from rocking.structures import Mechanism
+from rocking.study.documents import made_or_failed, write_reason
 from rocking.study.job import Job, Study, costs_no_other
 from rocking.study.kept import Kept, Rows
-from rocking.study.work import Work, write_documents
+from rocking.study.work import Work
 from rocking.tables import Row, write_tables, write_whole
 
 OPENQUAKE = "fragility.xml"
@@ -47,8 +48,13 @@ class Fragilities(Work):
         """Scale the records until the structures overturn."""
         folder = job.folder
         rows, reasons = write_fragility(job.records, job.study, folder, job.show_line, job.log)
-        write = partial(write_fragility_report, rows) if rows[FragilityRow] else None
-        write_documents(write, folder / "fragility.pdf", folder / "fragility.svg", job, rows[FailureRow])
+        pdf, image, figures = folder / "fragility.pdf", folder / "fragility.svg", job.study.settings.figures
+        if rows[FragilityRow]:
+            make = partial(write_fragility_report, rows, pdf, image, figures)
+            rows[FailureRow] += made_or_failed(pdf, make, job.log, figures, image=image)
+        else:
+            for path in (pdf, image):
+                write_reason(path, faults_in_words(rows), figures)
         job.show_line("\n".join([*reasons, *faults_in_words(rows)]) or "All records were used.")
         return Kept(rows)
 

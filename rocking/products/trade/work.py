@@ -28,10 +28,11 @@ from rocking.products.trade.rows import TradeMethod, TradeRow
 from rocking.records import Accelerogram
 from rocking.reports.pages import Panel
 from rocking.structures import Structure
+from rocking.study.documents import made_or_failed
 from rocking.study.job import Job, Study, costs_no_other
 from rocking.study.kept import Kept, Rows
 from rocking.study.terminal import WIDTH
-from rocking.study.work import Work, write_documents
+from rocking.study.work import Work
 from rocking.tables import Row, rows_of, write_tables
 
 
@@ -66,8 +67,9 @@ class Trade(Work):
             within=net,
         )
         write_tables({TradeRow: rows[TradeRow]}, folder, "rocking-trade", "trade.json")
-        write = partial(write_trade_report, rows)
-        write_documents(write, folder / "trade.pdf", folder / "trade.svg", job, rows[FailureRow])
+        pdf, image, figures = folder / "trade.pdf", folder / "trade.svg", study.settings.figures
+        make = partial(write_trade_report, rows, pdf, image, figures)
+        rows[FailureRow] += made_or_failed(pdf, make, job.log, figures, image=image)
         return Kept(rows)
 
     def panel(self, rows: Rows) -> Panel | None:

@@ -45,4 +45,4 @@ def worked(records: Sequence[CatalogueRecord], study: Study, results: Path) -> J
 def take(record: CatalogueRecord, job: Job) -> None:
     """Take a record through its steps."""
     for step in STEPS:
-        Steps(record, job.study, job.log, job.study.settings_sha256).take(step)
+        Steps(record, job.study, job.log).take(step)

@@ -21,13 +21,13 @@ from rocking.fragility.measures import compared
 from rocking.motion import integrate
 from rocking.products.fragility.report import write_fragility_report
 from rocking.products.fragility.rows import FRAGILITY_TABLES, FragilityRow, FragilitySummaryRow, IdaRow
-from rocking.products.fragility.work import write_fragility
+from rocking.products.fragility.work import Fragilities, write_fragility
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import Block, Spire
+from rocking.study.documents import made_or_failed
 from rocking.study.job import Study
 from rocking.study.settings import Settings, StudyFragility
-from rocking.study.work import write_documents
 from rocking.tables import read_rows, read_table
 from tests.made_structures import HELD
 from tests.refusals import refused
@@ -141,17 +141,18 @@ def test_where_every_structure_has_a_fault_the_page_says_so(tmp_path, monkeypatc
     """And its tables have heads alone, so that what waits for them goes on."""
     monkeypatch.setattr("rocking.products.fragility.work.fragility", lambda *_, **__: 1 // 0)
     job = made_job(_records(tmp_path, 2), _study(), tmp_path / "results", "fragility")
-    written, _ = write_fragility(job.records, job.study, tmp_path / "out", log=job.log)
-    assert [failure.structure for failure in written[FailureRow]] == list(STRUCTURES)
     told: list[dict] = []
     monkeypatch.setattr(
         "rocking.reports.printing.compile_document", lambda page: told.append(page) or b"%PDF"
     )
-    pdf, image = tmp_path / "out" / "fragility.pdf", tmp_path / "out" / "fragility.svg"
-    write_documents(None, pdf, image, job, written[FailureRow])
+    pdf, image = job.folder / "fragility.pdf", job.folder / "fragility.svg"
+    made = Fragilities().make(job)
+    assert [failure.structure for failure in made.rows[FailureRow]] == list(STRUCTURES)
     assert len(told[0].parts[0].sentences) == 3 and pdf.is_file() and image.is_file()
-    write_documents(lambda *_: {}["page"], pdf, image, job, written[FailureRow])
-    assert "a fault of rocking in fragility.pdf (KeyError: 'page')" in told[1].parts[0].sentences[3]
+    image.unlink()
+    made_or_failed(pdf, lambda: {}["page"], job.log, image=image)
+    assert "a fault of rocking in fragility.pdf (KeyError: 'page')" in told[1].parts[0].sentences[0]
+    assert image.is_file()
 
 
 @pytest.mark.process
