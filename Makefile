@@ -113,10 +113,10 @@ measured: $(TOOLS)
 	$(BIN)/python -m docs.site.measured
 
 paper: setup
-	$(BIN)/snakemake --workflow-profile workflow/profiles/default paper
+	$(BIN)/python -m docs.paper.write $(MIRROR)
 
 documentation: $(TOOLS)
-	$(BIN)/snakemake --workflow-profile workflow/profiles/default documentation
+	$(BIN)/python -m docs.site.build
 
 # The wheel and the source archive.
 dist: setup

@@ -1,5 +1,6 @@
 """The figures and the equations of the source paper, redrawn."""
 
+import sys
 from pathlib import Path
 
 from docs.paper.report import EquationRow, equation_rows, paper_figures, paper_report
@@ -14,11 +15,6 @@ EXAMPLE = "RSN1063_NORTHR_RRS228"
 """The record of the paper's example (Fig. 8), by its identifier in the catalogue of near-fault records."""
 SHIPPED = Path(__file__).parents[2] / "records" / "20161113_110259_WTMC_20.V2A"
 """The real record that comes with the project, whose component N28W takes the place of Rinaldi."""
-
-
-def paper(catalogue: str, mirror: str | None, folder: str) -> None:
-    """Do the job of the rule paper."""
-    print(write_paper(Path(catalogue), mirror, Path(folder)))
 
 
 def write_paper(catalogue: Path, mirror: str | None, folder: Path) -> str:
@@ -50,3 +46,8 @@ def write_paper(catalogue: Path, mirror: str | None, folder: Path) -> str:
     write_rows(EquationRow, equations, folder / EquationRow.table.file_name)
     write_whole(folder / "paper.pdf", paper_report(figures, equations))
     return message
+
+
+if __name__ == "__main__":
+    records = SHIPPED.with_name("near_fault.csv")
+    print(write_paper(records, *sys.argv[1:2] or [None], records.parents[1] / "results" / "paper"))

@@ -28,11 +28,6 @@ TOPICS = {
 _LINK = re.compile(r"\]\(\.\./\.\./([^)#]+)")
 
 
-def documentation(target: str) -> None:
-    """Do the job of the rule documentation."""
-    print(*write_site(Path(target)), sep="\n")
-
-
 def written_pages() -> list[Path]:
     """Return the pages."""
     return sorted(FOLDER.glob("*.md"))
@@ -96,3 +91,7 @@ def _linked(source: Path, match: re.Match[str]) -> str:
     if match[1] not in BESIDE:
         shutil.copy(path, source / "figures" / path.name)
     return f"]({BESIDE.get(match[1], f'figures/{path.name}')}"
+
+
+if __name__ == "__main__":
+    print(*write_site(ROOT / "results" / "documentation"), sep="\n")

@@ -9,9 +9,6 @@ class StudyKind(Kind):
     """A kind of warning on a study and on its files."""
 
     # fmt: off
-    # A structure, and where it stands.
-    WARNINGS_MORE = auto(), "{number} more warnings on the study are in summary/warnings.csv."
-
     # A catalogue and its folder, and a study before its run.
     FILE_APART = auto(), "{about}: {why}"
     FILE_WITHOUT_RECORD = auto(), "{about} is not used: {why}"

@@ -14,8 +14,8 @@ from platform import python_version
 from typing import Any, TypeVar
 from urllib.parse import quote
 
-from rocking.assessment.kinds import AssessmentKind
-from rocking.assessment.rows import FailureRow
+from rocking.assessment.conclusion import to_check
+from rocking.assessment.rows import FailureRow, WarningRow
 from rocking.assessment.scene import Scene, load_scenes
 from rocking.assessment.settings import Heading
 from rocking.catalogue.catalogue import CatalogueRecord, load_catalogue, repeated
@@ -28,7 +28,6 @@ from rocking.quantities import counted, shown
 from rocking.records.formats.layouts import NAME as ANSWERS
 from rocking.records.formats.layouts import Layouts
 from rocking.study.folder import check_links, results_folder
-from rocking.study.kinds import StudyKind
 from rocking.study.outputs import outcome_of
 from rocking.study.product import TOLD
 from rocking.study.products import BY_NAME, PRODUCTS
@@ -48,10 +47,6 @@ from rocking.warnings import RockingWarning
 
 T = TypeVar("T")
 
-_NAMED = 8
-"""Warnings on settings and structures that the terminal shows; warnings.csv holds all."""
-_ON_PAGES = (AssessmentKind.HELD_AT_CEILING,)
-"""Warnings on what a structure is taken for, which stand on its pages and ask nothing of who starts a run."""
 _PLAIN = " ./,+=()[]'_-"
 """Next to letters and digits, what a param holds as it is: --report prints params, and no text of a study is markup."""
 _DOCUMENTS = (*NUMBERS, *TOLD, "reports", "figures", "histories", "design_spectrum")
@@ -108,18 +103,11 @@ class Plan:
         return [outcome_of(self.results, record) for record in self.records]
 
     @property
-    def warnings(self) -> tuple[RockingWarning, ...]:
-        """The warnings before the run."""
-        of_study = [
-            warning for warning in study_warnings(self.settings, self.scenes) if warning.kind not in _ON_PAGES
-        ]
-        more = len(of_study) - _NAMED
-        return (
-            *of_study[:_NAMED],
-            *([RockingWarning.of(StudyKind.WARNINGS_MORE, number=more)] if more > 0 else []),
-            *repeated(self.records.values()),
-            *unlisted(Path(self.settings.catalogue)),
-        )
+    def warnings(self) -> tuple[str, ...]:
+        """What has to be checked before the run."""
+        of_study = WarningRow.of_study(study_warnings(self.settings, self.scenes))
+        of_catalogue = (*repeated(self.records.values()), *unlisted(Path(self.settings.catalogue)))
+        return (*to_check(of_study), *map(str, of_catalogue))
 
     def of(self, record: str) -> "Plan":
         """Return what the job of one record needs of it.

@@ -19,14 +19,13 @@ from obspy.core.inventory import Channel, Inventory, Network, Response, Station
 from obspy.core.inventory.response import InstrumentSensitivity
 
 import rocking
-from docs.site.build import FOLDER, MARKED, written_pages
+from docs.site.build import FOLDER, MARKED, write_site, written_pages
 from docs.site.drawings import drawing, forms
 from docs.site.pages import filled, main, python_blocks
 from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES
 from rocking.errors import ConfigurationError
 from rocking.records.formats import FORMATS
 from rocking.study.cli import _parser
-from tests.workflow.conftest import new_study
 
 ROOT = Path(rocking.__file__).parents[1]
 PAGES = written_pages()
@@ -48,12 +47,11 @@ def succeeds(*command: str, folder: Path) -> str:
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory) -> Path:
-    """The site, as the target of the workflow has MkDocs set it without a complaint."""
+    """The site, as MkDocs sets it without a complaint."""
     pytest.importorskip("material", reason="the site is set with mkdocs-material, of the extra docs")
-    study = new_study(tmp_path_factory.mktemp("site") / "study", ROOT)
-    study.add_synthetic("one", 1)
-    study.run("documentation")
-    return study.results / "documentation"
+    target = tmp_path_factory.mktemp("site") / "documentation"
+    write_site(target)
+    return target
 
 
 @pytest.fixture(scope="module")

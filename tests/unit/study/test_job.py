@@ -32,7 +32,8 @@ from rocking.structures import Block
 from rocking.study.job import Study, assess_catalogued, rows_of
 from rocking.study.kept import Kept, keep, kept_in
 from rocking.study.outputs import STEPS, kept_of, outcome_of, outputs_of, store_of
-from rocking.study.settings import Settings, StudyTrade
+from rocking.study.plan import MADE_FROM
+from rocking.study.settings import Settings, StudyTrade, settings_sha256
 from rocking.study.summary import summarise
 from rocking.study.summary_tables import write_summary
 from rocking.tables import csv_lines, frame, read_rows, write_tables
@@ -58,6 +59,12 @@ def _record(folder: Path, identifier: str = "made", content: bytes = CONTENT) ->
 
 def _rows(record: CatalogueRecord, study: Study, opened=None) -> RecordRows:
     return rows_of(assess_catalogued(record, study, opened), record, study)
+
+
+def _by_one_hash(text: str) -> str:
+    """The text of a table with the hash of all settings in place of that of the step of pulses."""
+    of_pulses = settings_sha256(_study().settings.only(MADE_FROM["pulses"]), {})
+    return text.replace(of_pulses, _study().settings_sha256)
 
 
 def _assessed(record: CatalogueRecord, study: Study, folder: Path) -> list[str]:
@@ -129,7 +136,8 @@ def test_the_summary_holds_every_row_of_every_record_in_its_order(of_four) -> No
     for row_class in (PulseRow, ComparisonRow, FailureRow):
         found = [getattr(_rows(record, _study()), row_class.table.name) for record in records]
         lines = list(csv_lines(row_class, chain.from_iterable(found)))
-        assert "".join(lines) == (results / "summary" / row_class.table.file_name).read_text(encoding="utf-8")
+        written = (results / "summary" / row_class.table.file_name).read_text(encoding="utf-8")
+        assert "".join(lines) == _by_one_hash(written)
         assert row_class is FailureRow or len(lines) > 3
 
 
@@ -140,9 +148,8 @@ def test_an_outcome_holds_the_rows_to_the_last_digit(of_four) -> None:
         computed = _rows(record, _study()).tables
         assert set(kept) == set(computed)
         for row_class in set(kept) - {TimingRow}:
-            assert list(csv_lines(row_class, kept[row_class])) == list(
-                csv_lines(row_class, computed[row_class])
-            ), row_class
+            lines = "".join(csv_lines(row_class, kept[row_class]))
+            assert _by_one_hash(lines) == "".join(csv_lines(row_class, computed[row_class])), row_class
 
 
 @pytest.mark.parametrize("damaged", [b"", b"{", b"[]", b'{"rows": {}}'])
