@@ -2,6 +2,7 @@
 
 import os
 from functools import cache
+from itertools import islice
 from pathlib import Path
 
 # The files by which every job knows the study.
@@ -62,7 +63,8 @@ def cores_of_record(wildcards):
     cores = min(workflow.resource_settings.cores or 1, os.cpu_count() or 1)
     if not workflow.is_main_process:
         return max(1, cores // len(PLAN.records))
-    return max(1, cores // (sum(job.rule.name == "integrate" for job in workflow.dag.needrun_jobs()) or 1))
+    integrated = (job for job in workflow.dag.needrun_jobs() if job.rule.name == "integrate")
+    return max(1, cores // (len([*islice(integrated, cores)]) or 1))  # no more are counted than matter
 
 
 def memory_of_record(wildcards, input, attempt):
