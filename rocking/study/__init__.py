@@ -9,7 +9,7 @@ _READ_BY = {
     ".numba_config.yaml": "numba takes its settings, and compiled code to run,",
     "matplotlibrc": "matplotlib takes its settings",
 }
-"""Configuration that a library takes from the folder it stands in, before any variable of the environment."""
+"""Configuration that a library takes from the current folder, before any variable of the environment."""
 
 
 def close_doors(folder: Path = Path()) -> None:

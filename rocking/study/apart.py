@@ -28,7 +28,7 @@ PREPARED = "ROCKING_PREPARED"
 
 
 def warm_up(settings: Settings) -> None:
-    """Start the process that jobs are forked from, unless it runs; it imports and prepares itself beside this one.
+    """Start the process that jobs are forked from, unless it runs; it imports and prepares itself meanwhile.
 
     settings: of the study in this folder, whose structures it prepares.
     """

@@ -357,7 +357,7 @@ def _declared(options: argparse.Namespace) -> Any:
 
 
 def _refusals(own: Any) -> int:
-    """Print what there is to say of the files beside their records; 1 where one of them could not be read."""
+    """Print what there is to say of the files besides their records; 1 where one of them could not be read."""
     for warning in (*own.warnings, *own.refused):
         print(f"rocking: {warning}", file=sys.stderr)
     return 1 if own.refused else 0

@@ -1,4 +1,4 @@
-"""Documents over all records: where one cannot be made, a page in its place says why, and every table stands."""
+"""Documents over all records: where one cannot be made, a page says why instead, and every table is written."""
 
 from collections.abc import Callable
 from html import escape

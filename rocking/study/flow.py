@@ -1,6 +1,6 @@
-"""Where the workflow stands, so that the Snakefile of a study can name it.
+"""Where the workflow lies, so that the Snakefile of a study can name it.
 
-It imports nothing: what stands in the folder of a study is looked at before the libraries that read it are imported.
+It imports nothing: what lies in the folder of a study is looked at before the libraries that read it are imported.
 """
 
 from pathlib import Path

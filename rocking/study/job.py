@@ -139,7 +139,7 @@ class Study:
 def prepare(settings: Settings) -> Iterator[None]:
     """Make what depends on each structure of a study alone, one after another, for jobs forked from this process.
 
-    Structures keep what they compute, and `scenes_of` gives a fork those of this process where the list is the same.
+    Structures cache what they compute, and `scenes_of` gives a fork those of this process where the list is the same.
     What is wrong with the study its jobs say.
     """
     with contextlib.suppress(RockingError), warnings.catch_warnings():
@@ -180,7 +180,7 @@ class Job:
 
     @property
     def kept(self) -> Path:
-        """The file that keeps the rows of the product for the summary."""
+        """The file of the rows of the product for the summary."""
         return kept_of(self.results, self.rule)
 
     def outcomes(self) -> Iterator[Kept]:
@@ -264,7 +264,7 @@ def _drawn(result: RecordResult, rows: RecordRows) -> set[tuple[str, str, float 
 
 
 def write_report(result: RecordResult, rows: RecordRows, study: Study, folder: Path) -> None:
-    """Write report.pdf of one record into `folder`, beside the tables that it names."""
+    """Write report.pdf of one record into `folder`, next to the tables that it names."""
     from rocking.reports.pages import Page
     from rocking.reports.printing import write_document  # matplotlib takes a second to import
     from rocking.reports.record import RecordReport, failure_page

@@ -41,9 +41,9 @@ def run(rule: str, plan: Plan, log: str, cores: int, folder: str) -> None:
 
 
 def product(job: Job) -> None:
-    """Make what stands over all records besides the summary, and keep what this and the terminal show of it.
+    """Make a product over all records, and write for the summary and the terminal what they show of it.
 
-    Where it cannot be made, its pages and a row say why, and the summary and all tables stand.
+    Where it cannot be made, its pages and a row say why, and the summary and all tables are made.
     """
     face = BY_NAME[job.rule]
     work = work_of(face)

@@ -1,4 +1,4 @@
-"""What a job keeps for those that stand over all records: rows of tables and more, as JSON, which holds every digit."""
+"""What a job writes for those over all records: rows of tables and more, as JSON, which holds every digit."""
 
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -37,7 +37,7 @@ class Kept:
 
 
 def keep(path: Path, kept: Kept) -> None:
-    """Write what a job keeps as the file `path`."""
+    """Write what a job leaves as the file `path`."""
     rows = {}
     for row_class, of_it in kept.rows.items():
         names = _carried(row_class)
@@ -46,7 +46,7 @@ def keep(path: Path, kept: Kept) -> None:
 
 
 def kept_in(path: Path, tables: Iterable[type[Row]]) -> Kept:
-    """Return what is kept, with the rows of `tables`. Raises RockingError where it is not what this version writes."""
+    """Return what a job left, with the rows of `tables`. Raises RockingError for what this version does not write."""
     with undamaged(path):
         content = json.loads(read_whole(path, LARGEST, RockingError))
         rows: dict[type[Row], list[Row]] = {}
@@ -73,11 +73,11 @@ def undamaged(path: Path) -> Iterator[None]:
 
 @cache
 def _columns_of(row_class: Any) -> list[tuple[str, Callable[[Any], Any]]]:
-    """The name of each field of a row, and what makes its value of what is kept."""
+    """The name of each field of a row, and what makes its value of what was written."""
     hints = get_type_hints(row_class)
     return [(name, decoder(hints[name])) for name in _carried(row_class)]
 
 
 def _carried(row_class: type[Row]) -> tuple[str, ...]:
-    """The names of what a row carries: its columns, and what is kept beside them."""
+    """The names of what a row carries: its columns, and what it holds besides."""
     return *row_class.table.column_names, *row_class.table.kept

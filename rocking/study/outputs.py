@@ -116,7 +116,7 @@ def outputs_of(rule: str, settings: Settings, record: str = "{record}") -> dict[
 
 
 def sums_of(rule: str, settings: Settings, record: str = "") -> dict[str, str]:
-    """Return the sha256 of the pages and the tables of a rule that stand, by their paths in the results.
+    """Return the sha256 of the pages and the tables of a rule that exist, by their paths in the results.
 
     But for those of measured times, which differ between two runs of the same input.
     """
@@ -132,12 +132,12 @@ def log_of(rule: str, record: str = "") -> str:
 
 
 def kept_of(results: Path, product: str) -> Path:
-    """Return the file that keeps what summary and terminal show of a product over all records, or of the summary."""
+    """Return the file of what summary and terminal show of a product over all records, or of the summary."""
     return results / KEPT_ROWS.format(rule=product)
 
 
 def outcome_of(results: Path, record: str) -> Path:
-    """Return the file that keeps the outcome of a record."""
+    """Return the file of the outcome of a record."""
     return results / _OUTCOME.format(record=record)
 
 

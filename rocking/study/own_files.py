@@ -180,15 +180,15 @@ def _apart(listed: Sequence[ListedFile]) -> Iterator[RockingWarning]:
 
 
 _LIKE = 0.7
-"""Likeness of the names of two files from which on the one beside the other may be of its station."""
+"""Likeness of the names of two files from which on both may be of one station."""
 _LOOKED_AT = 8
-"""Files beside one that are opened, at most, to see whether they are of its station."""
+"""Neighbours of a file that are opened, at most, to see whether they are of its station."""
 
 
 def _siblings(
     listed: Sequence[ListedFile], given: Iterable[Path], folder: Path, declared: Declared
 ) -> Iterator[RockingWarning]:
-    """Yield a warning on each file beside those given that is a component of the same station, and is not used."""
+    """Yield a warning on each file next to those given that is a component of the same station, and is not used."""
     known = {path.resolve() for path in given}
     for file, path in zip(listed, given, strict=True):
         if len(file.channels) != 1 or not file.record or archive_of(path) is not None:
@@ -323,7 +323,7 @@ def _lines_of(station: "PeriodResult", scale_factor: float) -> Iterator[str]:
         if case.response is None:
             continue
         facts = [f"  {component or 'component not named'}: {case.response.outcome}"]
-        if math.isfinite(case.integrated_rotation_ratio):  # overturning stands in the outcome
+        if math.isfinite(case.integrated_rotation_ratio):  # overturning is in the outcome
             facts.append(f"largest rotation {case.integrated_rotation_ratio:.4g} of the critical one")
         predicted = case.predicted_rotation_ratio
         if case.prediction is not None:

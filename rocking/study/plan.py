@@ -99,7 +99,7 @@ class Plan:
 
     @property
     def outcomes(self) -> list[Path]:
-        """The file that keeps the outcome of each record, in catalogue order."""
+        """The file of the outcome of each record, in catalogue order."""
         return [outcome_of(self.results, record) for record in self.records]
 
     @property

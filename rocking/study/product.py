@@ -1,4 +1,4 @@
-"""What a product of a study is: its files, what it is made from, and the face of one that stands over all records.
+"""What a product of a study is: its files, what it is made from, and the description of one over all records.
 
 It is data, and loads nothing: every command, its help and the plan read it.
 """
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from rocking.study.settings import Settings
 
 KEPT = ".kept"
-"""The folder in the results that holds what is kept for other products, and for the next run."""
+"""The folder in the results that holds what jobs leave for other products, and for the next run."""
 KEPT_ROWS = f"{KEPT}/rows/{{rule}}.json"
 """What summary and terminal show of a rule over all records."""
 TOLD = ("study", "client", "project_number", "author", "date", "display_units")
@@ -19,7 +19,7 @@ TOLD = ("study", "client", "project_number", "author", "date", "display_units")
 
 
 def draws(settings: "Settings") -> bool:
-    """Return whether the figures of a document lie beside it in an archive."""
+    """Return whether the figures of a document lie next to it in an archive."""
     return settings.figures != "none"
 
 
@@ -43,7 +43,7 @@ class Output:
 
 @dataclass(frozen=True)
 class Product:
-    """What stands over all records of a study beside the summary, which shows it: the face of a work.
+    """What is made of all records of a study besides the summary, which shows it: the description of a work.
 
     Parameters
     ----------
@@ -58,9 +58,9 @@ class Product:
     tables : tuple[str, ...]
         Names of its tables, each of which is a CSV file.
     files : tuple[str, ...]
-        Names of the files beside these.
+        Names of the files besides these.
     settings : tuple[str, ...]
-        Settings, sections of settings and section.name that it is made from, beside those that change a number.
+        Settings, sections of settings and section.name that it is made from, besides those that change a number.
     pool : str
         The one that names another catalogue, the records of which it reads; "" for none.
     in_every_run : Callable[[Settings], bool]
@@ -77,8 +77,6 @@ class Product:
         Why these settings cannot make it, in a sentence; "" where they can.
     stays : bool
         Whether its files stay where no run of the study makes it, as what its verb has made does.
-    memory_mb, minutes : int
-        What its job takes at most.
     """
 
     name: str
@@ -96,8 +94,6 @@ class Product:
     is_measured: bool = False
     refusal: Callable[["Settings"], str] = lambda _settings: ""
     stays: bool = False
-    memory_mb: int = 2000
-    minutes: int = 120
 
     @property
     def outputs(self) -> tuple[Output, ...]:

@@ -34,8 +34,6 @@ FRAGILITY = Product(
     folder="fragility",
     opens_records=True,
     stays=True,
-    memory_mb=4000,
-    minutes=480,
 )
 TRADE = Product(
     name="trade",
@@ -61,7 +59,6 @@ MAP = Product(
     settings=(),
     in_every_run=lambda settings: settings.reports,
     after_records=True,
-    minutes=30,
 )
 PRODUCTS = (CHECKS, FRAGILITY, TRADE, MAP)
 """In the order in which the summary shows them."""

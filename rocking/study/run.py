@@ -149,7 +149,7 @@ def _logged(log: Path) -> Iterator[None]:
 
 @contextlib.contextmanager
 def _alone(folder: Path) -> Iterator[None]:
-    """Keep other runs of this command out of the study in `folder`, also where it is killed.
+    """Lock other runs of this command out of the study in `folder`, also where it is killed.
 
     What snakemake has locked is unlocked where the run that had done so was killed. A file system without locks has the
     lock of snakemake alone. Raises RockingError when another run works there.

@@ -1,4 +1,4 @@
-"""The records of a study that stand for its design level: the pool, the sets, and a catalogue with their factors."""
+"""The records of a study that represent its design level: the pool, the sets, and a catalogue with their factors."""
 
 import os
 from collections.abc import Mapping, Sequence
@@ -78,7 +78,7 @@ _BETWEEN = " + "
 
 
 def rows_of_pair(name: str) -> list[str]:
-    """Return the rows of the catalogue that a name of the pool stands for: one, or those of two components."""
+    """Return the rows of the catalogue that a name of the pool means: one, or those of two components."""
     return name.split(_BETWEEN)
 
 
@@ -118,8 +118,8 @@ SELECTION = Document(
 def write_selection(folder: Path, output: Path | None = None) -> list[str]:
     """Select records for the study in `folder`, write them as a catalogue with factors, and return lines to print.
 
-    output: where it goes, in the folder of the pool, whose paths it keeps. A figure of the set against its target
-    stands beside it. Raises as `select_for`; ConfigurationError before any work where
+    output: where it goes, in the folder of the pool, whose paths it takes over. A figure of the set against its target
+    lies next to it. Raises as `select_for`; ConfigurationError before any work where
     another file exists at either path.
     """
     target = None if output is None else output.absolute()

@@ -111,7 +111,7 @@ class StudyDesign:
 
 @dataclass(frozen=True)
 class StudyChecks:
-    """The checks at the design level, and the sets of records that stand for it."""
+    """The checks at the design level, and the sets of records that represent it."""
 
     heading: ClassVar[Heading] = Heading.CHECKS
     changes_numbers: ClassVar[bool] = False
@@ -401,7 +401,7 @@ class Settings(AssessmentSettings):
 
 
 def _said_of(name: str, what: str, otherwise: Any) -> Any:
-    """The extra facts that a setting, or a section of settings, declares beside its type and meaning."""
+    """The extra facts that a setting, or a section of settings, declares besides its type and meaning."""
     values = described_values(Settings)
     if name in values:
         return values[name].more.get(what, otherwise)
@@ -427,7 +427,7 @@ def layout() -> dict[Heading, list[str]]:
 
 
 EXAMPLE = Settings(structures="config/structures.yaml", trade=StudyTrade(in_summary=True))
-"""The settings of the shipped example, whose structures stand beside it, and whose summary shows the trade."""
+"""The settings of the shipped example, whose structures lie next to it, and whose summary shows the trade."""
 
 
 def read_settings(config: Mapping[str, Any]) -> Settings:
@@ -492,7 +492,7 @@ CHANGED_FIRST = (
 
 
 def first_yaml(settings: Settings) -> str:
-    """Return the settings that a user changes first as a config.yaml that says where all others stand."""
+    """Return the settings that a user changes first as a config.yaml that says where all others are listed."""
     lines = [
         "# The settings that studies change most. Every other one keeps its default until it is written here: all"
     ]

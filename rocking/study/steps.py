@@ -6,9 +6,9 @@
 | pulses | record.csv, pulses.csv; pulses.json |
 | predict | predictions.csv; predictions.json |
 | integrate | the cases, which the next run looks up as well |
-| report | all other tables, report.pdf, and the outcome for what stands over all records |
+| report | all other tables, report.pdf, and the outcome for what is made of all records |
 
-What a step computes it keeps, to the last bit, in a store of its own, in which those after it look it up: each asks the
+What a step computes it stores to the last bit, and those after it look it up there: each asks the
 one before it for its result.
 """
 

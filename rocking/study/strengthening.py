@@ -86,7 +86,7 @@ def write_strengthening(
 ) -> list[str]:
     """Write table and figure of what holds a structure of the study in `folder`, and return the lines for the terminal.
 
-    What was followed is kept with them, so that another target follows nothing again. structure: its name. key: of
+    What was followed is stored with them, so that another target follows nothing again. structure: its name. key: of
     the list. between: its range, as "2..40". output: folder of both files, by default that of the results. show_line:
     takes what it will cost, before it is spent. At the design level of the study each record of the pool has the factor
     that brings it nearest to the spectrum, and one that no factor within the limits brings there is left out; without a

@@ -58,9 +58,9 @@ _NOT_IN_THE_WORKBOOK = (TimingRow, VariationRow)
 """The times differ from run to run; the variations of each case are ten times as many as the cases."""
 
 
-# Whole on purpose: the list of what stands over all records, in the order in which one comes from the other.
+# Whole on purpose: the list of what is made of all records, in the order in which one comes from the other.
 def summarise(job: Job) -> None:
-    """Write everything that stands over all records, in their order, and remove what no rule gives any more."""
+    """Write everything over all records, in their order, and remove what no rule gives any more."""
     study = job.study
     target = job.results / "summary"
     instead = [name for name, scene in study.scenes.items() if scene.variant_of]
@@ -104,7 +104,7 @@ def summarise(job: Job) -> None:
 
 
 def _remove_former(job: Job) -> None:
-    """Remove what no rule of the study gives any more, and say so: it would stand for what the tables do not say."""
+    """Remove what no rule of the study gives any more, and say so: it would say what the tables do not."""
     former = former_files(job.plan.settings, job.plan.products, job.plan.records)
     remove(job.results, former)
     if former:
@@ -183,7 +183,7 @@ def _kept(job: Job, shown: Mapping[type[Row], list[Row]], made: Sequence[MadePro
 
 
 def _read_product(job: Job, name: str) -> MadeProduct:
-    """The work of another product over all records, and what it has kept."""
+    """The work of another product over all records, and what it has left."""
     work = work_of(BY_NAME[name])
     return work, kept_in(kept_of(job.results, name), (*work.shown, FailureRow))
 

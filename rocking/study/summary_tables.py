@@ -57,7 +57,7 @@ def write_summary(
 ) -> tuple[dict[type[Row], list[Row]], list[dict[str, Any]], list[Sequence[float]], dict[str, str]]:
     """Write the tables of the summary into `target`, record by record.
 
-    variants: names of structures that stand for another one. faults: of what else covers all records. each_unnamed:
+    variants: names of structures that replace another one. faults: of what else covers all records. each_unnamed:
     whether records that name no earthquake are of one each. warnings: on the study itself. scale: the block that
     predicts. Returned are the rows of ON_PAGES and of the tables over all records, what the page to explore and the
     spectra show of each record, and the hashes of the files of the records.

@@ -26,8 +26,8 @@ WIDTH = 104
 def verdicts_in_words(verdicts: Iterable[VerdictRow]) -> str:
     """Say what becomes of each structure under its worst record: "overturns: pier (100 %); stands: arch 0.31".
 
-    The numbers are the shares that overturn, or of what stands the largest rotation over the critical one. At most
-    _NAMED structures are named, the worst first.
+    The numbers are the shares that overturn, or of a structure that stands the largest rotation over the critical
+    one. At most _NAMED structures are named, the worst first.
     """
     worst = worst_of_each(conclusions(verdicts, []))
     by_verdict: dict[Verdict, list[str]] = {}

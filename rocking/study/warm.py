@@ -43,4 +43,4 @@ with contextlib.suppress(Exception):  # what is wrong with a study its jobs repo
     for _ in prepare(settings):
         if os.getppid() != _SCHEDULER:
             sys.exit()  # it had nothing to do
-gc.freeze()  # what stands here stays: to look for garbage in it takes a twelfth of a job
+gc.freeze()  # what is loaded stays: to look for garbage in it takes a twelfth of a job

@@ -21,7 +21,7 @@ def start(folder: Path) -> list[Path]:
     """Write config.yaml, structures.yaml, Snakefile, its profile and an empty records/ into `folder`; return what was
     written.
 
-    Raises ConfigurationError, before anything is written, when one of the files stands there already.
+    Raises ConfigurationError, before anything is written, when one of the files exists already.
     """
     contents = {
         folder / "config.yaml": _with_schema("config", first_yaml(Settings()).encode()),
@@ -66,11 +66,11 @@ def records_of(folder: Path) -> tuple[Path, Path]:
 
 
 def write_catalogue(folder: Path, target: Path, unit: str | None, time_step: float | None) -> str:
-    """Write a catalogue of the accelerograms in `folder` to `target`, or add to the one that stands there; say what.
+    """Write a catalogue of the accelerograms in `folder` to `target`, or add to the one that exists; say what.
 
     Its rows stay as they are, to the letter, but for the new name of a file that was renamed and for the request to
     fill in a cell that was filled; files that none of them names get rows below them. unit and time_step [s] are for
-    the files that do not declare them. What tables leave open is asked in layouts.csv beside it, a line for each
+    the files that do not declare them. What tables leave open is asked in layouts.csv next to it, a line for each
     layout. Raises RecordError, and writes nothing, when no file could be read, and
     CatalogueError when `target` is no catalogue.
     """
