@@ -61,14 +61,9 @@ class Study:
     settings_sha256: str = ""
 
     @classmethod
-    def of(cls, plan: Plan) -> "Study":
-        """Return that of a plan."""
-        return cls(plan.scenes, plan.settings, settings_sha256(plan.settings, plan.scenes))
-
-    @classmethod
-    def of_step(cls, plan: Plan, step: str) -> "Study":
-        """Return that of a step of a record, with the settings and the structures from which the step is made."""
-        settings = plan.settings.only((*MADE_FROM[step], "results", "mirror"))
+    def of(cls, plan: Plan, step: str = "") -> "Study":
+        """Return that of a plan; of a step of a record, with the settings and structures that the step is made from."""
+        settings = plan.settings.only((*MADE_FROM[step], "results", "mirror")) if step else plan.settings
         scenes = {} if step in ("read", "pulses") else plan.scenes
         return cls(scenes, settings, settings_sha256(settings, scenes))
 

@@ -33,7 +33,7 @@ def run(rule: str, plan: Plan, log: str, cores: int, folder: str) -> None:
         match rule:
             case "read" | "pulses" | "predict" | "integrate" | "report":
                 (record,) = plan.records.values()
-                Steps(record, Study.of_step(plan, rule), Path(log)).take(rule)
+                Steps(record, Study.of(plan, rule), Path(log)).take(rule)
             case "summary":
                 summarise(Job(rule, plan, Study.of(plan), Path(log)))
             case _:
@@ -62,6 +62,6 @@ def product(job: Job) -> None:
         fault = FailureRow(stage=job.rule, message=sentence)
         made = Kept({**dict.fromkeys(work.shown, ()), FailureRow: [fault]})
     rows: Rows = {FailureRow: [], **made.rows}
-    lines = [*work.lines(rows), *failing_lines(rows_of(FailureRow, rows)), *wrapped(made.conclusion)]
+    lines = [*made.lines, *failing_lines(rows_of(FailureRow, rows)), *wrapped(made.conclusion)]
     opened = [f"{face.folder}/{name}" for name in face.files if name.endswith(".pdf")]
     keep(job.kept, replace(made, rows=rows, lines=lines, opened=opened))

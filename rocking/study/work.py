@@ -1,7 +1,7 @@
 """The work of a product over all records: how it is made, and what summary, page to explore and terminal show of it."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from importlib import import_module
 from typing import ClassVar
 
@@ -22,7 +22,7 @@ class Work(ABC):
 
     @abstractmethod
     def make(self, job: Job) -> Kept:
-        """Write the files of the product into `job.folder`; return its rows, those of faults and its conclusion."""
+        """Write the files of the product into `job.folder`; return its rows, those of faults, conclusion and lines."""
 
     def panel(self, rows: Rows) -> Panel | None:
         """Return what the summary shows; None for nothing."""
@@ -31,10 +31,6 @@ class Work(ABC):
     def notes(self, rows: Rows) -> Mapping[str, str]:
         """Return a sentence on each structure that it has something to say of, for strips and the page to explore."""
         return {}
-
-    def lines(self, rows: Rows) -> Iterator[str]:
-        """Yield the lines of the terminal after its verb, without the conclusion."""
-        yield from ()
 
 
 def work_of(product: Product) -> Work:

@@ -70,15 +70,11 @@ class Trade(Work):
         pdf, image, figures = folder / "trade.pdf", folder / "trade.svg", study.settings.figures
         make = partial(write_trade_report, rows, pdf, image, figures)
         rows[FailureRow] += made_or_failed(pdf, make, job.log, figures, image=image)
-        return Kept(rows)
+        return Kept(rows, lines=[*trade_lines(rows_of(TradeRow, rows))])
 
     def panel(self, rows: Rows) -> Panel | None:
         """Return the figure of error against time, and what follows."""
         return trade_panel(rows_of(TradeRow, rows))
-
-    def lines(self, rows: Rows) -> Iterator[str]:
-        """Yield the table over all structures, and what follows from it."""
-        return trade_lines(rows_of(TradeRow, rows))
 
 
 def trade_lines(rows: Sequence[TradeRow]) -> Iterator[str]:
