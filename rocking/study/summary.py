@@ -63,19 +63,9 @@ def summarise(job: Job) -> None:
     """Write everything over all records, in their order, and remove what no rule gives any more."""
     study = job.study
     target = job.results / "summary"
-    instead = [name for name, scene in study.scenes.items() if scene.variant_of]
     made = [_read_product(job, name) for name in job.plan.products]
     faults = [fault for _, kept in made for fault in kept.rows[FailureRow]]
-    shown, pages, spectra, sums = write_summary(
-        job.outcomes(),
-        study.structures,
-        target,
-        instead,
-        faults,
-        study.settings.unnamed_events == "each",
-        study.warnings,
-        study.settings.acceleration_scale,
-    )
+    shown, pages, spectra, sums = write_summary(job.outcomes(), study, target, faults)
     paths: dict[type[Row], str | list[str]] = {
         row_class: row_class.table.file_name for row_class in SUMMARY_TABLES
     }

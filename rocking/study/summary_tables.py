@@ -1,6 +1,6 @@
 """The tables over all records of a study, written record by record."""
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
@@ -30,8 +30,7 @@ from rocking.assessment.rows import (
 )
 from rocking.earthquakes.sample import ClusterSample
 from rocking.errors import RockingError, one_structure
-from rocking.structures import Structure
-from rocking.structures.equivalent_block import Scale
+from rocking.study.job import Study
 from rocking.study.kept import Kept
 from rocking.tables import (
     Row,
@@ -46,22 +45,14 @@ ON_PAGES = (RecordRow, PulseRow, ComparisonRow, SupportRow, VerdictRow, FailureR
 
 
 def write_summary(
-    outcomes: Iterable[Kept],
-    structures: Mapping[str, Structure],
-    target: Path,
-    variants: Collection[str] = (),
-    faults: Collection[Row] = (),
-    each_unnamed: bool = False,
-    warnings: Collection[Row] = (),
-    scale: Scale = "exact_at_rest",
+    outcomes: Iterable[Kept], study: Study, target: Path, faults: Collection[Row] = ()
 ) -> tuple[dict[type[Row], list[Row]], list[dict[str, Any]], list[Sequence[float]], dict[str, str]]:
     """Write the tables of the summary into `target`, record by record.
 
-    variants: names of structures that replace another one. faults: of what else covers all records. each_unnamed:
-    whether records that name no earthquake are of one each. warnings: on the study itself. scale: the block that
-    predicts. Returned are the rows of ON_PAGES and of the tables over all records, what the page to explore and the
-    spectra show of each record, and the hashes of the files of the records.
+    faults: of what else covers all records. Returned are the rows of ON_PAGES and of the tables over all records, what
+    the page to explore and the spectra show of each record, and the hashes of the files of the records.
     """
+    variants = [name for name, scene in study.scenes.items() if scene.variant_of]
     kept: dict[type[Row], list[Row]] = {row_class: [] for row_class in SUMMARY_TABLES}
     pages: list[dict[str, Any]] = []
     spectra: list[Sequence[float]] = []
@@ -75,8 +66,8 @@ def write_summary(
             row_class: stack.enter_context(rows_written(row_class, target / row_class.table.file_name))
             for row_class in of_records
         }
-        write[WarningRow](warnings)  # what was typed, before what records say
-        kept[WarningRow] += warnings
+        write[WarningRow](study.warnings)  # what was typed, before what records say
+        kept[WarningRow] += study.warnings
         for outcome in outcomes:
             for row_class in of_records:
                 write[row_class](outcome.rows[row_class])
@@ -91,14 +82,14 @@ def write_summary(
             pages.append(outcome.page)
             spectra += outcome.spectra.values()
         failures = [*faults]
-        for name, structure in structures.items():
+        for name, structure in study.structures.items():
             with failures_of_structure(failures, name):
-                kept[StructureRow] += structure_rows({name: structure}, scale)
+                kept[StructureRow] += structure_rows({name: structure}, study.settings.acceleration_scale)
             with failures_of_structure(failures, name):
                 kept[CapacityRow] += capacity_rows({name: structure})
         write[FailureRow](failures)
         kept[FailureRow] += failures
-        identifiers, sample = sample_of_records(read, each_unnamed)
+        identifiers, sample = sample_of_records(read, study.settings.unnamed_events == "each")
         of_sample = WarningRow.of_study(sample.warnings)
         write[WarningRow](of_sample)
         kept[WarningRow] += of_sample

@@ -35,8 +35,8 @@ EMPTY = {("intensity_measures.csv", name) for name in ("p_value", "power", "slop
 
 def _write_tables(records: list[CatalogueRecord], study: Study, results: Path) -> None:
     worked(records, study, results)
-    described = {name: structure for name, structure in study.structures.items() if name != "impossible"}
-    write_summary(outcomes_in(results, records), described, results / "summary")
+    described = {name: scene for name, scene in study.scenes.items() if name != "impossible"}
+    write_summary(outcomes_in(results, records), replace(study, scenes=described), results / "summary")
 
 
 @pytest.mark.slow
@@ -73,7 +73,7 @@ def test_every_column_is_filled_somewhere(tmp_path: Path) -> None:
     spire = {name: scenes[name] for name in ("spire", "stocky")}
     study = Study({name: scene for name, scene in scenes.items() if name != "spire"}, settings, "made")
     worked(records, study, tmp_path)
-    write_summary(outcomes_in(tmp_path, records), study.structures, tmp_path / "summary")
+    write_summary(outcomes_in(tmp_path, records), study, tmp_path / "summary")
     alone = replace(settings, fidelity="quick", histories=False, ensemble=EnsembleSettings(members=0))
     # On joints of half the friction the stocky block lifts before it slides, and needs more while it rocks.
     contact = replace(settings, fidelity="contact", histories=False, friction_coefficient=0.51)

@@ -66,7 +66,7 @@ def test_a_fault_in_one_structure_is_named_and_costs_no_other(
     monkeypatch.setattr(owner, name, fails)
     both = worked([record], _study(block=BLOCK, pier=PIER), tmp_path / "both")
     outcomes = list(outcomes_in(both.results, [record]))
-    write_summary(outcomes, both.study.structures, both.results / "summary")
+    write_summary(outcomes, both.study, both.results / "summary")
 
     for row_class in (ComparisonRow, VerdictRow):
         of_block = [row for row in outcomes[0].rows[row_class] if row.structure == "block"]

@@ -132,7 +132,7 @@ def of_four(tmp_path: Path) -> tuple[Path, list[CatalogueRecord]]:
 
 def test_the_summary_holds_every_row_of_every_record_in_its_order(of_four) -> None:
     results, records = of_four
-    write_summary(outcomes_in(results, records), {}, results / "summary")
+    write_summary(outcomes_in(results, records), Study({}), results / "summary")
     for row_class in (PulseRow, ComparisonRow, FailureRow):
         found = [getattr(_rows(record, _study()), row_class.table.name) for record in records]
         lines = list(csv_lines(row_class, chain.from_iterable(found)))

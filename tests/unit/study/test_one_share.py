@@ -61,7 +61,7 @@ def test_four_tables_say_one_share_of_a_pinnacle_whose_stacks_fall(folder: Path,
     catalogue = load_catalogue(folder / "catalogue.csv")
     worked(catalogue, study, folder / "results")
     outcomes = list(outcomes_in(folder / "results", catalogue))
-    write_summary(outcomes, study.structures, folder / "summary")
+    write_summary(outcomes, study, folder / "summary")
     verdicts = [row for outcome in outcomes for row in outcome.rows[VerdictRow]]
 
     # The summary: of each record the larger of two counts, that of the members and that of the stacks.
