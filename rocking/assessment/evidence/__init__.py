@@ -7,41 +7,14 @@ every limit and of the runs together (`decide`).
 """
 
 from dataclasses import replace
-from typing import Protocol
 
 from rocking.assessment.case import CaseResult
-from rocking.assessment.contacts import ContactShare
 from rocking.assessment.cracks import slides_at
-from rocking.assessment.decide import Limit, Verdict, decide, worse
+from rocking.assessment.decide import Limit, decide, worse
+from rocking.assessment.evidence import bodies, runs, walls
 from rocking.assessment.evidence.asked import Asked
-from rocking.assessment.evidence.bodies import ContactsOpen, Friction, Thrown
-from rocking.assessment.evidence.runs import Anchored, AsStones, Stacks, StonesMissing
-from rocking.assessment.evidence.walls import Anchors, NotFollowed, TiesGive, TurnsFar
 
-
-class Evidence(Protocol):
-    """One kind of evidence. Its docstring is its row in docs/pages/limits.md: what it is, a colon, what it says."""
-
-    def due(self, verdict: Verdict, asked: Asked) -> bool:
-        """Whether it is looked for, given the verdict so far: it may change that, and is worth what it costs."""
-
-    def look(self, asked: Asked) -> Limit | ContactShare | None:
-        """Return what was found; None where nothing speaks against the verdict."""
-
-
-UNTOLD: tuple[Evidence, ...] = (NotFollowed(), Thrown(), ContactsOpen())
-"""Those in which nothing can be told of what does not fall."""
-EVIDENCE = (
-    *UNTOLD,
-    TurnsFar(),
-    AsStones(),
-    StonesMissing(),
-    TiesGive(),
-    Anchors(),
-    Friction(),
-    Anchored(),
-    Stacks(),
-)
+EVIDENCE = (*bodies.EVIDENCE, *walls.EVIDENCE, *runs.EVIDENCE)
 """Every kind, in the order of looking: what is cheap or ends the search comes first."""
 
 
@@ -64,4 +37,4 @@ def gathered(asked: Asked) -> CaseResult:
 
 def cannot_be_told(asked: Asked) -> bool:
     """Whether nothing can be told of what lifts and does not fall, until contact dynamics follows it."""
-    return any(evidence.look(asked) is not None for evidence in UNTOLD)
+    return any(evidence.look(asked) is not None for evidence in bodies.EVIDENCE)

@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Protocol
 
 from rocking.assessment.case import CaseResult
 from rocking.assessment.contacts import MOST_RUNS, RUNS, ContactShare, contact_share
@@ -75,3 +76,13 @@ class Asked:
         """Return how many runs of contact dynamics fall, of another `structure` in its place where one is given."""
         runs = MOST_RUNS if self.settings.fidelity == "contact" else RUNS
         return contact_share(structure or self.structure, self.motions, self.settings, runs)
+
+
+class Evidence(Protocol):
+    """One kind of evidence. Its docstring is its row in docs/pages/limits.md: what it is, a colon, what it says."""
+
+    def due(self, verdict: Verdict, asked: Asked) -> bool:
+        """Whether it is looked for, given the verdict so far: it may change that, and is worth what it costs."""
+
+    def look(self, asked: Asked) -> Limit | ContactShare | None:
+        """Return what was found; None where nothing speaks against the verdict."""

@@ -1,4 +1,4 @@
-"""Evidence against any body: courses that are thrown, contacts that open, contacts that slide."""
+"""Evidence in which nothing can be told of any body: a mechanism not followed, courses thrown, contacts that open."""
 
 import math
 from collections.abc import Iterable
@@ -8,9 +8,9 @@ from itertools import product
 import numpy as np
 
 from rocking.assessment.contacts import directions, signs
-from rocking.assessment.cracks import cracked
-from rocking.assessment.decide import UNANIMOUS, Limit, Verdict
-from rocking.assessment.evidence.asked import Asked
+from rocking.assessment.cracks import weakest_not_followed
+from rocking.assessment.decide import Limit, Verdict
+from rocking.assessment.evidence.asked import Asked, Evidence
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.methods import NEGLIGIBLE
 from rocking.assessment.motions import GroundMotions
@@ -23,6 +23,22 @@ from rocking.structures import Structure
 from rocking.structures.leaves import parts_of
 from rocking.structures.linkage import Turning
 from rocking.warnings import RockingWarning
+
+
+class NotFollowed:
+    """A mechanism of least λ that cannot be followed, and that the motion reaches: it *cannot be told* until contact
+    dynamics follows it.
+    """
+
+    def due(self, verdict: Verdict, asked: Asked) -> bool:
+        return asked.may_be_untold(verdict)
+
+    def look(self, asked: Asked) -> Limit | None:
+        weakest = [weakest_not_followed(part) for _, part in parts_of(asked.structure)]
+        reached = asked.motions.excitation * (1 + asked.settings.ensemble.amplitude_range)
+        if not any(unknown and reached > unknown.uplift_multiplier for unknown in weakest):
+            return None
+        return Limit.untold(RockingWarning(AssessmentKind.NOT_FOLLOWED))
 
 
 class Thrown:
@@ -115,32 +131,6 @@ def _keeps_little(structure: Structure) -> bool:
     return any(side.restitution < LEAST_KEPT for side in structure.mechanism().sides)
 
 
-class Friction:
-    """A contact that needs more friction than it has while it rocks: at best *probably stands*, until 64 stacks on that
-    friction say otherwise, or stones.
-    """
-
-    def due(self, verdict: Verdict, asked: Asked) -> bool:
-        exempt = asked.structure.joints.friction >= asked.structure.joints.stand_on_friction
-        return verdict in (Verdict.STANDS, Verdict.PROBABLY_STANDS) and not exempt and not asked.is_settled
-
-    def look(self, asked: Asked) -> Limit | None:
-        lifting = next(candidate for candidate in asked.counting if candidate not in asked.sliding)
-        ensembles = asked.case.ensembles
-        governing = [ensembles.governing.description] if ensembles else []
-        bodies = [cracked(asked.structure, name) for name in dict.fromkeys([lifting.description, *governing])]
-        needed = friction_needed(bodies, asked.motions, asked.settings)
-        if math.isnan(needed):
-            return None
-        return Limit(
-            warning=RockingWarning(AssessmentKind.FRICTION_SHORT),
-            settles=(RockingWarning(AssessmentKind.FRICTION),),
-            # Stones stand or slide on what they have.
-            lifted_by=1 if asked.structure.joints.as_stones else UNANIMOUS,
-            value=needed,
-        )
-
-
 def friction_needed(
     bodies: Iterable[Structure], motions: GroundMotions, settings: AssessmentSettings
 ) -> float:
@@ -163,3 +153,7 @@ def friction_needed(
                 if check.slides(body.joints.friction):
                     largest = float(np.fmax(largest, check.required_friction))
     return largest
+
+
+EVIDENCE: tuple[Evidence, ...] = (NotFollowed(), Thrown(), ContactsOpen())
+"""In the order of looking."""

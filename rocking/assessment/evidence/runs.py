@@ -1,8 +1,12 @@
-"""Evidence of contact dynamics: stones, stacks, and stones that nobody followed."""
+"""Evidence of contact dynamics: stones, stacks, what nobody followed so; and contacts that slide, of which it tells."""
+
+import math
 
 from rocking.assessment.contacts import ContactShare
-from rocking.assessment.decide import Limit, Verdict
-from rocking.assessment.evidence.asked import Asked
+from rocking.assessment.cracks import cracked
+from rocking.assessment.decide import UNANIMOUS, Limit, Verdict
+from rocking.assessment.evidence.asked import Asked, Evidence
+from rocking.assessment.evidence.bodies import friction_needed
 from rocking.assessment.kinds import AssessmentKind
 from rocking.warnings import RockingWarning
 
@@ -32,6 +36,32 @@ class StonesMissing:
 
     def look(self, asked: Asked) -> Limit:
         return Limit(warning=RockingWarning(AssessmentKind.STONES_TELL), lifted_by=1)
+
+
+class Friction:
+    """A contact that needs more friction than it has while it rocks: at best *probably stands*, until 64 stacks on that
+    friction say otherwise, or stones.
+    """
+
+    def due(self, verdict: Verdict, asked: Asked) -> bool:
+        exempt = asked.structure.joints.friction >= asked.structure.joints.stand_on_friction
+        return verdict in (Verdict.STANDS, Verdict.PROBABLY_STANDS) and not exempt and not asked.is_settled
+
+    def look(self, asked: Asked) -> Limit | None:
+        lifting = next(candidate for candidate in asked.counting if candidate not in asked.sliding)
+        ensembles = asked.case.ensembles
+        governing = [ensembles.governing.description] if ensembles else []
+        bodies = [cracked(asked.structure, name) for name in dict.fromkeys([lifting.description, *governing])]
+        needed = friction_needed(bodies, asked.motions, asked.settings)
+        if math.isnan(needed):
+            return None
+        return Limit(
+            warning=RockingWarning(AssessmentKind.FRICTION_SHORT),
+            settles=(RockingWarning(AssessmentKind.FRICTION),),
+            # Stones stand or slide on what they have.
+            lifted_by=1 if asked.structure.joints.as_stones else UNANIMOUS,
+            value=needed,
+        )
 
 
 class Anchored:
@@ -66,3 +96,7 @@ class Stacks:
 
     def look(self, asked: Asked) -> ContactShare:
         return asked.contacts()
+
+
+EVIDENCE: tuple[Evidence, ...] = (AsStones(), StonesMissing(), Friction(), Anchored(), Stacks())
+"""In the order of looking."""

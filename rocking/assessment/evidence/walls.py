@@ -3,9 +3,8 @@
 import math
 
 from rocking.assessment.contacts import directions
-from rocking.assessment.cracks import weakest_not_followed
 from rocking.assessment.decide import Limit, Verdict
-from rocking.assessment.evidence.asked import Asked
+from rocking.assessment.evidence.asked import Asked, Evidence
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
@@ -19,22 +18,6 @@ from rocking.warnings import RockingWarning
 BEYOND = 0.4
 """Share of the critical rotation beyond which a chain of a held wall may fall though its mechanism stands (theory:
 section on ties)."""
-
-
-class NotFollowed:
-    """A mechanism of least λ that cannot be followed, and that the motion reaches: it *cannot be told* until contact
-    dynamics follows it.
-    """
-
-    def due(self, verdict: Verdict, asked: Asked) -> bool:
-        return asked.may_be_untold(verdict)
-
-    def look(self, asked: Asked) -> Limit | None:
-        weakest = [weakest_not_followed(part) for _, part in parts_of(asked.structure)]
-        reached = asked.motions.excitation * (1 + asked.settings.ensemble.amplitude_range)
-        if not any(unknown and reached > unknown.uplift_multiplier for unknown in weakest):
-            return None
-        return Limit.untold(RockingWarning(AssessmentKind.NOT_FOLLOWED))
 
 
 class TurnsFar:
@@ -112,3 +95,7 @@ def ties_give(structure: Structure, motions: GroundMotions, settings: Assessment
         if not (followed.rotation_ratio <= BEYOND).all():
             return True
     return False
+
+
+EVIDENCE: tuple[Evidence, ...] = (TurnsFar(), TiesGive(), Anchors())
+"""In the order of looking."""
