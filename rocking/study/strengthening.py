@@ -11,7 +11,7 @@ from rocking.assessment.store import RecordStore
 from rocking.catalogue import load_catalogue
 from rocking.codes.check import CodeTerms
 from rocking.codes.selection import scaled_pool
-from rocking.earthquakes.sample import ClusterSample
+from rocking.earthquakes.sample import FEWEST, ClusterSample
 from rocking.errors import ConfigurationError
 from rocking.quantities import counted, shown
 from rocking.records import Accelerogram
@@ -52,7 +52,7 @@ class StrengtheningRow(Row):
     overturning_share: float = column(
         "Share that overturns, the mean over the stations; what cannot be told counts as 1"
     )
-    share_low: float = column("Its lower one-sided bound, by earthquakes: of 90 % from five on")
+    share_low: float = column(f"Its lower one-sided bound, by earthquakes: 90 % from {FEWEST} on")
     share_high: float = column("Its upper one-sided bound, likewise")
     target_share: float = column("Share that may overturn")
     stations: int = column(

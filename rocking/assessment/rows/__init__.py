@@ -4,17 +4,12 @@ Rows about a record and about a study are imported from here; those of a product
 """
 
 from rocking.assessment.rows.of_inputs import RECORD as RECORD
-from rocking.assessment.rows.of_inputs import STRUCTURE as STRUCTURE
-from rocking.assessment.rows.of_inputs import SUPPORT_PERIOD as SUPPORT_PERIOD
 from rocking.assessment.rows.of_inputs import CapacityRow as CapacityRow
 from rocking.assessment.rows.of_inputs import Identity as Identity
-from rocking.assessment.rows.of_inputs import Named as Named
-from rocking.assessment.rows.of_inputs import Placed as Placed
 from rocking.assessment.rows.of_inputs import PlacedRow as PlacedRow
 from rocking.assessment.rows.of_inputs import PulseRow as PulseRow
 from rocking.assessment.rows.of_inputs import ReadComponent as ReadComponent
 from rocking.assessment.rows.of_inputs import RecordRow as RecordRow
-from rocking.assessment.rows.of_inputs import StructureNameRow as StructureNameRow
 from rocking.assessment.rows.of_inputs import StructureRow as StructureRow
 from rocking.assessment.rows.of_inputs import capacity_rows as capacity_rows
 from rocking.assessment.rows.of_inputs import pulses_found as pulses_found

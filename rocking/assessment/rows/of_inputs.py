@@ -1,22 +1,24 @@
 """The rows of the tables of what goes in: each component of a record with its sine pulses, each structure by itself."""
 
 import contextlib
+import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
+
+import numpy as np
 
 from rocking.catalogue.place import Coordinates
 from rocking.errors import StructureError
 from rocking.pulses import Pulse, PulseEvidence, VelocityPulse
 from rocking.pulses.pulse import PulseAnalysis
 from rocking.signal.measures import RecordMeasures, record_measures
-from rocking.structures import Side, Structure
-from rocking.structures.capacity import StaticCurve
+from rocking.structures import Mechanism, Structure
 from rocking.structures.crackable import WEAK_MASONRY
 from rocking.structures.equivalent_block import EquivalentBlock, Scale
 from rocking.structures.mechanism import PRINTED_SCALE
-from rocking.tables import Columns, RowOf, row
+from rocking.tables import Columns, Row, RowOf, column, row
 from rocking.warnings import Kind
 
 if TYPE_CHECKING:  # else who reads a table would load numba
@@ -83,16 +85,6 @@ class ReadComponent(Identified):
     licence: str
     epicentre: Coordinates | None = None
 
-    @property
-    def file(self) -> str:
-        """The path of its file."""
-        return self.component.accelerogram.source.path
-
-    @property
-    def samples(self) -> int:
-        """The number of its samples."""
-        return self.component.accelerogram.acceleration.size
-
     @cached_property
     def measures(self) -> RecordMeasures:
         """Its measures of intensity."""
@@ -151,7 +143,7 @@ class RecordRow(ComponentRow[ReadComponent]):
     start_time: str = of_accelerogram(
         "Time of the first sample, as the file states it", lambda read: read.start_time
     )
-    file: str = of_component("File of the record", lambda read: read.file)
+    file: str = of_accelerogram("File of the record", lambda read: read.source.path)
     format: str = of_accelerogram("Format of the file", lambda read: read.source.format)
     unit: str = of_accelerogram("Unit of the numbers in the file", lambda read: read.source.unit)
     scale_factor: float = of_accelerogram(SCALE_FACTOR, lambda read: read.scale_factor)
@@ -165,7 +157,7 @@ class RecordRow(ComponentRow[ReadComponent]):
     vertical_peak_acceleration_m_s2: float = of_vertical(
         "Largest magnitude of the vertical acceleration", lambda vertical: vertical.peak_acceleration
     )
-    samples: int = of_component("Number of samples", lambda read: read.samples)
+    samples: int = of_accelerogram("Number of samples", lambda read: read.acceleration.size)
     time_step_s: float = of_accelerogram("Time step", lambda read: read.time_step)
     duration_s: float = of_accelerogram("Time from the first to the last sample", lambda read: read.duration)
     peak_acceleration_m_s2: float = of_measures(
@@ -223,11 +215,6 @@ class FoundPulse(Identified):
     rank: int
     evidence: PulseEvidence
 
-    @property
-    def gain_ratio(self) -> float:
-        """Its gain over that of the dominant pulse."""
-        return self.evidence.gain / self.analysis.evidence.gain
-
 
 def pulses_found(identity: Identity, component: "Component") -> Iterator[FoundPulse]:
     """Yield the ranked alternatives, the dominant pulse first, then the pursuit sequence.
@@ -273,7 +260,7 @@ class PulseRow(ComponentRow[FoundPulse]):
     gain_m2_s3: float = of_pulse("Energy gain of the matched filter", lambda found: found.evidence.gain)
     gain_ratio: float = of_pulse(
         "Energy gain over that of the dominant pulse",
-        lambda found: found.gain_ratio,
+        lambda found: found.evidence.gain / found.analysis.evidence.gain,
     )
     explained_energy: float = of_pulse(
         "Share of the acceleration energy that the pulse explains (EVa)",
@@ -311,192 +298,98 @@ class PulseRow(ComponentRow[FoundPulse]):
 # What stands ----------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class Named:
-    """Anything about one structure of the list, whatever the records. structure: its name."""
-
-    structure: str
-
-
-N = TypeVar("N", bound=Named)
-of_named = Columns(Named)
-
-
 @row()
-class StructureNameRow(RowOf[N]):
-    """A row about one structure of the list."""
-
-    structure: str = of_named(STRUCTURE, lambda named: named.structure)
-
-
-@dataclass(frozen=True)
-class Placed(Named):
-    """Anything about one structure where it stands.
-
-    support_period: of the support, s; 0 on the ground below one, None where it has none.
-    """
-
-    support_period: float | None = field(default=None, kw_only=True)
-
-
-L = TypeVar("L", bound=Placed)
-of_placed = Columns(Placed)
-
-
-@row()
-class PlacedRow(StructureNameRow[L]):
+class PlacedRow(Row):
     """A row about one structure of the list where it stands."""
 
-    support_period_s: float | None = of_placed(SUPPORT_PERIOD, lambda placed: placed.support_period)
-
-
-@dataclass(frozen=True)
-class ListedStructure(Named):
-    """One structure of the list. block_used: the block that predicts, as the settings name it."""
-
-    body: Structure
-    block_used: Scale = "exact_at_rest"
-
-    @property
-    def block_printed(self) -> Scale:
-        """The block of the source paper, by the same names."""
-        return PRINTED_SCALE
-
-    @property
-    def geometry(self) -> str:
-        """Its sizes with their units."""
-        return self.body.description
-
-    @property
-    def side(self) -> Side | None:
-        """The positive side; None where it cannot overturn to it."""
-        positive = self.body.mechanism().positive
-        return positive if positive.can_overturn else None
-
-    def block(self, scale: Scale) -> EquivalentBlock | None:
-        """Its equivalent block; None where it cannot overturn, or where the block is refused, as each record says."""
-        with contextlib.suppress(StructureError):
-            return self.body.mechanism().equivalent_block(scale) if self.side else None
-        return None
-
-
-of_listed = Columns(ListedStructure)
-of_side = of_listed.optional(lambda of: of.side)
-of_block_defects = of_listed.optional(
-    lambda of: None if of.block("exact_at_rest") is None else of.body.mechanism().block_defects
-)
-of_crushing = of_listed.optional(lambda of: of.body.crushing(WEAK_MASONRY))
-
-
-def of_block(scale: Scale) -> Columns[EquivalentBlock]:
-    """Return the declaration of columns about an equivalent block, which not every structure has."""
-    return of_listed.optional(lambda of: of.block(scale))
+    structure: str = column(STRUCTURE)
+    support_period_s: float | None = column(SUPPORT_PERIOD)
 
 
 @row("structures")
-class StructureRow(StructureNameRow[ListedStructure]):
+class StructureRow(Row):
     """One row per structure: its mechanism and its equivalent block."""
 
-    type: str = of_listed(
-        "Type of the structure, as in the structure list", lambda of: of.body.described.type_name
+    structure: str = column(STRUCTURE)
+    type: str = column("Type of the structure, as in the structure list")
+    geometry: str = column("Sizes of the structure with their units")
+    crack: str = column("What opens, hinge or crack; empty of one that does not crack")
+    block_used: str = column("The block that predicts: its acceleration_scale, as the settings name it")
+    block_printed: str = column(
+        "The block of Eq. 15 as printed: the paper's, linearised about φ_cr, with the scale of the true uplift"
     )
-    geometry: str = of_listed("Sizes of the structure with their units", lambda of: of.geometry)
-    crack: str = of_listed(
-        "What opens, hinge or crack; empty of one that does not crack", lambda of: of.body.crack_name
+    frequency_parameter_rad_s: float = column(
+        f"{FREQUENCY_PARAMETER}, of the block that is printed", equation="Eq. 11"
     )
-    block_used: str = of_listed(
-        "The block that predicts: its acceleration_scale, as the settings name it", lambda of: of.block_used
+    frequency_parameter_at_rest_rad_s: float = column(
+        "p of the block exact at rest, which is used unless the settings name another one"
     )
-    block_printed: str = of_listed(
-        "The block of Eq. 15 as printed: the paper's, linearised about φ_cr, with the scale of the true uplift",
-        lambda of: of.block_printed,
+    critical_rotation_rad: float = column("Critical rotation; empty on a side to which it cannot overturn")
+    uplift_multiplier: float = column("Uplift acceleration in g", equation="Eq. 7")
+    static_multiplier: float = column(
+        "Least acceleration in g at which limit analysis lets a mechanism that counts start"
     )
-    frequency_parameter_rad_s: float = of_side(
-        f"{FREQUENCY_PARAMETER}, of the block that is printed",
-        lambda side: side.frequency_parameter,
-        equation="Eq. 11",
+    static_multiplier_crushing: float = column(
+        "The same if the edges of its joints crush at 2 MPa; empty where it states a strength or would not stand"
     )
-    frequency_parameter_at_rest_rad_s: float = of_block("exact_at_rest")(
-        "p of the block exact at rest, which is used unless the settings name another one",
-        lambda block: block.frequency_parameter,
-    )
-    critical_rotation_rad: float = of_side(
-        "Critical rotation; empty on a side to which it cannot overturn", lambda side: side.critical_rotation
-    )
-    uplift_multiplier: float = of_listed(
-        "Uplift acceleration in g", lambda of: of.body.mechanism().uplift_multiplier, equation="Eq. 7"
-    )
-    static_multiplier: float = of_listed(
-        "Least acceleration in g at which limit analysis lets a mechanism that counts start",
-        lambda of: of.body.static_multiplier,
-    )
-    static_multiplier_crushing: float = of_crushing(
-        "The same if the edges of its joints crush at 2 MPa; empty where it states a strength or would not stand",
-        lambda crushed: crushed.static_multiplier,
-    )
-    acceleration_scale_linearised: float = of_block("linearised")(
-        "Scale a_sc of the linearised block",
-        lambda block: block.acceleration_scale,
-        equation="Eq. 11",
-    )
-    acceleration_scale_uplift: float = of_block("uplift")(
-        "Scale a_sc,alt of the true uplift",
-        lambda block: block.acceleration_scale,
-        equation="Eq. 13",
-    )
-    restitution: float = of_listed(
-        RESTITUTION, lambda of: of.body.mechanism().positive.restitution, equation="Eq. 2"
-    )
-    restoring_defect: float = of_block_defects(
-        "Largest error of the block's restoring force, relative", lambda defects: defects.restoring
-    )
-    forcing_defect: float = of_block_defects(
-        "Growth of the forcing up to φ_cr; unsafe where above 0", lambda defects: defects.forcing
-    )
+    acceleration_scale_linearised: float = column("Scale a_sc of the linearised block", equation="Eq. 11")
+    acceleration_scale_uplift: float = column("Scale a_sc,alt of the true uplift", equation="Eq. 13")
+    restitution: float = column(RESTITUTION, equation="Eq. 2")
+    restoring_defect: float = column("Largest error of the block's restoring force, relative")
+    forcing_defect: float = column("Growth of the forcing up to φ_cr; unsafe where above 0")
 
 
 def structure_rows(
     structures: Mapping[str, Structure], scale: Scale = "exact_at_rest"
 ) -> Iterator[StructureRow]:
     """Yield the row of each structure. scale: the block that predicts."""
-    for entry in structures.items():
-        yield StructureRow.of(ListedStructure(*entry, scale))
+    for name, body in structures.items():
+        mechanism = body.mechanism()
+        side = mechanism.positive if mechanism.positive.can_overturn else None
+        at_rest = _block(mechanism, "exact_at_rest")
+        linearised = _block(mechanism, "linearised")
+        uplift = _block(mechanism, "uplift")
+        defects = mechanism.block_defects if at_rest else None
+        crushed = body.crushing(WEAK_MASONRY)
+        yield StructureRow(
+            structure=name,
+            type=body.described.type_name,
+            geometry=body.description,
+            crack=body.crack_name,
+            block_used=scale,
+            block_printed=PRINTED_SCALE,
+            frequency_parameter_rad_s=side.frequency_parameter if side else math.nan,
+            frequency_parameter_at_rest_rad_s=at_rest.frequency_parameter if at_rest else math.nan,
+            critical_rotation_rad=side.critical_rotation if side else math.nan,
+            uplift_multiplier=mechanism.uplift_multiplier,
+            static_multiplier=body.static_multiplier,
+            static_multiplier_crushing=crushed.static_multiplier if crushed else math.nan,
+            acceleration_scale_linearised=linearised.acceleration_scale if linearised else math.nan,
+            acceleration_scale_uplift=uplift.acceleration_scale if uplift else math.nan,
+            restitution=mechanism.positive.restitution,
+            restoring_defect=defects.restoring if defects else math.nan,
+            forcing_defect=defects.forcing if defects else math.nan,
+        )
 
 
-@dataclass(frozen=True)
-class CapacityPoint(Named):
-    """One point of the capacity curve of one side. place: its place on the curve."""
-
-    side: str
-    curve: StaticCurve
-    place: int
-
-
-of_point = Columns(CapacityPoint)
+def _block(mechanism: Mechanism, scale: Scale) -> EquivalentBlock | None:
+    """Its equivalent block; None where it cannot overturn to its positive side, or where the block is refused."""
+    with contextlib.suppress(StructureError):
+        return mechanism.equivalent_block(scale) if mechanism.positive.can_overturn else None
+    return None
 
 
 @row("capacity")
-class CapacityRow(StructureNameRow[CapacityPoint]):
+class CapacityRow(Row):
     """One row per structure, side and rotation: the static load multiplier against displacement."""
 
-    side: str = of_point("Side of the rotation: positive or negative", lambda at: at.side)
-    rotation_rad: float = of_point("Rotation", lambda at: float(at.curve.rotation[at.place]))
-    multiplier: float = of_point(
-        "Horizontal acceleration in g that keeps it in balance",
-        lambda at: float(at.curve.multiplier[at.place]),
-        equation="G/B",
-    )
-    displacement_m: float = of_point(
-        "Displacement of the corner that moves farthest sideways",
-        lambda at: float(at.curve.displacement[at.place]),
-    )
-    effective_displacement_m: float = of_point(
-        "Displacement d* = d_k Σ P δ²/(δ_k Σ P δ)",
-        lambda at: float(at.curve.effective_displacement[at.place]),
-    )
-    participating_mass_ratio: float = of_point(
-        "Mass ratio e* = (Σ P δ)²/(Σ P · Σ P δ²)", lambda at: at.curve.participating_mass_ratio
-    )
+    structure: str = column(STRUCTURE)
+    side: str = column("Side of the rotation: positive or negative")
+    rotation_rad: float = column("Rotation")
+    multiplier: float = column("Horizontal acceleration in g that keeps it in balance", equation="G/B")
+    displacement_m: float = column("Displacement of the corner that moves farthest sideways")
+    effective_displacement_m: float = column("Displacement d* = d_k Σ P δ²/(δ_k Σ P δ)")
+    participating_mass_ratio: float = column("Mass ratio e* = (Σ P δ)²/(Σ P · Σ P δ²)")
 
 
 def capacity_rows(structures: Mapping[str, Structure]) -> Iterator[CapacityRow]:
@@ -505,5 +398,14 @@ def capacity_rows(structures: Mapping[str, Structure]) -> Iterator[CapacityRow]:
         both = {"positive": 1, "negative": -1}
         for side, sign in list(both.items())[: len(structure.mechanism().sides)]:
             curve = structure.capacity_curve(sign, CAPACITY_POINTS)
-            for place in range(curve.rotation.size):
-                yield CapacityRow.of(CapacityPoint(name, side, curve, place))
+            along = (curve.rotation, curve.multiplier, curve.displacement, curve.effective_displacement)
+            for rotation, multiplier, displacement, effective in np.array(along).T.tolist():
+                yield CapacityRow(
+                    structure=name,
+                    side=side,
+                    rotation_rad=rotation,
+                    multiplier=multiplier,
+                    displacement_m=displacement,
+                    effective_displacement_m=effective,
+                    participating_mass_ratio=curve.participating_mass_ratio,
+                )

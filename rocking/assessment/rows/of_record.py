@@ -3,9 +3,11 @@
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, TypeVar, get_args
+
+import numpy as np
 
 from rocking.assessment.decide import Decision, Severity, Verdict, severity
 from rocking.assessment.kinds import AssessmentKind
@@ -365,10 +367,10 @@ class VerdictRow(DecidedRow[OfStructure]):
     reserve: Reserve | None = of_structure.kept(lambda of: of.period_result.reserve)
     share_low: float = of_decision(
         "Least share that overturns, over the cracks and what failed or is not known",
-        lambda decision: decision.share_low,
+        lambda decision: decision.interval[0],
     )
     share_high: float = of_decision(
-        "Largest share that overturns, likewise", lambda decision: decision.share_high
+        "Largest share that overturns, likewise", lambda decision: decision.interval[1]
     )
     why: str = of_decision("Reason for the verdict", lambda decision: decision.why)
     warnings: tuple[Kind, ...] = of_decision(
@@ -506,11 +508,6 @@ class CarriedStructure(OfStructure):
 
     floor: "Component"
 
-    @property
-    def support_name(self) -> str:
-        """The name of the support in the list, on the ground below it, too."""
-        return self.period_result.scene.place.name
-
     @cached_property
     def measures(self) -> FloorMeasures:
         """The motion on the support over that of the ground."""
@@ -527,7 +524,7 @@ of_floor_measures = of_support.part(lambda of: of.measures)
 class SupportRow(DecidedRow[CarriedStructure]):
     """One row per component and structure on a support: the motion there, and the verdict over all components."""
 
-    support: str = of_support("Name of the support in the list", lambda of: of.support_name)
+    support: str = of_support("Name of the support in the list", lambda of: of.period_result.scene.place.name)
     floor_peak_acceleration_m_s2: float = of_floor_measures(
         "Largest magnitude of the acceleration on the support", lambda measures: measures.peak_acceleration
     )
@@ -606,16 +603,6 @@ class CandidateCase(OfStructure):
     place: int = 0
 
     @property
-    def mechanism(self) -> str:
-        """What it does, in words."""
-        return self.candidate.name
-
-    @property
-    def crack(self) -> str:
-        """What opens, and where."""
-        return self.candidate.description
-
-    @property
     def at_rest(self) -> float:
         """The force of the hold as the mechanism starts, N per metre; nan where it never does."""
         starts = math.isfinite(self.candidate.uplift_multiplier)
@@ -642,8 +629,10 @@ class MechanismRow(CaseRow[CandidateCase]):
     Forces are N per metre of wall, against what moves outwards positive.
     """
 
-    mechanism: str = of_candidate_case("What it does, in words", lambda of: of.mechanism)
-    crack: str = of_candidate_case("What opens and where, as in the other tables", lambda of: of.crack)
+    mechanism: str = of_candidate("What it does, in words", lambda candidate: candidate.name)
+    crack: str = of_candidate(
+        "What opens and where, as in the other tables", lambda candidate: candidate.description
+    )
     counts: bool = of_candidate(
         "Whether it takes part in the verdict, where it is followed", lambda candidate: candidate.counts
     )
@@ -726,13 +715,8 @@ def history_rows(
     for (component, structure, period), response in responses.items():
         if response.times is None or response.rotation is None or response.angular_velocity is None:
             continue
-        steps = zip(
-            response.times.tolist(),
-            response.rotation.tolist(),
-            response.angular_velocity.tolist(),
-            strict=True,
-        )
-        for time, rotation, angular_velocity in steps:
+        along = np.array((response.times, response.rotation, response.angular_velocity))
+        for time, rotation, angular_velocity in along.T.tolist():
             yield HistoryRow(
                 record=record,
                 component=component,
@@ -789,32 +773,21 @@ class RecordRows:
     pulses: Sequence[PulseRow] = ()
     comparison: Sequence[ComparisonRow] = ()
     variations: Sequence[VariationRow] = ()
+    mechanisms: Sequence[MechanismRow] = ()
+    supports: Sequence[SupportRow] = ()
     failures: Sequence[FailureRow] = ()
     warnings: Sequence[WarningRow] = ()
     timings: Sequence[TimingRow] = ()
     verdicts: Sequence[VerdictRow] = ()
-    supports: Sequence[SupportRow] = ()
-    mechanisms: Sequence[MechanismRow] = ()
 
     @property
     def tables(self) -> dict[type[Row], Sequence[Row]]:
         """The rows by their class."""
-        return {
-            RecordRow: self.record,
-            PulseRow: self.pulses,
-            ComparisonRow: self.comparison,
-            VariationRow: self.variations,
-            MechanismRow: self.mechanisms,
-            SupportRow: self.supports,
-            FailureRow: self.failures,
-            WarningRow: self.warnings,
-            TimingRow: self.timings,
-            VerdictRow: self.verdicts,
-        }
+        return {kind: getattr(self, kind.table.name) for kind in RECORD_TABLES}
 
 
-RECORD_TABLES: tuple[type[Row], ...] = tuple(RecordRows().tables)
-"""The rows of every table of one record."""
+RECORD_TABLES: tuple[type[Row], ...] = tuple(get_args(rows.type)[0] for rows in fields(RecordRows))
+"""The rows of every table of one record, after which the fields of `RecordRows` are named."""
 
 
 @contextmanager
@@ -826,16 +799,19 @@ def _as_failures(
         with one_structure(period_result.structure):
             yield
     except RockingError as error:
-        failures.append(
-            FailureRow(
-                record=identity.record,
-                component=identity.component,
-                structure=period_result.structure,
-                support_period_s=period_result.support_period_s,
-                stage="rows",
-                message=str(error),
-            )
-        )
+        failures.append(_failed(identity, period_result, "rows", str(error)))
+
+
+def _failed(identity: Identity, period_result: "PeriodResult", stage: str, message: str) -> FailureRow:
+    """The row of a failure of one structure under one component."""
+    return FailureRow(
+        record=identity.record,
+        component=identity.component,
+        structure=period_result.structure,
+        support_period_s=period_result.support_period_s,
+        stage=stage,
+        message=message,
+    )
 
 
 def _warned(result: "RecordResult", vertical: bool) -> list[WarningRow]:
@@ -906,15 +882,7 @@ def rows_of_record(
                     for variation in case.variations
                 ]
             failures += [
-                FailureRow(
-                    record=record,
-                    component=identity.component,
-                    structure=period_result.structure,
-                    support_period_s=period_result.support_period_s,
-                    stage=failure.stage,
-                    message=failure.message,
-                )
-                for failure in case.failures
+                _failed(identity, period_result, failure.stage, failure.message) for failure in case.failures
             ]
     verdicts = []
     mechanisms: list[MechanismRow] = []

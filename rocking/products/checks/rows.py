@@ -3,10 +3,10 @@
 import math
 from collections.abc import Iterator
 
-from rocking.assessment.rows import STRUCTURE, SUPPORT_PERIOD
+from rocking.assessment.rows import PlacedRow
 from rocking.codes.check import DynamicCheck, Role, StructureCheck
 from rocking.earthquakes.sample import INTERVAL
-from rocking.tables import Row, column, row
+from rocking.tables import column, row
 
 KINDS = {
     "C8.7.1.8": "linear",
@@ -19,11 +19,9 @@ KINDS = {
 
 
 @row("code_checks")
-class CodeCheckRow(Row):
+class CodeCheckRow(PlacedRow):
     """One row per structure and check of the Italian code at the design level; written by the target checks."""
 
-    structure: str = column(STRUCTURE)
-    support_period_s: float | None = column(SUPPORT_PERIOD)
     check: str = column("linear, nonlinear or dynamic")
     clause: str = column("Clause of the Circolare 7/2019")
     limit_state: str = column("Limit state: SLV or SLC")

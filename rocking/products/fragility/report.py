@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -64,7 +64,7 @@ _READ = (
 )
 
 
-P = TypeVar("P", bound=PlacedRow[Any])
+P = TypeVar("P", bound=PlacedRow)
 
 
 def by_place(row_class: type[P], rows: Mapping[type[Row], Iterable[Row]]) -> list[P]:

@@ -2,101 +2,38 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from functools import cached_property
-from typing import TypeVar
 
 import numpy as np
 from scipy.special import ndtri
 
-from rocking.assessment.rows import RECORD, Placed, PlacedRow
-from rocking.earthquakes.sample import INTERVAL, ClusterSample
+from rocking.assessment.rows import RECORD, PlacedRow
+from rocking.earthquakes.sample import INTERVAL
 from rocking.errors import ConfigurationError
-from rocking.fragility.curves import (
-    Explanation,
-    Fragility,
-    IncrementalDynamicAnalysis,
-    explanation,
-    factors_to,
-)
-from rocking.fragility.hazard import REACHING, AnnualRate, Hazard
-from rocking.fragility.measures import (
-    MEASURES_IN_WORDS,
-    IntensityMeasure,
-    compared,
-)
+from rocking.fragility.curves import Fragility, IncrementalDynamicAnalysis, explanation, factors_to
+from rocking.fragility.hazard import REACHING, Hazard
+from rocking.fragility.measures import MEASURES_IN_WORDS, IntensityMeasure, compared
 from rocking.records import Accelerogram
 from rocking.signal.measures import peak_velocity
 from rocking.structures import Mechanism
-from rocking.tables import Columns, Row, row
+from rocking.tables import Row, column, row
 
 ROTATION_RATIOS = (0.1, 0.3, 0.5, math.inf)
 """Largest rotations over the critical one whose exceedance has a curve; inf: overturning."""
 _MEASURE = f"Intensity measure: {MEASURES_IN_WORDS}"
 
 
-@dataclass(frozen=True, kw_only=True)
-class ScaledRecord(Placed):
-    """One record scaled to one level. place, step: of record and level in the analysis."""
-
-    record: str
-    analysis: IncrementalDynamicAnalysis
-    place: int
-    step: int
-
-    @property
-    def level(self) -> float:
-        """The level to which it is scaled."""
-        return float(self.analysis.levels[self.step])
-
-    @property
-    def rotation_ratios(self) -> np.ndarray:
-        """(m,) rotation ratios of the members; nan for all where the record does not reach the level."""
-        of_members: np.ndarray = self.analysis.rotation_ratios[self.place, self.step]
-        return of_members
-
-    @property
-    def members(self) -> int:
-        """Their number."""
-        return self.rotation_ratios.size
-
-    @property
-    def rotation_ratio_median(self) -> float:
-        """The median of these, the lower of the two in the middle."""
-        return float(np.sort(self.rotation_ratios)[(self.rotation_ratios.size - 1) // 2])
-
-    @property
-    def overturning_share(self) -> float:
-        """The share of the members that overturn."""
-        return float(np.isinf(self.rotation_ratios).mean())
-
-
-of_scaled = Columns(ScaledRecord)
-
-
 @row("ida")
-class IdaRow(PlacedRow[ScaledRecord]):
+class IdaRow(PlacedRow):
     """One row per structure, record and level: incremental dynamic analysis."""
 
-    record: str = of_scaled(RECORD, lambda of: of.record)
-    station: str = of_scaled(
-        "Event and station, which count as one independent record",
-        lambda of: of.analysis.stations[of.place],
-    )
-    intensity_measure: str = of_scaled(_MEASURE, lambda of: of.analysis.measure.name)
-    level: float = of_scaled("Level to which the record is scaled", lambda of: of.level)
-    scale_factor: float = of_scaled(
-        "Factor on the record to reach the level",
-        lambda of: float(of.analysis.factors[of.place, of.step]),
-    )
-    members: int = of_scaled("Number of members", lambda of: of.members)
-    rotation_ratio_median: float = of_scaled(
-        "Median of largest rotation over critical rotation",
-        lambda of: of.rotation_ratio_median,
-    )
-    overturning_share: float = of_scaled(
-        "Share of the members that overturn with the crack that governs", lambda of: of.overturning_share
-    )
+    record: str = column(RECORD)
+    station: str = column("Event and station, which count as one independent record")
+    intensity_measure: str = column(_MEASURE)
+    level: float = column("Level to which the record is scaled")
+    scale_factor: float = column("Factor on the record to reach the level")
+    members: int = column("Number of members")
+    rotation_ratio_median: float = column("Median of largest rotation over critical rotation")
+    overturning_share: float = column("Share of the members that overturn with the crack that governs")
 
 
 def ida_rows(
@@ -107,236 +44,171 @@ def ida_rows(
 ) -> Iterator[IdaRow]:
     """Yield a row for each record and level that it reaches within the largest factor."""
     for place, record in enumerate(records):
-        for step, _ in enumerate(analysis.levels):
-            scaled = ScaledRecord(
+        for step, ratios in enumerate(analysis.rotation_ratios[place]):
+            if np.isnan(ratios).all():
+                continue
+            yield IdaRow(
                 structure=structure,
+                support_period_s=support_period,
                 record=record,
-                analysis=analysis,
-                place=place,
-                step=step,
-                support_period=support_period,
+                station=analysis.stations[place],
+                intensity_measure=analysis.measure.name,
+                level=float(analysis.levels[step]),
+                scale_factor=float(analysis.factors[place, step]),
+                members=ratios.size,
+                # Of two in the middle the lower one.
+                rotation_ratio_median=float(np.sort(ratios)[(ratios.size - 1) // 2]),
+                overturning_share=float(np.isinf(ratios).mean()),
             )
-            if not np.isnan(scaled.rotation_ratios).all():
-                yield IdaRow.of(scaled)
-
-
-@dataclass(frozen=True)
-class DrawnCurve(Placed):
-    """The curve of one structure."""
-
-    curve: Fragility
-
-    def stations_reaching(self, place: int) -> int:
-        """Return how many stations have a record that reaches the level at `place` within the largest factor."""
-        tried = np.isfinite(self.curve.exceedance[:, place])
-        return len({name for name, reached in zip(self.curve.stations, tried, strict=True) if reached})
-
-
-D = TypeVar("D", bound=DrawnCurve)
-of_curve = Columns(DrawnCurve)
 
 
 @row()
-class CurveRow(PlacedRow[D]):
+class CurveRow(PlacedRow):
     """A row about the curve of a structure: for which intensity measure and rotation it holds."""
 
-    intensity_measure: str = of_curve(_MEASURE, lambda of: of.curve.measure)
-    threshold: float = of_curve(
-        "Rotation over critical rotation that is exceeded; INF: overturning", lambda of: of.curve.threshold
-    )
-
-
-@dataclass(frozen=True)
-class CurvePoint(DrawnCurve):
-    """One level of a curve. place: of the level."""
-
-    place: int
-
-
-of_point = Columns(CurvePoint)
+    intensity_measure: str = column(_MEASURE)
+    threshold: float = column("Rotation over critical rotation that is exceeded; INF: overturning")
 
 
 @row("fragility")
-class FragilityRow(CurveRow[CurvePoint]):
-    """One row per structure, rotation that is exceeded and level: the curves with 90 % intervals."""
+class FragilityRow(CurveRow):
+    """One row per structure, rotation that is exceeded and level: the curves with their intervals."""
 
-    level: float = of_point("Level of the intensity measure", lambda of: float(of.curve.levels[of.place]))
-    stations: int = of_point(
-        "Number of stations whose records reach the level within the largest factor",
-        lambda of: of.stations_reaching(of.place),
-    )
-    probability: float = of_point(
-        "Share of the stations that exceed the rotation", lambda of: float(of.curve.probability[of.place])
-    )
-    probability_low: float = of_point(
-        f"Lower end of the {INTERVAL} of the probability",
-        lambda of: float(of.curve.probability_low[of.place]),
-    )
-    probability_high: float = of_point(
-        f"Upper end of the {INTERVAL} of the probability",
-        lambda of: float(of.curve.probability_high[of.place]),
-    )
-    lognormal: float = of_point(
-        "Probability by the lognormal curve of maximum likelihood",
-        lambda of: float(of.curve.lognormal[of.place]),
-    )
+    level: float = column("Level of the intensity measure")
+    stations: int = column("Number of stations whose records reach the level within the largest factor")
+    probability: float = column("Share of the stations that exceed the rotation")
+    probability_low: float = column(f"Lower end of the {INTERVAL} of the probability")
+    probability_high: float = column(f"Upper end of the {INTERVAL} of the probability")
+    lognormal: float = column("Probability by the lognormal curve of maximum likelihood")
 
 
 def fragility_rows(
     structure: str, curve: Fragility, support_period: float | None = None
 ) -> Iterator[FragilityRow]:
     """Yield a row for each level."""
-    for place, _ in enumerate(curve.levels):
-        yield FragilityRow.of(CurvePoint(structure, curve, place, support_period=support_period))
+    along = (
+        *(curve.levels, curve.probability, curve.probability_low, curve.probability_high),
+        curve.lognormal,
+    )
+    for place, (level, probability, low, high, lognormal) in enumerate(np.array(along).T.tolist()):
+        yield FragilityRow(
+            structure=structure,
+            support_period_s=support_period,
+            intensity_measure=curve.measure,
+            threshold=curve.threshold,
+            level=level,
+            stations=_stations_reaching(curve, place),
+            probability=probability,
+            probability_low=low,
+            probability_high=high,
+            lognormal=lognormal,
+        )
 
 
-@dataclass(frozen=True)
-class SummarisedCurve(DrawnCurve):
-    """One curve with the hazard curve of its intensity measure, where there is one."""
-
-    hazard: Hazard | None
-
-    @cached_property
-    def rate(self) -> AnnualRate | None:
-        """The annual rate of exceedance; None without a hazard curve of the measure."""
-        if self.hazard is None or not self.hazard.is_of(self.curve.measure):
-            return None
-        return self.curve.annual_rate(self.hazard)
-
-    @property
-    def records(self) -> int:
-        """The number of its records."""
-        return len(self.curve.stations)
-
-    @property
-    def stations(self) -> int:
-        """The number of their stations."""
-        return self.curve.sample.count
-
-    @property
-    def stations_at_median(self) -> int:
-        """The number of those that reach the median; where there is none, the highest level."""
-        return self.curve.reaching(min(self.curve.median, float(self.curve.levels[-1])))
-
-    @property
-    def factor_for_median(self) -> float:
-        """The largest factor with which nine in ten stations reach the median; nan without one."""
-        analysis = self.curve.analysis
-        if analysis is None or not math.isfinite(self.curve.median):
-            return math.nan
-        needed: dict[str, float] = {}
-        factors = factors_to(np.array([self.curve.median]), analysis.intensities, analysis.measure.power)
-        for name, factor in zip(self.curve.stations, factors[:, 0].tolist(), strict=True):
-            needed[name] = min(needed.get(name, math.inf), factor)
-        return float(np.quantile(list(needed.values()), REACHING, method="higher"))
-
-    @property
-    def stations_out(self) -> int:
-        """The number of those that do not reach the highest level."""
-        return self.stations - self.stations_reaching(-1)
-
-    @property
-    def median_low(self) -> float:
-        """The lower end of the interval of the median."""
-        return self.curve.interval[0]
-
-    @property
-    def median_high(self) -> float:
-        """Its upper end."""
-        return self.curve.interval[1]
-
-    @property
-    def largest_scale_factor(self) -> float:
-        """The largest factor on a record that was used; nan of outcomes alone."""
-        if self.curve.analysis is None:
-            return math.nan
-        return float(self.curve.analysis.factors[np.isfinite(self.curve.exceedance)].max())
-
-
-of_summary = Columns(SummarisedCurve)
+def _stations_reaching(curve: Fragility, place: int) -> int:
+    """How many stations have a record that reaches the level at `place` within the largest factor."""
+    tried = np.isfinite(curve.exceedance[:, place])
+    return len({name for name, reached in zip(curve.stations, tried, strict=True) if reached})
 
 
 @row("fragility_summary")
-class FragilitySummaryRow(CurveRow[SummarisedCurve]):
+class FragilitySummaryRow(CurveRow):
     """One row per structure and rotation that is exceeded: what its curve comes down to."""
 
-    records: int = of_summary("Number of records", lambda of: of.records)
-    stations: int = of_summary("Number of stations", lambda of: of.stations)
-    earthquakes: int = of_summary(
-        "Number of earthquakes of these; what names none counts as of one",
-        lambda of: of.curve.sample.earthquakes,
+    records: int = column("Number of records")
+    stations: int = column("Number of stations")
+    earthquakes: int = column("Number of earthquakes of these; what names none counts as of one")
+    stations_at_median: int = column(
+        "Number of stations that reach the median within the largest factor; without one the highest level"
     )
-    stations_at_median: int = of_summary(
-        "Number of stations that reach the median within the largest factor; without one the highest level",
-        lambda of: of.stations_at_median,
+    factor_for_median: float = column("Largest factor with which nine in ten stations reach the median")
+    stations_out: int = column(
+        "Number of stations that do not reach the highest level within the largest factor"
     )
-    factor_for_median: float = of_summary(
-        "Largest factor with which nine in ten stations reach the median", lambda of: of.factor_for_median
+    largest_scale_factor: float = column("Largest factor on a record that was used")
+    median: float = column("Level at which the empirical curve crosses one half; INF: it does not")
+    by: str = column("What the curve is of")
+    median_upper: float = column(
+        "The median of the curve in which what cannot be told falls; the median where all can be told"
     )
-    stations_out: int = of_summary(
-        "Number of stations that do not reach the highest level within the largest factor",
-        lambda of: of.stations_out,
+    median_low: float = column(f"Lower end of the {INTERVAL} of the median, by earthquakes; 0: there is none")
+    median_high: float = column(f"Upper end of the {INTERVAL} of the median; INF: none at the levels tried")
+    lognormal_median: float = column("Median of the lognormal curve, for those who need two parameters")
+    dispersion: float = column("Standard deviation of the logarithm, lognormal curve")
+    misfit: float = column("Largest distance of the lognormal from the empirical curve")
+    reversals: int = column(
+        "Number of records under which the structure stands again when they are scaled up further"
     )
-    largest_scale_factor: float = of_summary(
-        "Largest factor on a record that was used", lambda of: of.largest_scale_factor
-    )
-    median: float = of_summary(
-        "Level at which the empirical curve crosses one half; INF: it does not", lambda of: of.curve.median
-    )
-    by: str = of_summary("What the curve is of", lambda of: of.curve.by)
-    median_upper: float = of_summary(
-        "The median of the curve in which what cannot be told falls; the median where all can be told",
-        lambda of: of.curve.upper.median if of.curve.upper else of.curve.median,
-    )
-    median_low: float = of_summary(
-        f"Lower end of the {INTERVAL} of the median, by earthquakes; 0: there is none",
-        lambda of: of.median_low,
-    )
-    median_high: float = of_summary(
-        f"Upper end of the {INTERVAL} of the median; INF: none at the levels tried",
-        lambda of: of.median_high,
-    )
-    lognormal_median: float = of_summary(
-        "Median of the lognormal curve, for those who need two parameters",
-        lambda of: of.curve.lognormal_median,
-    )
-    dispersion: float = of_summary(
-        "Standard deviation of the logarithm, lognormal curve", lambda of: of.curve.dispersion
-    )
-    misfit: float = of_summary(
-        "Largest distance of the lognormal from the empirical curve", lambda of: of.curve.misfit
-    )
-    reversals: int = of_summary(
-        "Number of records under which the structure stands again when they are scaled up further",
-        lambda of: int((of.curve.reversals > 0).sum()),
-    )
-    annual_rate: float = of_summary(
+    annual_rate: float = column(
         "Annual rate of exceedance; empty without a hazard curve, and where fewer than nine in ten stations reach the "
         "level at which half of it is made",
-        lambda of: of.rate.value if of.rate else math.nan,
         unit="1/year",
     )
-    annual_rate_low: float = of_summary(
+    annual_rate_low: float = column(
         f"Lower end of the {INTERVAL} of the rate, by earthquakes; of an empty rate, where what is not reached "
         "never overturns",
-        lambda of: of.rate.low if of.rate else math.nan,
         unit="1/year",
     )
-    annual_rate_high: float = of_summary(
+    annual_rate_high: float = column(
         f"Upper end of the {INTERVAL} of the rate, by earthquakes; of an empty rate, where what is not reached "
         "overturns at once",
-        lambda of: of.rate.high if of.rate else math.nan,
         unit="1/year",
     )
-    stations_at_half_rate: int | None = of_summary(
-        "Number of stations that reach the level at which half of the rate is made",
-        lambda of: of.rate.reaching if of.rate else None,
+    stations_at_half_rate: int | None = column(
+        "Number of stations that reach the level at which half of the rate is made"
     )
-    annual_rate_remainder: float = of_summary(
-        "Largest rate that may be missing beyond the ends of both curves",
-        lambda of: of.rate.remainder if of.rate else math.nan,
-        unit="1/year",
+    annual_rate_remainder: float = column(
+        "Largest rate that may be missing beyond the ends of both curves", unit="1/year"
     )
+
+
+def _summary_row(
+    structure: str, curve: Fragility, hazard: Hazard | None, support_period: float | None
+) -> FragilitySummaryRow:
+    """The row of one curve. hazard: of its intensity measure or another; None without one."""
+    rate = curve.annual_rate(hazard) if hazard is not None and hazard.is_of(curve.measure) else None
+    factor_for_median = largest_scale_factor = math.nan
+    if curve.analysis is not None:
+        largest_scale_factor = float(curve.analysis.factors[np.isfinite(curve.exceedance)].max())
+        factor_for_median = _factor_for_median(curve, curve.analysis)
+    return FragilitySummaryRow(
+        structure=structure,
+        support_period_s=support_period,
+        intensity_measure=curve.measure,
+        threshold=curve.threshold,
+        records=len(curve.stations),
+        stations=curve.sample.count,
+        earthquakes=curve.sample.earthquakes,
+        stations_at_median=curve.reaching(min(curve.median, float(curve.levels[-1]))),
+        factor_for_median=factor_for_median,
+        stations_out=curve.sample.count - _stations_reaching(curve, -1),
+        largest_scale_factor=largest_scale_factor,
+        median=curve.median,
+        by=curve.by,
+        median_upper=curve.upper.median if curve.upper else curve.median,
+        median_low=curve.interval[0],
+        median_high=curve.interval[1],
+        lognormal_median=curve.lognormal_median,
+        dispersion=curve.dispersion,
+        misfit=curve.misfit,
+        reversals=int((curve.reversals > 0).sum()),
+        annual_rate=rate.value if rate else math.nan,
+        annual_rate_low=rate.low if rate else math.nan,
+        annual_rate_high=rate.high if rate else math.nan,
+        stations_at_half_rate=rate.reaching if rate else None,
+        annual_rate_remainder=rate.remainder if rate else math.nan,
+    )
+
+
+def _factor_for_median(curve: Fragility, analysis: IncrementalDynamicAnalysis) -> float:
+    """The largest factor with which nine in ten stations reach the median; nan without one."""
+    if not math.isfinite(curve.median):
+        return math.nan
+    needed: dict[str, float] = {}
+    factors = factors_to(np.array([curve.median]), analysis.intensities, analysis.measure.power)
+    for name, factor in zip(curve.stations, factors[:, 0].tolist(), strict=True):
+        needed[name] = min(needed.get(name, math.inf), factor)
+    return float(np.quantile(list(needed.values()), REACHING, method="higher"))
 
 
 def curve_rows(
@@ -351,66 +223,29 @@ def curve_rows(
     for threshold in ROTATION_RATIOS:
         curve = analysis.fragility(threshold)
         yield from fragility_rows(structure, curve, support_period)
-        yield FragilitySummaryRow.of(SummarisedCurve(structure, curve, hazard, support_period=support_period))
-
-
-@dataclass(frozen=True)
-class ExplainedOverturning(Placed):
-    """One intensity measure, and one other figure of the record, that may explain which records overturn a structure.
-
-    sample: of the records that have both.
-    """
-
-    measure: IntensityMeasure
-    figure: str
-    sample: ClusterSample
-    explanation: Explanation
-
-    @property
-    def records(self) -> int:
-        """The number of these records."""
-        return len(self.sample.stations)
-
-    @property
-    def stations(self) -> int:
-        """The number of their stations."""
-        return self.sample.count
-
-
-of_explained = Columns(ExplainedOverturning)
+        yield _summary_row(structure, curve, hazard, support_period)
 
 
 @row("intensity_measures")
-class IntensityMeasureRow(PlacedRow[ExplainedOverturning]):
+class IntensityMeasureRow(PlacedRow):
     """One row per structure, intensity measure and other figure of the record: what explains overturning."""
 
-    intensity_measure: str = of_explained(_MEASURE, lambda of: of.measure.name)
-    efficiency: float = of_explained(
-        "Dispersion of the level that overturns: standard deviation of its logarithm (of the root of arias)",
-        lambda of: of.explanation.efficiency,
+    intensity_measure: str = column(_MEASURE)
+    efficiency: float = column(
+        "Dispersion of the level that overturns: standard deviation of its logarithm (of the root of arias)"
     )
-    stations_needed: int | None = of_explained(
-        "Number of stations at which the 90 % interval of the median is ± 20 %",
-        lambda of: stations_for(of.explanation.efficiency),
+    stations_needed: int | None = column(
+        "Number of stations at which the 90 % interval of the median is ± 20 %"
     )
-    figure: str = of_explained(
-        "Second quantity of the record that may matter: PGV/PGA, magnitude or ln of the distance",
-        lambda of: of.figure,
+    figure: str = column(
+        "Second quantity of the record that may matter: PGV/PGA, magnitude or ln of the distance"
     )
-    records: int = of_explained("Number of records with the measure and the figure", lambda of: of.records)
-    stations: int = of_explained("Number of stations", lambda of: of.stations)
-    earthquakes: int = of_explained("Number of earthquakes of these", lambda of: of.sample.earthquakes)
-    slope: float = of_explained(
-        "Change of the logarithm of that level for one standard deviation of the figure",
-        lambda of: of.explanation.slope,
-    )
-    p_value: float = of_explained(
-        "p-value of no change; below 0.05 the measure is not sufficient", lambda of: of.explanation.p_value
-    )
-    power: float = of_explained(
-        "Share of samples of as many earthquakes that would show such a slope at 5 %",
-        lambda of: of.explanation.power,
-    )
+    records: int = column("Number of records with the measure and the figure")
+    stations: int = column("Number of stations")
+    earthquakes: int = column("Number of earthquakes of these")
+    slope: float = column("Change of the logarithm of that level for one standard deviation of the figure")
+    p_value: float = column("p-value of no change; below 0.05 the measure is not sufficient")
+    power: float = column("Share of samples of as many earthquakes that would show such a slope at 5 %")
 
 
 MARGIN = 0.2
@@ -448,10 +283,20 @@ def intensity_measure_rows(
                 continue
             levels = logs[both, None] + factors[both]
             explained = explanation(levels, falls[both], values[both], sample)
-            of_measure = ExplainedOverturning(
-                structure, measure, figure, sample, explained, support_period=support_period
+            yield IntensityMeasureRow(
+                structure=structure,
+                support_period_s=support_period,
+                intensity_measure=measure.name,
+                efficiency=explained.efficiency,
+                stations_needed=stations_for(explained.efficiency),
+                figure=figure,
+                records=len(sample.stations),
+                stations=sample.count,
+                earthquakes=sample.earthquakes,
+                slope=explained.slope,
+                p_value=explained.p_value,
+                power=explained.power,
             )
-            yield IntensityMeasureRow.of(of_measure)
 
 
 def _figures(records: Sequence[Accelerogram]) -> dict[str, np.ndarray]:
