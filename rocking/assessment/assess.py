@@ -228,11 +228,7 @@ def assess(
     settings = replace(settings, fidelity=fidelity, ensemble=varied)
     result = Assessor(settings).assess("", records, on_the_ground({"structure": structure}), vertical)
     (period_result,) = result.periods
-    over_all = [
-        *period_result.cases.values(),
-        *([period_result.directions] if period_result.directions else []),
-    ]
-    for case in over_all:
+    for case in period_result.every_case:
         if case.failure:
             raise RockingError(case.failure.message)
     for _, failure in result.failures:

@@ -452,13 +452,14 @@ class Assessor:
         motion = shaking.pair if of_pair else by_name(shaking.components)[case.component].of_ground
         assert motion is not None
 
+        share = period_result.decision.share
         inputs = ReserveInputs(
             motion=motion,
             structure=structure,
             crack=description,
             settings=self.settings,
             support_loss=loss,
-            contact=case.contact,
+            share=period_result.ensemble.overturning_share if isnan(share) else share,
         )
         return period_result.with_reserve(self._remembered(Reserve, inputs, compute_reserve))
 

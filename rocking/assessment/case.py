@@ -131,7 +131,10 @@ class CaseResult:
 
         Without the histories, without the prediction, which a pulse gives at once, and without the times it took.
         """
-        responses = {method: _without_history(response) for method, response in self.responses.items()}
+        responses = {
+            method: replace(response, times=None, rotation=None, angular_velocity=None)
+            for method, response in self.responses.items()
+        }
         return replace(self, prediction=None, responses=responses, reserve=None)
 
     def losing_seats(self, body: Structure, support_loss: float) -> "CaseResult":
@@ -300,6 +303,11 @@ class PeriodResult:
             return None
         return self.support.first_period if self.support else 0.0
 
+    @property
+    def every_case(self) -> list[CaseResult]:
+        """The cases of the components, then that of the pair."""
+        return [*self.cases.values(), *([self.directions] if self.directions else [])]
+
     @cached_property
     def worst(self) -> CaseResult | None:
         """The case of the component that overturns, then rotates, most; None where no component gave a result."""
@@ -345,15 +353,8 @@ class PeriodResult:
 
     @property
     def reserve(self) -> Reserve | None:
-        """The factors on the record at which 5, 50 and 95 % of the members overturn; None where it was not computed.
-
-        They do not contradict the share that overturns under the record itself.
-        """
-        case = self.decisive
-        if case is None or case.reserve is None:
-            return None
-        share = self.decision.share
-        return case.reserve.held_to(self.ensemble.overturning_share if math.isnan(share) else share)
+        """The factors on the record at which 5, 50 and 95 % of the members overturn; None where it was not computed."""
+        return self.decisive.reserve if self.decisive else None
 
     def with_reserve(self, reserve: Reserve | None) -> "PeriodResult":
         """Return the result with the reserve of the case that decides."""
@@ -375,9 +376,10 @@ class PeriodResult:
         if math.isfinite(body.anchors_slide_at):
             warnings.append(RockingWarning(AssessmentKind.ANCHOR_GIVES))
         if not stackable(body):
-            both = [*self.cases.values(), *([self.directions] if self.directions else [])]
-            warnings += [limit.warning for case in both for limit in case.limits if limit.is_untold]
-            opens = any(case.check.bounces for case in both)
+            warnings += [
+                limit.warning for case in self.every_case for limit in case.limits if limit.is_untold
+            ]
+            opens = any(case.check.bounces for case in self.every_case)
             warnings += [RockingWarning(AssessmentKind.CONTACTS_OPEN)] if opens else []
             warnings += [RockingWarning(AssessmentKind.COURSES_THROWN)] if body.joints.courses_taper else []
             warnings += [RockingWarning(AssessmentKind.STONES_TELL)] if body.joints.need_stones else []
@@ -425,8 +427,7 @@ class PeriodResult:
     @property
     def stacks(self) -> ContactShare | None:
         """The share of contact dynamics over all components together; None where it followed nothing."""
-        both = [*self.cases.values(), *([self.directions] if self.directions else [])]
-        shares = [case.contact for case in both if case.contact is not None]
+        shares = [case.contact for case in self.every_case if case.contact is not None]
         falls = sum(share.falls for share in shares)
         runs = sum(share.runs for share in shares)
         return ContactShare(falls=falls, runs=runs, reason=shares[0].reason) if runs else None
@@ -501,11 +502,6 @@ class SceneResult:
     periods: tuple[PeriodResult, ...]
 
     @property
-    def first_periods(self) -> list[float]:
-        """Periods of the support, s; 0 is the ground."""
-        return [period_result.support_period_s or 0.0 for period_result in self.periods]
-
-    @property
     def worst(self) -> PeriodResult:
         """The result of the period that is worst; the first among equals.
 
@@ -517,13 +513,7 @@ class SceneResult:
     @property
     def sentence(self) -> str:
         """The verdicts over the periods of a support: "parapet on roof stands on the ground, overturns …"."""
-        verdicts = dict(
-            zip(
-                self.first_periods,
-                (period_result.decision.verdict for period_result in self.periods),
-                strict=True,
-            )
-        )
+        verdicts = {period.support_period_s or 0.0: period.verdict for period in self.periods}
         return f"{self.scene.name} on {self.scene.place.name} {periods_in_words(verdicts)}"
 
 
@@ -601,10 +591,6 @@ class RecordResult:
         if component == BOTH_COMPONENTS:
             return [(period, period.directions) for period in self.periods if period.directions is not None]
         return [(period, period.cases[component]) for period in self.periods if component in period.cases]
-
-
-def _without_history(response: Response) -> Response:
-    return replace(response, times=None, rotation=None, angular_velocity=None)
 
 
 def _rotation_severity(case: CaseResult) -> tuple[float, bool, float]:

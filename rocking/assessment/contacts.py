@@ -10,12 +10,11 @@ from collections.abc import Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Protocol
 
 import numpy as np
 
 from rocking.assessment.cores import in_order
-from rocking.assessment.decide import UNANIMOUS
+from rocking.assessment.decide import UNANIMOUS, Verdict
 from rocking.assessment.decide import step as step_of
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
@@ -24,7 +23,6 @@ from rocking.errors import RockingError
 from rocking.records import Accelerogram
 from rocking.signal.measures import peak_velocity
 from rocking.structures import Structure
-from rocking.structures.joints import Joints
 from rocking.structures.stack import COURSES, Stack
 from rocking.structures.stones import Stones
 
@@ -41,21 +39,6 @@ GOLDEN = (math.sqrt(5) - 1) / 2
 """Multiples of it, modulo 1, put the runs in an order of which every beginning lies evenly among all."""
 
 
-class Laid(Protocol):
-    """A member that can be laid in rigid courses; see `Structure` for each of these."""
-
-    @property
-    def joints(self) -> Joints:
-        """Its joints."""
-
-    @property
-    def symmetric(self) -> bool:
-        """Whether both sides are alike."""
-
-    def stack(self, courses: int | None = None) -> Stack:
-        """Return it as rigid courses."""
-
-
 def directions(motions: GroundMotions) -> list[tuple[str, str]]:
     """Return the key of the motion of each direction, in the first of its processings."""
     first: dict[str, tuple[str, str]] = {}
@@ -64,7 +47,7 @@ def directions(motions: GroundMotions) -> list[tuple[str, str]]:
     return list(first.values())
 
 
-def signs(structure: Laid, settings: AssessmentSettings) -> tuple[float, ...]:
+def signs(structure: Structure, settings: AssessmentSettings) -> tuple[float, ...]:
     """Return both signs of the motion where the sides differ and the sign varies."""
     return (1.0,) if structure.symmetric or not settings.ensemble.polarity else (1.0, -1.0)
 
@@ -92,7 +75,7 @@ class ContactShare:
 
 
 @lru_cache(maxsize=256)
-def stackable(structure: Laid) -> bool:
+def stackable(structure: Structure) -> bool:
     """Whether contact dynamics can follow a structure: between several courses or stones joints open.
 
     Of a wall whose leaves may part, all of them together and each of them.
@@ -101,7 +84,7 @@ def stackable(structure: Laid) -> bool:
     return all(numbers) and max(numbers) > 1
 
 
-def _courses_of(structure: Laid) -> int:
+def _courses_of(structure: Structure) -> int:
     """In how many courses or stones it is laid; 0 of what is none."""
     try:
         return _laid(structure)[0].count
@@ -109,46 +92,88 @@ def _courses_of(structure: Laid) -> int:
         return 0
 
 
-def _parts(structure: Laid) -> list[Laid]:
+def _parts(structure: Structure) -> list[Structure]:
     """What falls by itself."""
-    return [structure, *(leaf for _, leaf in getattr(structure, "leaves_alone", ()))]
+    return [structure, *(leaf for _, leaf in structure.leaves_alone)]
+
+
+@dataclass(frozen=True, eq=False)
+class Draw:
+    """One run of contact dynamics: a stack or stones, a signed amplitude of one motion, and a time step, s."""
+
+    stack: Stack | Stones
+    motion: Accelerogram
+    vertical: Accelerogram | None
+    amplitude: float
+    step: float
+
+    @property
+    def strength(self) -> float:
+        """The peak velocity of its motion, by which it is expected to fall, m/s."""
+        return abs(self.amplitude) * peak_velocity(self.motion)
+
+    def falls(self, factor: float = 1.0) -> bool:
+        """Return whether it falls under the motion times a factor, the vertical one with it."""
+        vertical = None if self.vertical is None else self.vertical.scaled(factor)
+        return _falls(self.stack, self.motion.scaled(factor).scaled(self.amplitude), self.step, vertical)
 
 
 def contact_share(
-    structure: Laid,
+    structure: Structure,
     motions: GroundMotions,
     settings: AssessmentSettings | None = None,
     runs: int = RUNS,
     *,
     until_sure: bool = True,
-    share: float = math.nan,
 ) -> ContactShare:
     """Return how many stacks of the structure fall, of a wall whose leaves may part those of the part that falls most.
 
     Of a part that is one body its mechanism says more. until_sure: whether runs end once the rest cannot change the
-    verdict; the share of all is asked else. share: instead, once the rest cannot change whether so many fall.
+    verdict; the share of all is asked else.
     """
-    parts = _parts(structure)
-    laid = [part for part in parts if len(parts) == 1 or _courses_of(part) != 1]
+    settings = settings or AssessmentSettings()
     worst = ContactShare(reason="one rigid body moves as its mechanism does, whose members say more")
-    for part in laid:
-        own = _share_of(part, motions, settings or AssessmentSettings(), runs, until_sure, share)
-        if not own.runs:
-            return own
-        if not worst.runs or own.falls * worst.runs > worst.falls * own.runs:
-            worst = own
+    try:
+        for draws in draws_of_parts(structure, motions, settings, runs):
+            own = _share_of(draws, settings, until_sure)
+            if not worst.runs or own.falls * worst.runs > worst.falls * own.runs:
+                worst = own
+    except RockingError as error:
+        return ContactShare(reason=str(error))
     return worst
 
 
-def _share_of(
-    structure: Laid,
+def _share_of(draws: Sequence[Draw], settings: AssessmentSettings, until_sure: bool) -> ContactShare:
+    """Return how many draws of one part fall, as far as they are followed."""
+    falls = followed = 0
+
+    def verdict_of(count: int) -> Verdict:
+        return step_of(falls=count, members=len(draws), risk=settings.ensemble.risk)
+
+    with closing(in_order(Draw.falls, draws)) as runs_in_order:
+        for followed, it_falls in enumerate(runs_in_order, start=1):
+            falls += it_falls
+            if until_sure and verdict_of(falls) == verdict_of(falls + len(draws) - followed):
+                break
+    return ContactShare(falls=falls, runs=followed)
+
+
+def draws_of_parts(
+    structure: Structure, motions: GroundMotions, settings: AssessmentSettings, runs: int
+) -> list[list[Draw]]:
+    """Return the draws of each part that is more than one body. Raises RockingError for one that cannot be laid."""
+    laid = [(part, _laid(part)) for part in _parts(structure)]
+    return [_draws(part, stacks, motions, settings, runs) for part, stacks in laid if stacks[0].count > 1]
+
+
+def _draws(
+    structure: Structure,
+    stacks: Sequence[Stack | Stones],
     motions: GroundMotions,
     settings: AssessmentSettings,
     runs: int,
-    until_sure: bool,
-    share: float,
-) -> ContactShare:
-    """Return how many stacks of one part fall, between AMPLITUDES and at STEPS.
+) -> list[Draw]:
+    """Return the draws of one part, between AMPLITUDES and at STEPS.
 
     Every direction of a pair, of unlike sides every other one with both signs of the motion, is followed at as many
     amplitudes, at which steps and stacks take turns: so that there are `runs` in all. The bodies are those of the
@@ -160,45 +185,20 @@ def _share_of(
     every = [motions.horizontal[direction] for direction in directions(motions)[:: len(both)]]
     ways = [(motion, sign) for motion in sorted(every, key=peak_velocity, reverse=True) for sign in both]
     amplitudes = np.linspace(*AMPLITUDES, max(math.ceil(runs / len(ways)), 2))[::-1]
-    strongest_first = [
-        (amplitude, motion, sign, turn + way)
-        for turn, amplitude in enumerate(amplitudes.tolist())
-        for way, (motion, sign) in enumerate(ways)
-    ]
+    strongest_first = []
+    for turn, amplitude in enumerate(amplitudes.tolist()):
+        for way, (motion, sign) in enumerate(ways):
+            # Each stack meets every step in turn.
+            number, place = divmod(turn + way, len(stacks))
+            stack, step = stacks[place], STEPS[number % len(STEPS)]
+            short_enough = min(step, stack.longest_step * step / STEP)
+            strongest_first.append(Draw(stack, motion, motions.vertical, sign * amplitude, short_enough))
     # As many of them as are followed lie evenly among all: the share of the strongest alone would be too large.
     order = sorted(range(len(strongest_first)), key=lambda place: place * GOLDEN % 1.0)
-    cases = [strongest_first[place] for place in order[:runs]]
-    falls = followed = 0
-
-    def said_of(count: int) -> object:
-        if not math.isnan(share):
-            return count >= share * len(cases)
-        return step_of(falls=count, members=len(cases), risk=settings.ensemble.risk)
-
-    try:
-        stacks = _laid(structure)
-        if stacks[0].count == 1:
-            return ContactShare(reason="one rigid body moves as its mechanism does, whose members say more")
-
-        def falls_in(case: tuple[float, Accelerogram, float, int]) -> bool:
-            amplitude, motion, sign, place = case
-            # Each stack meets every step in turn.
-            stack = stacks[place % len(stacks)]
-            step = STEPS[place // len(stacks) % len(STEPS)]
-            short_enough = min(step, stack.longest_step * step / STEP)
-            return _falls(stack, motion.scaled(sign * amplitude), short_enough, motions.vertical)
-
-        with closing(in_order(falls_in, cases)) as runs_in_order:
-            for followed, it_falls in enumerate(runs_in_order, start=1):
-                falls += it_falls
-                if until_sure and said_of(falls) == said_of(falls + len(cases) - followed):
-                    break
-    except RockingError as error:
-        return ContactShare(reason=str(error))
-    return ContactShare(falls=falls, runs=followed)
+    return [strongest_first[place] for place in order[:runs]]
 
 
-def _laid(structure: Laid) -> Sequence[Stack | Stones]:
+def _laid(structure: Structure) -> Sequence[Stack | Stones]:
     """What is to be followed: the stones of an arch, and else stacks.
 
     Where a member tapers and does not say how many courses it has, these are of a few and of many: the more courses,
@@ -206,7 +206,7 @@ def _laid(structure: Laid) -> Sequence[Stack | Stones]:
     they keep that.
     """
     friction = structure.joints.friction
-    if isinstance(structure, Structure) and structure.joints.as_stones:
+    if structure.joints.as_stones:
         return [replace(structure.stones(), friction=friction)]
     by_size = structure.joints.courses_taper and not structure.joints.courses_are_given
     stacks = [structure.stack(courses) for courses in ((COURSES, MANY_COURSES) if by_size else (None,))]

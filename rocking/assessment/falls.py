@@ -6,14 +6,24 @@ that cannot tell either, the share has two ends: that of the mechanisms, and 1.
 
 import math
 from bisect import bisect_left
+from collections.abc import Callable, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from enum import StrEnum
-from functools import cache, cached_property
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
-from rocking.assessment.contacts import AMPLITUDES, ContactShare, contact_share, signs, stackable
+from rocking.assessment.contacts import (
+    AMPLITUDES,
+    Draw,
+    contact_share,
+    draws_of_parts,
+    signs,
+    stackable,
+)
+from rocking.assessment.cores import in_order
 from rocking.assessment.cracks import counting_cracks
 from rocking.assessment.evidence import cannot_be_told
 from rocking.assessment.evidence.asked import Asked
@@ -21,15 +31,14 @@ from rocking.assessment.evidence.walls import anchors_slide
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.reserve import SHARES, Reserve, reserve_of_members
 from rocking.assessment.settings import AssessmentSettings
-from rocking.errors import MotionError
+from rocking.errors import RockingError
 from rocking.records import Accelerogram
 from rocking.structures import Structure
 from rocking.structures.structure import Candidate
 
 DRAWS = 6
-"""Runs of contact dynamics of one motion: of many records, whose spread is larger than that of draws."""
-RESERVE_DRAWS = 8
-"""Runs of contact dynamics of all motions of one record at one factor of a reserve, of which one is more than 5 %."""
+"""Runs of contact dynamics at one factor: of one motion of many records, whose spread is larger than that of draws, or
+of all motions of the record of a reserve, of which one is more than 5 %."""
 RESERVE_APART = 1.1
 """Ratio of these factors, as near to each other as those of members scatter from sample to sample."""
 STONES_DRAWS = 3
@@ -123,8 +132,8 @@ def _asks_contacts(asked: Asked, share: float) -> bool:
 class _Stones:
     """The chains of stones of one structure at any factor on one record.
 
-    A run of them costs a hundredfold of a stack's. So the factor at which the first of them falls is halved for along
-    RUNGS of a ladder that begins where the first mechanism lifts, the second, and so on; each falls from there on.
+    A run of them costs a hundredfold of a stack's. So the factor at which each of them first falls is halved for along
+    RUNGS of a ladder that begins where the first mechanism lifts; it falls from there on.
     """
 
     structure: Structure
@@ -144,19 +153,48 @@ class _Stones:
 
     @cached_property
     def _rungs(self) -> np.ndarray:
-        """The first rung at which one, two, ... of all draws fall; none where they cannot be followed."""
-        draws = STONES_DRAWS * len(signs(self.structure, self.settings))
+        """The rung at which each draw first falls; none where they cannot be followed."""
+        number = STONES_DRAWS * len(signs(self.structure, self.settings))
 
-        @cache
-        def shares(rung: int) -> float:
-            motions = GroundMotions.of(self.record.scaled(self._lifts * APART**rung))
-            runs = contact_share(self.structure, motions, self.settings, draws, until_sure=False)
-            return runs.falls / runs.runs if runs.runs else math.nan
+        def first_rung(draw: Draw) -> int:
+            return bisect_left(range(RUNGS), True, key=lambda rung: draw.falls(self._lifts * APART**rung))
 
-        if math.isnan(shares(RUNGS // 2)):
+        try:
+            (draws,) = draws_of_parts(self.structure, GroundMotions.of(self.record), self.settings, number)
+            return np.array([first_rung(draw) for draw in draws])
+        except RockingError:
             return np.empty(0)
-        every = np.arange(1, draws + 1) / draws
-        return np.array([bisect_left(range(RUNGS), share - 1e-9, key=shares) for share in every])
+
+
+@dataclass
+class _Rising:
+    """A question whose answer turns from no to yes as a factor grows, and is asked again between the two alone."""
+
+    ask: Callable[[float], bool]
+    cost: float = 0.0
+    no: float = 0.0
+    yes: float = math.inf
+
+    def __call__(self, factor: float) -> bool:
+        if self.no < factor < self.yes:
+            if self.ask(factor):
+                self.yes = factor
+            else:
+                self.no = factor
+        return factor >= self.yes
+
+
+def _as_many(draws: Sequence[_Rising], factor: float, number: int) -> bool:
+    """Whether so many of the draws, the strongest first, fall at a factor: those that may end it are asked first."""
+    likeliest = draws if 2 * number <= len(draws) else draws[::-1]
+    unknown_last = sorted(likeliest, key=lambda draw: (draw.no < factor < draw.yes, draw.cost))
+    falls = 0
+    with closing(in_order(lambda draw: draw(factor), unknown_last)) as in_turn:
+        for followed, it_falls in enumerate(in_turn, start=1):
+            falls += it_falls
+            if falls >= number or falls + len(draws) - followed < number:
+                break
+    return falls >= number
 
 
 def reserve(
@@ -166,45 +204,56 @@ def reserve(
     settings: AssessmentSettings,
     *,
     support_loss: float = math.inf,
-    contact: ContactShare | None = None,
+    share: float = math.nan,
 ) -> Reserve:
     """Return the factors on the motions at which 5, 50 and 95 % fall: of the members with the crack that governs, or of
     the runs of contact dynamics where the decision would ask for them and more of these fall.
 
     The larger share of both is reached at the lesser factor, so that contact dynamics is first asked at that of the
     members, and most often no further. support_loss: horizontal displacement at which what bears on the structure
-    falls, m. contact: what contact dynamics found under the motions themselves; None where it was not asked. Raises
-    MotionError as `integrate` does, and where contact dynamics is asked and cannot follow it.
+    falls, m. share: that falls under the motions themselves, which no factor contradicts; nan where it is not known.
+    Raises MotionError as `integrate` does, and where contact dynamics is asked and cannot follow it.
     """
     falls_beyond = crack.structure.loses_seat_at(support_loss)
     of_members = reserve_of_members(crack.mechanism, motions, settings.ensemble, falls_beyond=falls_beyond)
     if not stackable(structure) or not motions.excitation > 0:
-        return of_members
+        return of_members.held_to(share)
 
-    def reaches(factor: float, share: float) -> bool:
-        asked = Asked.of_run(structure, motions.scaled(factor), settings, math.inf)
-        if not _asks_contacts(asked, 0.0):
-            return False
-        runs = contact_share(structure, asked.motions, settings, RESERVE_DRAWS, share=share)
-        if not runs.runs:
-            raise MotionError(runs.reason)
-        return runs.falls >= share * RESERVE_DRAWS
+    @_Rising
+    def is_asked(factor: float) -> bool:
+        return _asks_contacts(Asked.of_run(structure, motions.scaled(factor), settings, math.inf), 0.0)
+
+    parts = [
+        [
+            _Rising(draw.falls, 1 / draw.step)
+            for draw in sorted(draws, key=lambda draw: draw.strength, reverse=True)
+        ]
+        for draws in draws_of_parts(structure, motions, settings, DRAWS)
+    ]
+
+    def reaches(factor: float, number: int) -> bool:
+        return is_asked(factor) and any(_as_many(draws, factor, number) for draws in parts)
 
     first = min(crack.uplift_multiplier for crack in counting_cracks(structure))
     least = first / motions.excitation / AMPLITUDES[1]
-    of_record = contact.falls / contact.runs if contact and contact.runs else math.nan
     factors = []
-    for share, factor in zip(SHARES, (of_members.low, of_members.median, of_members.high), strict=True):
+    for reached, factor in zip(SHARES, (of_members.low, of_members.median, of_members.high), strict=True):
         last = of_members.limit if math.isnan(factor) else factor
-        if of_record >= share:
+        if share >= reached:
             last = min(last, 1.0)
-        elif of_record < share:
+        elif share < reached:
             least = max(least, 1.0)
         rungs = math.ceil(math.log(last / least) / math.log(RESERVE_APART))
-        if rungs > 0 and reaches(last, share):
-            tried = [last * RESERVE_APART ** (rung - rungs) for rung in range(rungs)]
-            place = bisect_left(tried, True, key=lambda factor: reaches(factor, share))
+        number = math.ceil(reached * DRAWS)
+        if rungs > 0 and reaches(last, number):
+            tried = [last * RESERVE_APART ** (rung - rungs) for rung in range(rungs + 1)]
+            # Where the one falls after which as many have fallen, and from there to where as many do.
+            place = min(rungs, *(bisect_left(tried, True, key=draws[number - 1]) for draws in parts))
+            while not reaches(tried[place], number):
+                place += 1
+            while place and reaches(tried[place - 1], number):
+                place -= 1
             factor = least = last * RESERVE_APART ** (place - rungs - 0.5)
         factors.append(factor)
     low, median, high = factors
-    return Reserve(low=low, median=median, high=high, limit=of_members.limit)
+    return Reserve(low=low, median=median, high=high, limit=of_members.limit).held_to(share)

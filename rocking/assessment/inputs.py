@@ -8,7 +8,6 @@ import math
 from dataclasses import dataclass
 from functools import cached_property
 
-from rocking.assessment.contacts import ContactShare
 from rocking.assessment.motions import Motion, arrived
 from rocking.assessment.settings import AssessmentSettings, PredictingPulse
 from rocking.hashes import sha256_of_content
@@ -97,8 +96,8 @@ class ReserveInputs(Inputs):
     """What the reserve of a structure is computed from.
 
     crack: description of the one that governs; "" where only one may form. support_loss: horizontal displacement at
-    which what bears on the structure falls, m; inf where nothing does. contact: what contact dynamics found under the
-    motion itself; None where it was not asked.
+    which what bears on the structure falls, m; inf where nothing does. share: that falls under the motion itself; nan
+    where it is not known.
     """
 
     motion: Motion
@@ -106,4 +105,4 @@ class ReserveInputs(Inputs):
     crack: str
     settings: AssessmentSettings
     support_loss: float = math.inf
-    contact: ContactShare | None = None
+    share: float = math.nan

@@ -337,7 +337,7 @@ def compute_reserve(inputs: ReserveInputs, clock: Clock) -> Reserve:
             motions,
             inputs.settings,
             support_loss=inputs.support_loss,
-            contact=inputs.contact,
+            share=inputs.share,
         )
 
 

@@ -88,8 +88,10 @@ class Reserve:
         """Return the reserve that does not contradict the `share` of members that overturn under the record itself.
 
         A share that is reached there has a factor of 1 at most, another one of 1 at least: the factors come of a curve
-        through members of many records, which need not pass through that share.
+        through members of many records, which need not pass through that share. nan: it is not known.
         """
+        if math.isnan(share):
+            return self
         factors = []
         for reached, factor in zip(SHARES, (self.low, self.median, self.high), strict=True):
             if share >= reached:

@@ -5,7 +5,6 @@ from dataclasses import field, fields, make_dataclass, replace
 import numpy as np
 import pytest
 
-from rocking.assessment.contacts import ContactShare
 from rocking.assessment.inputs import (
     CaseInputs,
     Inputs,
@@ -56,7 +55,7 @@ OTHERS = {
         "crack": "hinge at 1 m",
         "settings": AssessmentSettings(ensemble=EnsembleSettings(reserve=2.0)),
         "support_loss": 0.1,
-        "contact": ContactShare(falls=0, runs=24),
+        "share": 0.1,
     },
 }
 
