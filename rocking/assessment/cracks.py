@@ -285,7 +285,14 @@ def _of_part(
         return always + screened(rest, of_statics, motions, settings, first.multiplier)
 
     def followed(candidate: Candidate) -> FollowedCrack:
-        of_one = _alone(candidate, motions, settings)
+        of_one = ensemble(
+            candidate.mechanism,
+            motions,
+            settings.ensemble,
+            tolerance=settings.tolerance,
+            verdict_only=True,
+            grows=False,
+        )
         return FollowedCrack.of(candidate, of_one, slides=candidate in sliding)
 
     mechanisms = {}
@@ -380,18 +387,6 @@ def screened(
         if ratios.max() > IN_DOUBT:
             severity[candidate] = int(np.isinf(ratios).sum()), float(ratios.min())
     return sorted(severity, key=severity.__getitem__, reverse=True)
-
-
-def _alone(candidate: Candidate, motions: GroundMotions, settings: AssessmentSettings) -> Ensemble:
-    """The ensemble of one crack other than that of statics, which decides where more members may."""
-    return ensemble(
-        candidate.mechanism,
-        motions,
-        settings.ensemble,
-        tolerance=settings.tolerance,
-        verdict_only=True,
-        grows=False,
-    )
 
 
 BINS = 4

@@ -406,16 +406,6 @@ class Decision:
         """Whether only the lower end of the share is known."""
         return math.isnan(self.share) and self.interval[1] == 1
 
-    @property
-    def share_low(self) -> float:
-        """The lower end of the interval of the share."""
-        return self.interval[0]
-
-    @property
-    def share_high(self) -> float:
-        """Its upper end."""
-        return self.interval[1]
-
 
 Severity = tuple[int, float, float, float]
 """Key of a case by which the worst of several comes last."""

@@ -3,7 +3,7 @@
 A motion stands for several: its directions, its processings, with the vertical motion, on the ground or on a support.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, lru_cache
@@ -101,32 +101,14 @@ _FLOOR_MOTIONS = _FloorMotions()
 
 
 @dataclass(frozen=True, eq=False)
-class _OnSupport(Mapping[tuple[str, str], Accelerogram]):
-    """The horizontal motions of the ground as they arrive on a support, each made when it is asked for."""
-
-    ground: Mapping[tuple[str, str], Accelerogram]
-    support: MovingSupport
-    sampling: Sampling
-
-    def __getitem__(self, of: tuple[str, str]) -> Accelerogram:
-        return _FLOOR_MOTIONS.motion(self.support, self.ground[of], self.sampling)
-
-    def __iter__(self) -> Iterator[tuple[str, str]]:
-        return iter(self.ground)
-
-    def __len__(self) -> int:
-        return len(self.ground)
-
-
-@dataclass(frozen=True, eq=False)
-class _Scaled(Mapping[tuple[str, str], Accelerogram]):
-    """Horizontal motions times a factor, each made when it is asked for."""
+class _Made(Mapping[tuple[str, str], Accelerogram]):
+    """What is made of horizontal motions, each when it is asked for."""
 
     motions: Mapping[tuple[str, str], Accelerogram]
-    factor: float
+    make: Callable[[Accelerogram], Accelerogram]
 
     def __getitem__(self, of: tuple[str, str]) -> Accelerogram:
-        return self.motions[of].scaled(self.factor)
+        return self.make(self.motions[of])
 
     def __iter__(self) -> Iterator[tuple[str, str]]:
         return iter(self.motions)
@@ -197,12 +179,14 @@ class GroundMotions:
         sampling = support.sampling(acting)
         if vertical is not None:
             vertical = support.motion(vertical, sampling)
-        return GroundMotions(_OnSupport(self.horizontal, support, sampling), vertical)
+        return GroundMotions(
+            _Made(self.horizontal, lambda ground: _FLOOR_MOTIONS.motion(support, ground, sampling)), vertical
+        )
 
     def scaled(self, factor: float) -> "GroundMotions":
         """Return the motions times a factor, the vertical one with the horizontal ones."""
         vertical = None if self.vertical is None else self.vertical.scaled(factor)
-        return GroundMotions(_Scaled(self.horizontal, factor), vertical)
+        return GroundMotions(_Made(self.horizontal, lambda motion: motion.scaled(factor)), vertical)
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ import math
 import re
 import warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from itertools import groupby
 from pathlib import Path
@@ -47,7 +47,7 @@ CHECK_KEYS = {
     "support_loss_m": "Horizontal displacement at which what it carries falls, m: in the verdict below each floor, "
     "beam or vault, in the checks of the code of the corner that moves farthest; left out: nothing does",
 }
-"""Keys of an entry of a structure list, whatever its type, with their meaning."""
+"""Keys of an entry of a structure list, whatever its type, with their meaning: the fields of `CheckTerms`."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,8 +64,8 @@ def check_terms(mapping: Mapping[str, object]) -> CheckTerms:
     >>> check_terms({"type": "block", "elastic_period_s": 0.11}).elastic_period
     0.11
     """
-    given = {}
-    for key in CHECK_KEYS:
+    given: dict[str, float] = {}
+    for key, term in zip(CHECK_KEYS, fields(CheckTerms), strict=True):
         if mapping.get(key) is None:
             continue
         unit = key[-1]
@@ -75,20 +75,8 @@ def check_terms(mapping: Mapping[str, object]) -> CheckTerms:
             raise ConfigurationError(
                 f"{key} is {value:g} {unit}, but must be greater than 0; leave it out where there is none."
             )
-        given[key] = value
-    defaults = CheckTerms()
-    return CheckTerms(
-        elastic_period=given.get("elastic_period_s", defaults.elastic_period),
-        support_loss=given.get("support_loss_m", defaults.support_loss),
-    )
-
-
-def check_terms_schema() -> dict[str, object]:
-    """Return the JSON schema of the keys."""
-    return {
-        key: {"type": "number", "exclusiveMinimum": 0, "description": meaning}
-        for key, meaning in CHECK_KEYS.items()
-    }
+        given[term.name] = value
+    return CheckTerms(**given)
 
 
 @dataclass(frozen=True)
@@ -212,7 +200,9 @@ _STANDS_ON = {
 
 def scenes_schema() -> dict[str, object]:
     """Return the JSON schema (draft 7) of a list; a definition for each form of each type, and one of a support."""
-    of_entries = definitions({**check_terms_schema(), "stands_on": _STANDS_ON, "variants": _VARIANTS})
+    above_0 = {"type": "number", "exclusiveMinimum": 0}
+    checks = {key: {**above_0, "description": meaning} for key, meaning in CHECK_KEYS.items()}
+    of_entries = definitions({**checks, "stands_on": _STANDS_ON, "variants": _VARIANTS})
     of_entries[TYPE_NAME] = place_schema(NAME)
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
