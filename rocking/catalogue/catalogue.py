@@ -118,7 +118,7 @@ class CatalogueRecord:
     folder: Path = Path()
 
     def __post_init__(self) -> None:
-        """Turn the cells of numbers into numbers, and tell all that is wrong at once."""
+        """Turn the cells of numbers into numbers, and report all that is wrong at once."""
         defects = []
         for name, column in described_values(CatalogueRecord).items():
             if column.kind is str and isinstance(getattr(self, name), str):

@@ -96,7 +96,7 @@ def answers_of(record: CatalogueRecord, mirror: str | Path | None = None) -> dic
     """
     layouts = Layouts(record.folder)
     answers = {}
-    for file in record.files if layouts.are_answered else ():
+    for file in record.files if layouts.rows else ():
         with suppress(RecordError):
             if path := in_catalogue_folder(record, file.name, mirror):
                 place = PurePosixPath(file.name).parent.as_posix()

@@ -79,7 +79,7 @@ def catalogue_of_folder(
     rows = [dict(row) for row in existing]
     rows_of = {_bare(name): row for row in rows for name in row["file"].split(";")}
     layouts = Layouts(answers or folder)
-    readings = Readings(folder, layouts, is_kept=keeps_readings)
+    readings = Readings(folder, layouts, is_cached=keeps_readings)
     listed = []
     signatures = []
     lines: dict[str, int] = {}
@@ -335,7 +335,7 @@ def unlisted(catalogue: Path) -> tuple[RockingWarning, ...]:
 
 def _was_refused(path: Path, folder: Path, readings: Readings) -> bool:
     """Whether the file was read for a catalogue as it is, and can get no row there whatever is answered."""
-    listed = [listed_file(reading, path, folder, NOTHING_DECLARED) for reading in readings.kept_of(path)]
+    listed = [listed_file(reading, path, folder, NOTHING_DECLARED) for reading in readings.cached_of(path)]
     return bool(listed) and all(
         not file.question and (file.refusal or not any(channel.is_horizontal for channel in file.channels))
         for file in listed

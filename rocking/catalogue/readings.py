@@ -31,24 +31,24 @@ _LARGEST = 2**27  # bytes: a hundred thousand readings
 class Readings:
     """The readings of the files under `folder`, each made once for its content, its name and what is declared.
 
-    layouts: the answers next to the catalogue. is_kept: whether readings are looked for, and cached, in a store in that
-    folder. warning: where a store lies there that cannot be used, else None.
+    layouts: the answers next to the catalogue. is_cached: whether readings are looked for, and stored, in that folder.
+    warning: where a store lies there that cannot be used, else None.
     """
 
-    def __init__(self, folder: Path, layouts: Layouts, is_kept: bool = True) -> None:
+    def __init__(self, folder: Path, layouts: Layouts, is_cached: bool = True) -> None:
         self._folder = folder
         self._layouts = layouts
         self._store = folder / STORE
         self._log = folder / FAULTS
-        self._is_kept = is_kept
+        self._is_cached = is_cached
         self._before: dict[str, Reading] = {}
         self._now: dict[str, Reading] = {}
         self._inventory_hashes: dict[Path, str] = {}
         self.warning: RockingWarning | None = None
-        if is_kept and self._store.exists():
+        if is_cached and self._store.exists():
             try:
                 self._before = _stored(self._store)
-            except _UnusableStoreError as error:
+            except RecordError as error:
                 why = str(error).rstrip(".")
                 self.warning = RockingWarning.of(RecordKind.READINGS_UNUSABLE, str(self._store), why=why)
 
@@ -82,7 +82,7 @@ class Readings:
         self._now[key] = reading
         return reading
 
-    def kept_of(self, path: Path) -> list[Reading]:
+    def cached_of(self, path: Path) -> list[Reading]:
         """Return what is cached of the file at `path` as it is now answered, by whatever was declared of it."""
         sha256 = sha256_of_bytes(bytes_of(path))
         own = (printable(path.name), self._inventory_hash(path.parent))
@@ -106,40 +106,27 @@ class Readings:
 
     def save(self) -> None:
         """Keep the readings that were asked for, where the folder can be written in."""
-        if not self._is_kept or self._now == self._before:
+        if not self._is_cached or self._now == self._before:
             return
-        content = _kept().dump_json(self._now).decode()
+        content = _adapter().dump_json(self._now).decode()
         store = {"version": _version(), "sha256": sha256_of_bytes(content.encode()), "readings": content}
         with suppress(RockingError):
             write_whole(self._store, json.dumps(store).encode())
 
 
-class _UnusableStoreError(RecordError):
-    """A store of readings that was not written by this version of the package, or is damaged."""
-
-
 def _stored(path: Path) -> dict[str, Reading]:
-    """Return the readings in a store. Raises _UnusableStoreError unless every value of it is what it must be."""
-    content = read_whole(path, _LARGEST, _UnusableStoreError, "the store of readings")
-    try:
+    """Return the readings in a store. Raises RecordError unless every value of it is what it must be."""
+    content = read_whole(path, _LARGEST, RecordError, "the store of readings")
+    with suppress(ValueError, KeyError, TypeError, AttributeError, RecursionError):
         store = json.loads(content)
-        version = store["version"]
-        checksum = store["sha256"]
         readings = store["readings"]
-    except (ValueError, KeyError, TypeError, RecursionError):
-        raise _UnusableStoreError("this is no store of readings, or it is cut") from None
-    if version != _version():
-        raise _UnusableStoreError("another version of the package made these readings")
-    if not isinstance(readings, str) or checksum != sha256_of_bytes(readings.encode()):
-        raise _UnusableStoreError("the readings are damaged")
-    try:
-        return _kept().validate_json(readings, strict=True)
-    except ValueError:
-        raise _UnusableStoreError("the readings are not what this package writes") from None
+        if (store["version"], store["sha256"]) == (_version(), sha256_of_bytes(readings.encode())):
+            return _adapter().validate_json(readings, strict=True)
+    raise RecordError("another version of the package made these readings, or they are damaged")
 
 
 @cache
-def _kept() -> "TypeAdapter[dict[str, Reading]]":
+def _adapter() -> "TypeAdapter[dict[str, Reading]]":
     """Return what writes readings as JSON, and reads them by the types of their fields."""
     from pydantic import TypeAdapter  # which takes a quarter of a second to import
 

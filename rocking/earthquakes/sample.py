@@ -24,7 +24,7 @@ from rocking.warnings import Phrase, RockingWarning
 FEWEST = 5
 """Earthquakes below which nothing is resampled: the interval is then Student's, or Clopper and Pearson's, on them."""
 CORRELATION = 0.2
-"""Least intraclass correlation of what stations of one earthquake show, where less is seen: few tell it poorly."""
+"""Least intraclass correlation of what stations of one earthquake show, where less is seen: few estimate it poorly."""
 REPLICATES = 1000
 """Samples that are drawn for an interval."""
 TAIL = 0.05
@@ -191,7 +191,7 @@ class Spread:
 
     @property
     def count(self) -> float:
-        """As many earthquakes with the same number of stations each tell as much (Kish)."""
+        """As many earthquakes with the same number of stations each give as much information (Kish)."""
         return float(1 / (self.weights**2).sum())
 
     @property
@@ -350,11 +350,15 @@ class ClusterSample:
         return np.array([places[name] for name in self.stations], dtype=int)
 
     @cached_property
+    def event_names(self) -> tuple[str, ...]:
+        """(s,): the earthquake of each station."""
+        return tuple(dict(zip(self.stations, self.events, strict=True)).values())
+
+    @cached_property
     def of_station(self) -> np.ndarray:
         """(s,): the place of the earthquake of each station."""
-        event_of = dict(zip(self.stations, self.events, strict=True))
-        places = {name: place for place, name in enumerate(dict.fromkeys(event_of.values()))}
-        return np.array([places[event_of[name]] for name in self.station_names], dtype=int)
+        places = {name: place for place, name in enumerate(dict.fromkeys(self.event_names))}
+        return np.array([places[name] for name in self.event_names], dtype=int)
 
     @property
     def count(self) -> int:
@@ -384,9 +388,8 @@ class ClusterSample:
     def part(self, places: Sequence[int] | np.ndarray) -> "ClusterSample":
         """Return some of the stations, by their places, each with one record; one that comes twice counts as two."""
         names = [self.station_names[place] for place in places]
-        event_of = dict(zip(self.stations, self.events, strict=True))
         again = [f"{name} {turn}" if names.index(name) != turn else name for turn, name in enumerate(names)]
-        return ClusterSample(tuple(again), tuple(event_of[name] for name in names))
+        return ClusterSample(tuple(again), tuple(self.event_names[place] for place in places))
 
     def of_records(self, chosen: np.ndarray) -> "ClusterSample":
         """Return the sample of some of the records, by their places or (r,) of bool."""
@@ -415,14 +418,8 @@ class ClusterSample:
         of_events = rng.multinomial(count, np.full(count, 1 / count), replicates)
         drawn = np.zeros((replicates, self.count))
         # By name, so that the order of the records draws no other samples.
-        event_of = dict(zip(self.stations, self.events, strict=True))
-        by_name = np.array(
-            sorted(
-                range(self.count),
-                key=lambda place: (event_of[self.station_names[place]], self.station_names[place]),
-            ),
-            dtype=int,
-        )
+        names = list(zip(self.event_names, self.station_names, strict=True))
+        by_name = np.array(sorted(range(self.count), key=names.__getitem__), dtype=int)
         for column, event in enumerate(dict.fromkeys(self.of_station[by_name].tolist())):
             members = by_name[self.of_station[by_name] == event]
             again = of_events[:, column] * members.size

@@ -551,8 +551,8 @@ class Declarations:
         claims = tuple(claim for line in lines for claim in _claims_of(line))
         return cls(claims, any(_SAMPLED.search(line) for line in lines if not _OF_PEAK.search(line)))
 
-    def _values(self, what: What) -> dict[Any, None]:
-        return dict.fromkeys(claim.value for claim in self.claims if claim.what == what)
+    def _values(self, what: What) -> list[Any]:
+        return list(dict.fromkeys(claim.value for claim in self.claims if claim.what == what))
 
     @cached_property
     def unit(self) -> str | None:
@@ -563,11 +563,6 @@ class Declarations:
     def stated_steps(self) -> tuple[float, ...]:
         """The steps [s] of every rate that is spoken of, but for those of filters, the least first."""
         return tuple(sorted({1 / rate for rate in self._values("rate")} | set(self._values("time_step"))))
-
-    @property
-    def is_empty(self) -> bool:
-        """Whether it says nothing but a peak."""
-        return {claim.what for claim in self.claims} <= {"peak"}
 
     @cached_property
     def time_step(self) -> float | None:
@@ -593,7 +588,7 @@ class Declarations:
     def count(self, held: int) -> str:
         """Return the number of samples that a text declares, of several that which is `held`; "" where it says none."""
         if len(counts := self._values("samples")) < 2:
-            return _the_only(counts) or ""
+            return "".join(counts)
         agreed("samples", [*self.claims, Claim("samples", held, Where.SAMPLES)])
         return str(held)
 

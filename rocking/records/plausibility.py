@@ -1,4 +1,4 @@
-"""Plausibility: what a record's samples tell against its header, against any ground, or of damage; and its instrument.
+"""Plausibility: what a record's samples say against its header, against any ground, or of damage; and its instrument.
 
 A peak that contradicts its own header, or that no ground has, does not pass unseen. Each test of damage (a struck
 sample, gaps, a row that is repeated) asks whether it could be chance, in so long a record; none of the
@@ -98,8 +98,8 @@ def agree_with_header(
     around = magnitudes[max(0, place - _NEIGHBOURS) : place + _NEIGHBOURS + 1]
     if around.max() >= 0.98 * magnitudes.max():
         return record
-    stands_at = float(instants[magnitudes.argmax()])
-    return record.warned(RockingWarning.of(RecordKind.PEAK_ELSEWHERE, stated_s=at, time_s=stands_at))
+    found_at = float(instants[magnitudes.argmax()])
+    return record.warned(RockingWarning.of(RecordKind.PEAK_ELSEWHERE, stated_s=at, time_s=found_at))
 
 
 def pass_limits(record: Accelerogram, form: str = "") -> tuple[RockingWarning, ...]:
@@ -172,7 +172,7 @@ def _refuse_peak(record: Accelerogram, found: str, limit: str, form: str) -> NoR
     raise RecordError(f"{found} read as {record.source.unit or 'm/s2'}, above {limit}{what}", peak=found)
 
 
-OF_COUNTS = ("SAC", "miniSEED", "GSE", "SLIST or TSPAIR", "obspy")
+OF_COUNTS = ("SAC", "miniSEED", "GSE", "SLIST or TSPAIR", "WIN", "SEISAN", "REFTEK 130", "obspy")
 """Kinds of file whose samples are mostly counts."""
 
 

@@ -217,7 +217,7 @@ def bare_text(content: bytes) -> bytes:
     """Return a text without a byte order mark and the blanks, zeros and ^Z that pad its end; lines end in \\n.
 
     UTF-16, as spreadsheets write it, becomes UTF-8. Other content that holds a zero byte among its first, or many
-    anywhere, is no text and stays as it is.
+    anywhere, is no text and is returned as it is.
     """
     if content.startswith((b"\xff\xfe", b"\xfe\xff")):
         with suppress(UnicodeDecodeError):
@@ -398,15 +398,13 @@ def distinct_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
             other = a.component or f"channel {i}"
             copies[k] = RockingWarning.of(RecordKind.SAME_MOTION, b.component or f"channel {k}", other=other)
     shared = Counter(record.component for record in records if record.component)
-    named = [
-        record if record.component else replace(record, component=f"channel {place}")
-        for place, record in enumerate(records, 1)
-    ]
-    upwards = vertical_warning(named)
+    names = [record.component or f"channel {place}" for place, record in enumerate(records, 1)]
+    upwards = vertical_warning(
+        [replace(record, component=name) for record, name in zip(records, names, strict=True)]
+    )
     channels = []
-    for place, record in enumerate(records, 1):
-        name = record.component or f"channel {place}"
-        name += f" (channel {place})" if shared[record.component] > 1 else ""
+    for place, (record, name) in enumerate(zip(records, names, strict=True), 1):
+        own_name = f"{name} (channel {place})" if shared[name] > 1 else name
         warnings = (
             *record.warnings,
             *channel_warnings(record.component),
@@ -416,5 +414,5 @@ def distinct_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
             *site_warnings(record.component),
             *([upwards] if upwards else warnings_of_channel(record)),
         )
-        channels.append(replace(record, component=name, warnings=tuple(dict.fromkeys(warnings))))
+        channels.append(replace(record, component=own_name, warnings=tuple(dict.fromkeys(warnings))))
     return channels

@@ -175,7 +175,7 @@ class Accelerogram(Drawn):
             )
         if self.peak_acceleration > LARGEST_PEAK:
             warnings.append(RockingWarning(SignalKind.PEAK_IMPOSSIBLE))
-        # A copy with another factor or step keeps no doubt of the first one's.
+        # A copy with another factor or step has none of the first one's.
         still = [warning for warning in self.warnings if warning.kind not in _AT_BIRTH or warning in warnings]
         new = (warning for warning in warnings if warning not in still)
         object.__setattr__(self, "warnings", (*still, *new))

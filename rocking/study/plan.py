@@ -257,7 +257,7 @@ def make_plan(config: Mapping[str, Any], by_name: bool = False) -> Plan:
     missing = dict(missing_files(settings, ("catalogue", "structures")))
     defects += missing.values()
     catalogue = () if "catalogue" in missing else attempt(load_catalogue, settings.catalogue) or ()
-    attempt(Layouts(Path(settings.catalogue).parent).check)
+    attempt(lambda: Layouts(Path(settings.catalogue).parent).rows)
     if "structures" not in missing:
         attempt(scenes_of, settings.structures)
     attempt(_check_results, settings)

@@ -185,20 +185,6 @@ def resorce(stated: float = 1.0) -> str:
     )  # fmt: skip
 
 
-def esd() -> str:
-    """The layout of the database's own page on its files, with an example of 1999."""
-    return (
-        "file:                         002727xa.cor\nearthquake code:                 990\n"
-        "station code:                    694\ntotal number of channels:     3\n"
-        "orientation of transducer:    NS\nfull scale amplitude:          0.50g\n"
-        f"time of first sample:         31.12.1999 04:55:53.671UTC\nsampling period:               {STEP:.6f}s\n"
-        f"number of samples:             {N}\nrecord length:                {(N - 1) * STEP:.3f}s\n"
-        "units:                        m/s*s, m/s & s\ncomments & processing history:\n"
-        "%-  8th order elliptical bandpass-filter (0.25-25.00Hz)\n-> corrected acceleration time histories\n"
-        + columns(TRUE, 8, "13.5E")
-    )  # fmt: skip
-
-
 def geonet(stated: float = 1.0) -> str:
     return (
         "Uncorrected accelerogram 1 GNS Science\nSite WTMC      42 37 10S\n"
@@ -372,6 +358,18 @@ def gse() -> bytes:
     return by_obspy("GSE2", np.round(1000 * TRUE).astype(np.int32))
 
 
+def win() -> bytes:
+    """One channel in blocks of a second with 32-bit differences, from 1 January 2020 on; the last one is filled up."""
+    rate = 10
+    counts = np.round(1000 * TRUE).astype(int)
+    content = b""
+    for second, part in enumerate(counts.reshape(-1, rate)):
+        samples = struct.pack(f">{rate}i", part[0], *np.diff(part))
+        body = bytes.fromhex(f"2001010000{second:02}") + struct.pack(">HH", 0xA100, 4 << 12 | rate) + samples
+        content += struct.pack(">i", 4 + len(body)) + body
+    return content
+
+
 def of_obspy(path: str) -> bytes:
     """The content of a file that obspy installs for its own tests, of a format that it does not write."""
     return (Path(obspy.__file__).parent / "io" / path).read_bytes()
@@ -412,7 +410,6 @@ MADE: dict[str, tuple[Callable[..., str], float, Options]] = {
     "EMOD3D text": (emod3d, 5e-5, Options(unit="g")),
     "AFAD/NSMN text": (afad, 1e-8, Options()),
     "RESORCE": (resorce, 1e-7, Options()),
-    "ESD": (esd, 1e-5, Options()),
     "GeoNet V1A/V2A": (geonet, 5e-5, Options()),
     "UNAM/CICESE": (unam, 5e-7, Options()),
     "UNAM/CICESE: blank second block": (unam_with_blank_block, 5e-7, Options()),
@@ -451,6 +448,13 @@ OTHER_KINDS = {
     "StationXML": '<?xml version="1.0"?>\n<FDSNStationXML></FDSNStationXML>\n',
 }
 """A word of the sentence by which it is refused → a file of no format, which is known all the same."""
+
+OF_OBSPY = {
+    "SEISAN": "seisan/tests/data/2011-09-06-1311-36S.A1032_001BH_Z",
+    "REFTEK 130": "reftek/tests/data/104800000_000093F8",
+    "WIN": "win/tests/data/10030302.00",
+}
+"""Format → a file that obspy installs, of formats that it does not write: tests/contracts/test_by_obspy.py reads it."""
 
 
 def format_of(label: str) -> str:

@@ -3,27 +3,29 @@
 import io
 from pathlib import Path
 
+import made_files
 import numpy as np
 import obspy
 import pytest
-from made_files import STEP, TRUE, by_obspy, of_obspy
+from made_files import OF_OBSPY, STEP, TRUE, by_obspy, of_obspy
 
 from rocking.errors import RecordError, UndeclaredError
 from rocking.records import read
 from rocking.records.formats import Options
 from rocking.records.kinds import RecordKind
-from rocking.records.read import read_content
+from rocking.records.read import read_content, recognise
 from tests.refusals import refused
 
 FOLDERS = {
-    "nied": 1, "gse2": 9, "ascii": 12, "css": 0, "kinemetrics": 3, "sac": 9,
+    "nied": 1, "gse2": 9, "ascii": 12, "win": 14, "seisan": 10, "css": 0, "reftek": 4, "kinemetrics": 3, "sac": 9,
 }  # fmt: skip
 """Folder of obspy → how many of its test files are read, where their unit is declared.
 
 The others are texts about stations and events, files that are damaged on purpose or have gaps, tables of CSS, whose
 samples lie in other files, and arrays of numpy.
 """
-NAMES = {"GSE": ("GSE2", "GSE1"), "SLIST or TSPAIR": ("SLIST", "TSPAIR")}
+NAMES = {"GSE": ("GSE2", "GSE1"), "SLIST or TSPAIR": ("SLIST", "TSPAIR"), "WIN": ("WIN",), "SEISAN": ("SEISAN",),
+         "REFTEK 130": ("REFTEK130",)}  # fmt: skip
 
 
 def of_obspys_own(content: bytes, name: str) -> obspy.Stream:
@@ -64,6 +66,14 @@ def test_its_own_files_are_read_or_refused_in_one_sentence(folder: str) -> None:
     assert count == FOLDERS[folder]
 
 
+@pytest.mark.parametrize("name", OF_OBSPY)
+def test_each_is_recognised_by_one_reader_and_asks_for_its_response(name: str) -> None:
+    content = of_obspy(OF_OBSPY[name])
+    assert recognise(content).name == name
+    with refused(UndeclaredError, "unit"):
+        read_content(content, "f", Options(folder=Path("/nowhere")))
+
+
 def test_the_calibration_of_gse_leads_to_a_displacement_and_is_not_applied(tmp_path: Path) -> None:
     """GSE 2.0 and IMS 1.0: "calib" is in nm of ground displacement a count, at the period "calper"."""
     counts = np.round(1000 * TRUE).astype(np.int32)
@@ -94,6 +104,26 @@ def test_a_list_of_samples_that_is_cut_is_refused(form: str) -> None:
         read_content(cut, "f", Options(unit="m/s2"))
 
 
+def test_a_file_of_win_without_a_second_is_refused() -> None:
+    """obspy joins the seconds before and after."""
+    whole = made_files.win()
+    (record,) = read_content(whole, "f", Options(unit="mm/s2"))
+    assert np.abs(record.acceleration - TRUE).max() <= 5.1e-4 and record.time_step == 0.1
+    block = len(whole) // 4
+    with refused(RecordError, "seconds", 3):
+        read_content(whole[:block] + whole[2 * block :], "f", Options(unit="mm/s2"))
+    with refused(RecordError, "seconds", 4):
+        read_content(whole[: 3 * block + 20], "f", Options(unit="mm/s2"))
+
+
+def test_where_a_channel_of_win_points_is_in_doubt() -> None:
+    """Its four hexadecimal digits number the channel: "0090" is no azimuth."""
+    (record,) = read_content(made_files.win(), "f", Options(unit="mm/s2"))
+    assert record.azimuth is None and RecordKind.DIRECTION_UNKNOWN in {
+        warning.kind for warning in record.warnings
+    }
+
+
 def test_text_in_place_of_samples_is_refused() -> None:
     content = of_obspy("mseed/tests/data/encoding/smallASCII_bigEndian.mseed")
     with refused(RecordError, "channel", "XX.TEST..BHE"):
@@ -107,3 +137,13 @@ def test_a_line_that_would_end_the_process_is_refused() -> None:
     lines[20] += lines.pop(21) + lines.pop(21)
     with refused(RecordError, "line", 240):
         read_content(b"\n".join(lines), "f", Options(unit="nm/s2"))
+
+
+@pytest.mark.parametrize("place", range(4, 10))
+def test_a_time_of_win_that_is_none_is_refused(place: int) -> None:
+    content = bytearray(made_files.win())
+    second_block = len(content) // 4
+    content[second_block + place] = 0xDE
+    content[2 * second_block + place] = 0xDE
+    with pytest.raises(RecordError):
+        read_content(bytes(content), "f", Options(unit="mm/s2"))

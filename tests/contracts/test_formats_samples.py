@@ -13,6 +13,7 @@ from made_files import (
     MADE,
     MADE_BINARY,
     MADE_REFUSED,
+    OF_OBSPY,
     OTHER_KINDS,
     STEP,
     TRUE,
@@ -41,7 +42,7 @@ MEAN_REMOVED = {"BHRC", "K-NET/KiK-net", "SAC", "Kinemetrics EVT"}
 @pytest.mark.parametrize("form", FORMATS, ids=lambda form: form.name)
 def test_every_format_has_a_made_sample(form: Format) -> None:
     """The recipe for a format ends here: without a sample in made_files.py its name fails."""
-    made = {format_of(label) for label in MADE | MADE_BINARY | MADE_REFUSED}
+    made = {format_of(label) for label in MADE | MADE_BINARY | MADE_REFUSED} | set(OF_OBSPY)
     assert form.name in made, f"{form.name}: write a maker of a small file into tests/contracts/made_files.py"
 
 

@@ -1,6 +1,6 @@
 """The formats that obspy reads, from bytes we have recognised, by the format we name, never by its own guess.
 
-K-NET, Kinemetrics EVT, SAC, and files of counts: miniSEED, GSE, SLIST, TSPAIR.
+K-NET, Kinemetrics EVT, SAC, and files of counts: miniSEED, GSE, SLIST, TSPAIR, WIN, SEISAN, REFTEK.
 """
 
 import io
@@ -9,6 +9,7 @@ import struct
 import warnings
 from contextlib import suppress
 from dataclasses import replace
+from datetime import datetime
 from functools import partial
 from typing import Any
 
@@ -241,7 +242,15 @@ def _read_counts(form: str, content: bytes, options: Options) -> list[Accelerogr
 
     form: obspy's name of the format. Of a text that states their unit, they may be acceleration already.
     """
+    seconds = _seconds_of_win(content) if form == "WIN" else 0
     traces, warnings = _stream(content, form)
+    for trace in traces if seconds else ():
+        if trace.stats.npts != round(seconds * trace.stats.sampling_rate):
+            raise RecordError(
+                f"channel {trace.stats.channel} holds {trace.stats.npts} samples in {seconds} s at "
+                f"{trace.stats.sampling_rate:g} Hz: seconds of it are missing; fetch the file again.",
+                samples=trace.stats.npts,
+            )
     heads = (str(trace.stats.ascii.unit) for trace in traces if "ascii" in trace.stats)
     unit = options.unit_in(heads, "the file")
     inventory = None if unit else inventory_for(traces[0].stats, options)
@@ -296,10 +305,70 @@ def _check_lists(content: bytes, is_of_pairs: bool) -> None:
 
 def may_be_counts(head: bytes) -> bool:
     """Whether a file that begins with `head`, its first 1024 bytes, may hold counts, which need a StationXML."""
-    if any(form.recognise(head) for form in (MINISEED, GSE, LISTS_OF_SAMPLES)):
+    if any(form.recognise(head) for form in (MINISEED, GSE, LISTS_OF_SAMPLES, WIN, SEISAN, REFTEK)):
         return True
     versions = (struct.unpack_from(order + "i", head.ljust(_SAC_HEADER), _VERSION)[0] for order in "<>")
     return any(version in (6, 7) for version in versions)
+
+
+def _is_win(content: bytes) -> bool:
+    """Whether blocks of a second follow one another, each with its length and a time in packed decimals."""
+    at = 0
+    for block in range(2):
+        if block and at + _WIN_HEAD > len(content):
+            return at == len(content) or len(content) == 1024  # the start of a file
+        if at + _WIN_HEAD > len(content):
+            return False
+        length = int.from_bytes(content[at : at + 4], "big")
+        time = content[at + 4 : at + _WIN_HEAD].hex()
+        if length <= _WIN_HEAD or not time.isdecimal():
+            return False
+        month, day, hour, minute, second = (int(time[place : place + 2]) for place in range(2, 12, 2))
+        if not (1 <= month <= 12 and 1 <= day <= 31 and hour < 24 and minute < 60 and second < 60):
+            return False
+        at += length
+    return True
+
+
+def _seconds_of_win(content: bytes) -> int:
+    """Return how many seconds a file holds. Raises RecordError where it leaves some out: obspy joins what is left."""
+    at = 0
+    times: list[float] = []
+    while (
+        at + _WIN_HEAD <= len(content) and (length := int.from_bytes(content[at : at + 4], "big")) > _WIN_HEAD
+    ):
+        time = content[at + 4 : at + _WIN_HEAD].hex()
+        try:
+            times.append(datetime.strptime(time, "%y%m%d%H%M%S").timestamp())
+        except ValueError:
+            raise RecordError(
+                f"the block at byte {at} has the time {time!r}, which is none; fetch the file again.",
+                time=time,
+            ) from None
+        at += length
+    if at > len(content) or content[at:].strip(b"\0") or (np.diff(times) != 1).any():
+        raise RecordError(
+            "the seconds of the file do not follow one another, or the last is cut; fetch it again.",
+            seconds=len(times),
+        )
+    return len(times)
+
+
+_WIN_HEAD = 10
+"""Bytes of the length of a block and of its time."""
+_SEISAN_FIRST = (
+    (0, b"KP", 82, b"P"),
+    (0, b"\0\0\0P", 84, b"\0\0\0P"),
+    (0, b"P\0\0\0", 84, b"P\0\0\0"),
+)
+"""The marks of a first line of 80 characters and of the second, as compilers of Fortran write them (SEISAN manual)."""
+
+
+def _is_seisan(content: bytes) -> bool:
+    return len(content) >= 12 * 80 and any(
+        content.startswith(first, at) and content.startswith(second, then)
+        for at, first, then, second in _SEISAN_FIRST
+    )
 
 
 SAC = Format(
@@ -339,6 +408,32 @@ LISTS_OF_SAMPLES = Format(
     "first line TIMESERIES with SLIST or TSPAIR",
     re.compile(r"TIMESERIES \S+,.*, (SLIST|TSPAIR),"),
     _read_lists,
+)
+WIN = Format(
+    "WIN",
+    "networks of universities, Japan",
+    "two blocks with their length and time in packed decimals",
+    _is_win,
+    partial(_read_counts, "WIN"),
+    binary=True,
+)
+SEISAN = Format(
+    "SEISAN",
+    "SEISAN, University of Bergen",
+    "marks of two lines of 80 characters as Fortran writes them",
+    _is_seisan,
+    partial(_read_counts, "SEISAN"),
+    binary=True,
+)
+REFTEK = Format(
+    "REFTEK 130",
+    "Refraction Technology recorders",
+    "packets of 1024 bytes, of which the first is EH, DT or AD",
+    lambda content: (
+        len(content) % 1024 == 0 and content[:2] in (b"EH", b"DT", b"AD") and b"\0" in content[:16]
+    ),
+    partial(_read_counts, "REFTEK130"),
+    binary=True,
 )
 KNET = Format(
     "K-NET/KiK-net",

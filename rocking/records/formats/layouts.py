@@ -383,18 +383,15 @@ class Layouts:
             return ()
         return read_edited(self._path, CatalogueError, COLUMNS, COLUMNS[:1])
 
-    def check(self) -> None:
-        """Raise CatalogueError where layouts.csv is no table of answers; one wrong answer costs its own files alone."""
-        _ = self.rows
-
     @cached_property
     def _answers(self) -> Sequence[tuple[Signature, LayoutAnswer]]:
         return _answers(self.rows, NAME)
 
-    def _matching(self, signature: Signature) -> list[LayoutAnswer]:
+    def _matching(self, signature: Signature | None) -> list[LayoutAnswer]:
         """Return the answers that hold for tables of a signature: those drawn from files that are nearest to it."""
         for answers in (self._answers, _shipped()):
-            found = [(off, answer) for row, answer in answers if (off := row.distance(signature)) is not None]
+            offs = ((row.distance(signature) if signature else None, answer) for row, answer in answers)
+            found = [(off, answer) for off, answer in offs if off is not None]
             if found:
                 nearest = min(off for off, _ in found)
                 return [answer for off, answer in found if off == nearest]
@@ -415,25 +412,16 @@ class Layouts:
             )
         return next(iter(found.values()), None)
 
-    @property
-    def are_answered(self) -> bool:
-        """Whether layouts.csv answers anything."""
-        return bool(self._answers)
-
     def text_of(self, signature: Signature | None) -> str:
         """Return the answer for tables of a signature as it is written, "" where there is none.
 
         It is part of the content of each file that it reads: where it is edited, the file is read again.
         """
-        return "; ".join(answer.text for answer in self._matching(signature)) if signature else ""
+        return "; ".join(answer.text for answer in self._matching(signature))
 
     def line_of(self, signature: Signature | None) -> int | None:
         """Return the line of layouts.csv that alone answers for tables of a signature, None where there is none."""
-        own = (
-            []
-            if signature is None
-            else [layout for layout in self._matching(signature) if layout.whose == NAME]
-        )
+        own = [answer for answer in self._matching(signature) if answer.whose == NAME]
         return own[0].line if len(own) == 1 else None
 
     def insists(self, line: int, why: str) -> bool:
@@ -467,7 +455,11 @@ class Layouts:
                 if all(row.distance(question.signature) is None for row in present)
             )
         ]
-        old = [tried[line].in_row(row) if line in tried else dict(row) for line, row in self.rows]
+        old = [dict(row) for _, row in self.rows]
+        for (line, _), row in zip(self.rows, old, strict=True):
+            if line in tried:
+                row["answer"] = row["answer"] if tried[line].may_hold else f"{OPEN} {row['answer']}"
+                row["tried"] = tried[line].words
         if not new and old == [dict(row) for _, row in self.rows]:
             return None
         return edited_text([*old, *new], COLUMNS, self._path)
@@ -479,11 +471,6 @@ class Trial:
 
     words: str
     may_hold: bool
-
-    def in_row(self, row: Mapping[str, str]) -> dict[str, str]:
-        """Return the row of the answer with the words, and open again where it cannot hold."""
-        answer = row["answer"] if self.may_hold else f"{OPEN} {row['answer']}"
-        return {**row, "answer": answer, "tried": self.words}
 
 
 def _answers(

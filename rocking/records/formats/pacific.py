@@ -64,7 +64,7 @@ def _read_jma(content: bytes, options: Options) -> list[Accelerogram]:
     """The header gives no number of samples."""
     head, rows = parted(content, _JMA_HEADER)
     labels = _JMA_NAMES.split(",")
-    if broken := next((row for row in rows if row.strip() and row.count(",") != len(labels) - 1), ""):
+    if broken := next((row for row in rows if row.count(",") != len(labels) - 1 and row.strip()), ""):
         raise RecordError(
             f"a line of the samples is {broken[:40]!r}, but must hold {len(labels)} numbers.", samples=broken
         )

@@ -156,7 +156,8 @@ class NumberTable:
 
         Of text that declares unit and step it is enough that it speaks of no factor.
         """
-        undeclared = [line for line in self.words if Declarations.of([line]).is_empty]
+        said_of = ((line, {claim.what for claim in Declarations.of([line]).claims}) for line in self.words)
+        undeclared = [line for line, what in said_of if what <= {"peak"}]
         is_title = len(undeclared) < 2 and not any(
             re.search(r"[:=]|^[\d\s.,;+-]+$", line) for line in undeclared
         )
@@ -699,7 +700,7 @@ def _values(body: bytes, table: NumberTable, layout: TableLayout | None) -> np.n
 
 def _check_rows(spaced: bytes, width: int, may_end_short: bool) -> None:
     """Raise RecordError unless every row of numbers has `width` of them; the last row of a series may be short."""
-    counts = [count for row in spaced.split(b"\n") if (count := len(row.split()))]
+    counts = list(filter(None, map(len, map(bytes.split, spaced.split(b"\n")))))
     if may_end_short and counts and counts[-1] < width:
         del counts[-1]
     for at, count in enumerate(counts, 1):

@@ -109,11 +109,10 @@ def fields(rows: list[str], width: int = 0, margin: int = 0) -> np.ndarray:
     with suppress(RecordError):
         if (values := _apart(text.encode())) is not None:
             return values
-    bare = (row.rstrip()[margin:] for row in rows)
-    cells = [row[at : at + width].strip() for row in bare for at in range(0, len(row), width)]
+    cells = re.findall(f".{{1,{width}}}", "\n".join(row.rstrip()[margin:] for row in rows))
     text = " ".join(cells)
-    if "" in cells or len(text.split()) != len(cells):
-        broken = next(cell for cell in cells if len(cell.split()) != 1)
+    if len(text.split()) != len(cells) or any(map(str.isspace, cells)):
+        broken = next(cell for cell in cells if len(cell.split()) != 1).strip()
         raise RecordError(f"a column of {width} characters holds {broken!r}, not one number.", samples=broken)
     return numbers(text)
 

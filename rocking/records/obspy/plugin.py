@@ -45,7 +45,6 @@ def _bytes(source: Any, limit: int) -> bytes:
     return read_start(Path(source), limit)
 
 
-_FORMATS = {form.name: form for form in FORMATS}
-for _key, _name in PLUGINS.items():
-    globals()[f"is_{_key.lower()}"] = partial(is_format, _FORMATS[_name])
-    globals()[f"read_{_key.lower()}"] = partial(read_format, _FORMATS[_name])
+for _form in filter(lambda form: form.plugin, FORMATS):
+    globals()[f"is_{_form.plugin.lower()}"] = partial(is_format, _form)
+    globals()[f"read_{_form.plugin.lower()}"] = partial(read_format, _form)

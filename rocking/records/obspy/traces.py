@@ -75,13 +75,17 @@ _STAGES_AGREE = 0.05
 def measured_as(units: str) -> tuple[str, int]:
     """Return the unit of acceleration that the input units of a response lead to, and by how many differentiations.
 
-    "M/S**2" is ("m/s2", 0), "nm/s" is ("nm/s2", 1), "G" is ("g", 0). Raises ValueError for what is no motion, as volts.
+    "M/S**2" is ("m/s2", 0), "nm/s" is ("nm/s2", 1), "G" is ("g", 0). Raises RecordError for what is no motion.
     """
     name = units.lower().replace("nano", "n").replace("micro", "u").replace("gravity", "g")
     for order, rate in enumerate(("", "/s", "/s/s")):
         if unit := acceleration_unit(name.strip() + rate):
             return unit, order
-    raise ValueError(f"the instrument of this channel measures {units!r}, which is no motion of the ground")
+    raise RecordError(
+        f"the instrument of this channel measures {units!r}, which is no motion of the ground; use a channel of "
+        "acceleration or velocity.",
+        quantity=units,
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,10 +117,7 @@ def calibrated(trace: Any, inventory: Any, response: str) -> Motion:
         raise RecordError(
             f"the StationXML holds no response of {trace.id} at {stats.starttime}.", inventory=trace.id
         ) from error
-    try:
-        unit, order = measured_as(units)
-    except ValueError as error:
-        raise RecordError(f"{error}; use a channel of acceleration or velocity.", quantity=units) from None
+    unit, order = measured_as(units)
     factor = acceleration_factor(unit)
     warnings = _check_gain(gain, of, trace.id, response)
     staged = bool(getattr(of, "response_stages", None))
@@ -212,15 +213,15 @@ def printed() -> Iterator[list[str]]:
     except OSError:  # a process without an error output
         yield lines
         return
-    with tempfile.TemporaryFile() as kept:
-        os.dup2(kept.fileno(), 2)
+    with tempfile.TemporaryFile() as output:
+        os.dup2(output.fileno(), 2)
         try:
             yield lines
         finally:
             os.dup2(before, 2)
             os.close(before)
-            kept.seek(0)
-            lines += kept.read().decode("utf-8", "replace").splitlines()
+            output.seek(0)
+            lines += output.read().decode("utf-8", "replace").splitlines()
 
 
 def _check_gain(gain: float, response: Any, name: str, removal: str) -> tuple[RockingWarning, ...]:
@@ -323,7 +324,7 @@ def unit_left_by(trace: Any) -> str | None:
     try:
         units = str(trace.stats.response.instrument_sensitivity.input_units)
         unit, order = measured_as(units)
-    except (AttributeError, ValueError):
+    except (AttributeError, RecordError):
         return None
     if order:
         raise RecordError(

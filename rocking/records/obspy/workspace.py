@@ -164,7 +164,7 @@ def _dataset(file: Any, *names: str) -> Any:
 
 
 def _text(file: Any, *names: str) -> str:
-    """Return the text that ASDF keeps as a series of bytes, "" where there is none."""
+    """Return the text that ASDF stores as a series of bytes, "" where there is none."""
     if _member(file, *names) is None:
         return ""
     data = _dataset(file, *names)
@@ -234,27 +234,19 @@ def read_station(content: bytes, options: Options) -> list[Accelerogram]:
                 f"the workspace holds no StationXML of {trace.id}; {advice('inventory')}.", unit=None
             )
         (record,) = from_traces([trace], inventory, unit, options.response, None)
-        about = {
-            name: facts[name]
-            for name in ("event", "event_time", "magnitude", "magnitude_type")
-            if name in facts
-        }
+        if noted["failure"]:
+            record = record.warned(RockingWarning.of(RecordKind.FAILED_IN_GMPROCESS, reason=noted["failure"]))
+        named = {name: facts[name] for name in _OF_EARTHQUAKE if name in facts}
+        step = options.time_step_of(record.time_step)
+        corner = noted["high_pass_hz"] or None
         records.append(
-            replace(
-                record,
-                processed=not is_raw,
-                time_step=options.time_step_of(record.time_step),
-                high_pass_frequency=noted["high_pass_hz"] or None,
-                **about,
-            ).warned(
-                *(
-                    [RockingWarning.of(RecordKind.FAILED_IN_GMPROCESS, reason=noted["failure"])]
-                    if noted["failure"]
-                    else []
-                )
-            )
+            replace(record, processed=not is_raw, time_step=step, high_pass_frequency=corner, **named)
         )
     return records
+
+
+_OF_EARTHQUAKE = "event", "event_time", "magnitude", "magnitude_type"
+"""The facts of a member that are fields of each of its channels."""
 
 
 def _parted(content: bytes) -> tuple[dict[str, Any], bytes, bytes]:
