@@ -27,14 +27,16 @@ PREPARED = "ROCKING_PREPARED"
 """The variable of the environment by which the process that is forked gets the settings of the study, as YAML."""
 
 
-def warm_up(settings: Settings) -> None:
+def warm_up(settings: Settings, jobs: bool = True) -> None:
     """Start the process that jobs are forked from, unless it runs; it imports and prepares itself meanwhile.
 
-    settings: of the study in this folder, whose structures it prepares.
+    settings: of the study in this folder, whose structures it prepares. jobs: False where one job is all that will be
+    forked, as on another machine: this job imports what it needs, and no more.
     """
     # A console script, which imports its `main`, is run again as a module in each process that is started.
     script = getattr(vars(sys.modules["__main__"]).get("main"), "__module__", None)
-    forkserver.set_forkserver_preload(["rocking.study.warm", *([script] if script else [])])
+    prepared = ["rocking.study.warm"] if jobs else []
+    forkserver.set_forkserver_preload([*prepared, *([script] if script else [])])
     before = dict(os.environ)
     os.environ.update({PREPARED: commented_yaml(settings), **dict.fromkeys(_THREADS, "1")})
     try:
@@ -44,15 +46,16 @@ def warm_up(settings: Settings) -> None:
         os.environ.update(before)
 
 
-def run_apart(settings: Settings, log: str, work: str, *arguments: object) -> None:
+def run_apart(settings: Settings, log: str, work: str, *arguments: object, alone: bool = False) -> None:
     """Run the function `work`, "module:name of the function", in a process of its own, and wait for its end.
 
-    settings: of the study. log: of the job, which takes what it prints. Raises RuntimeError where it did not end well.
+    settings: of the study. log: of the job, which takes what it prints. alone: whether this process runs no other job.
+    Raises RuntimeError where it did not end well.
     """
     context = multiprocessing.get_context("forkserver")
     process = context.Process(target=_work, args=(str(Path(log).absolute()), work, *arguments))
     with _ONE_AT_A_TIME:
-        warm_up(settings)
+        warm_up(settings, jobs=not alone)
         process.start()
     wait([process.sentinel])
     with _ONE_AT_A_TIME:

@@ -148,9 +148,9 @@ def kinds_of_jobs(told: str) -> list[str]:
 
 
 def new_study(folder: Path, tree: Path) -> SmallStudy:
-    """A study without records: two structures, no reports."""
+    """A study without records: two structures, no reports, few members and no reserve."""
     (folder / "records").mkdir(parents=True)
-    settings = {"reports": False}
+    settings = {"reports": False, "ensemble": {"members": 16, "reserve": 0}}
     (folder / "config.yaml").write_text(yaml.safe_dump(settings), encoding="utf-8")
     (folder / "structures.yaml").write_text(yaml.safe_dump(STRUCTURES), encoding="utf-8")
     return SmallStudy(folder, tree)

@@ -122,6 +122,7 @@ def test_a_run_until_a_step_gives_the_files_of_that_step_and_goes_on_from_there(
     assert (own / "pulses.csv").read_bytes() == (done.results / "good_1" / "pulses.csv").read_bytes()
 
 
+@pytest.mark.slow
 def test_rocking_run_until_a_step_says_where_its_files_lie(begun, done, tmp_path) -> None:
     study = begun.copy_to(tmp_path / "study")
     told = study.rocking("run", str(study.folder), "--until", "predict").stdout
@@ -137,17 +138,6 @@ def test_the_graph_of_the_readme_is_that_of_the_rules() -> None:
     _, _, shown = (ROOT / "README.md").read_text(encoding="utf-8").partition("```mermaid\n")
     # Snakemake draws the edges in any order.
     assert sorted(shown.partition("\n```")[0].splitlines()) == sorted(drawn.strip().splitlines())
-
-
-def test_inputs_are_left_alone(begun, tmp_path) -> None:
-    """Also the blank hash of a file; the provenance holds it."""
-    study = begun.copy_to(tmp_path / "study")
-    study.write_catalogue([row | {"sha256": ""} for row in study.rows()])
-    before = {path: path.read_bytes() for path in study.folder.rglob("*") if path.is_file()}
-    snakemake(study)
-    assert {path: path.read_bytes() for path in before} == before
-    provenance = yaml.safe_load((study.results / "summary" / "provenance.json").read_text())
-    assert len(provenance["records"]["good_1"]) == 64
 
 
 @pytest.mark.slow
@@ -171,7 +161,7 @@ def test_a_link_to_itself_among_the_results_stops_nothing(done, tmp_path) -> Non
     assert study.tables() == done.tables()
 
 
-@pytest.mark.parametrize("number", [errno.ENOLCK, errno.ENOSYS])
+@pytest.mark.parametrize("number", [errno.ENOLCK, pytest.param(errno.ENOSYS, marks=pytest.mark.slow)])
 def test_a_file_system_without_locks_is_a_warning(done, tmp_path, number) -> None:
     study = done.copy_to(tmp_path / "study")
     code = (
@@ -188,9 +178,10 @@ def test_a_file_system_without_locks_is_a_warning(done, tmp_path, number) -> Non
 
 
 def test_a_catalogue_that_cannot_be_written_stops_nothing(begun, done, tmp_path) -> None:
-    """Nor any other file that the user wrote: a run only reads them."""
+    """Nor any other file that the user wrote: a run only reads them, and the provenance holds the hash left blank."""
     study = begun.copy_to(tmp_path / "study")
     study.write_catalogue([row | {"sha256": ""} for row in study.rows()])
+    before = {path: path.read_bytes() for path in study.folder.rglob("*") if path.is_file()}
     command = [sys.executable, "-m", "snakemake", "--nocolor"]
     if os.geteuid() == 0:  # to whom permissions mean nothing, unless that is taken from it
         if not shutil.which("setpriv"):
@@ -206,6 +197,9 @@ def test_a_catalogue_that_cannot_be_written_stops_nothing(begun, done, tmp_path)
     (study.folder / "records").chmod(0o755)
     assert ended.returncode == 0, ended.stdout + ended.stderr
     assert study.tables() == done.tables()
+    assert {path: path.read_bytes() for path in before} == before
+    provenance = yaml.safe_load((study.results / "summary" / "provenance.json").read_text())
+    assert len(provenance["records"]["good_1"]) == 64
 
 
 @pytest.mark.slow

@@ -70,6 +70,7 @@ def test_broken_records_change_no_byte_of_the_good_ones(with_broken, finished) -
         assert with_broken.rows_of(name) == expected
 
 
+@pytest.mark.slow
 def test_a_fault_in_the_trade_or_the_fragility_stops_nothing_and_is_kept_as_a_row(start, tmp_path) -> None:
     """Planted in a copy of the package: under one record in the trade, and of one structure in the fragility."""
     tree = shutil.copytree(start.tree, tmp_path / "tree")
@@ -153,6 +154,7 @@ def test_a_full_disk_is_said_and_leaves_nothing_half_written(finished, start, tm
         assert (study.results / "summary" / "record.csv").read_text().count("\n") == 2, "head and one record"
 
 
+@pytest.mark.slow
 def test_a_limit_on_the_size_of_files_is_said_and_harms_nothing(finished, start, tmp_path) -> None:
     """Of 6 kB, in blocks of 512 bytes: a job writes more than that into one table."""
     study = start.copy_to(tmp_path / "study")

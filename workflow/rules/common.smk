@@ -79,7 +79,8 @@ def memory_of_record(wildcards, input, attempt):
 def work(rule, plan, input, log, cores=1):
     """Do the job of a rule in a process of its own."""
     folder = folder_of(input.listed[0], SETTINGS.catalogue) if ELSEWHERE else ""
-    run_apart(SETTINGS, log[0], "rocking.study.jobs:run", rule, plan, log[0], cores, folder)
+    alone = not workflow.is_main_process
+    run_apart(SETTINGS, log[0], "rocking.study.jobs:run", rule, plan, log[0], cores, folder, alone=alone)
 
 
 def research(rule, catalogues, output, log):

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -42,6 +43,7 @@ ROUGH = Joints(5.0)
 """Joints that nothing lets slide, so that something else limits a word."""
 PULSE = Pulse(amplitude=2.5, circular_frequency=2 * np.pi / 0.9, start_time=3.0)
 SINE = Accelerogram(PULSE.acceleration(np.arange(2000) * STEP), STEP)
+assess = partial(rocking.assess, settings=AssessmentSettings(ensemble=EnsembleSettings(reserve=0)))
 
 
 def record(amplitude: float, period: float = 0.9) -> Accelerogram:
@@ -58,7 +60,7 @@ def test_the_verdict_and_every_number_are_those_of_all_cracks_followed_one_by_on
     seen = set()
     for severity in (1.5, 3.5, 5.0, 14.0):
         motion = record(severity * structure.static_multiplier * 9.80665)
-        assessment = rocking.assess(motion, structure)
+        assessment = assess(motion, structure)
         motions = GroundMotions.of(motion)
         alone = {crack.description: ensemble(crack.mechanism, motions) for crack in cracks(structure)}
         words = {name: one_part.facts().step(0.05) for name, one_part in alone.items()}
@@ -124,11 +126,11 @@ def test_a_crack_that_is_known_decides_and_what_falls_beside_it_is_told():
     """
     typed = Wall.hinged_at(6.0, 3.0, 0.4)
     motion = record(1.2 * typed.mechanism().uplift_multiplier * 9.80665)
-    known = rocking.assess(motion, replace(typed, crack="known"))
-    alone = rocking.assess(motion, typed.mechanism())
+    known = assess(motion, replace(typed, crack="known"))
+    alone = assess(motion, typed.mechanism())
     assert (known.verdict, known.overturning_members) == (alone.verdict, alone.overturning_members)
     assert np.array_equal(known.rotation_ratios, alone.rotation_ratios)
-    of_typed, of_statics = (rocking.assess(motion, case) for case in (typed, Wall.of_size(6.0, 0.4)))
+    of_typed, of_statics = (assess(motion, case) for case in (typed, Wall.of_size(6.0, 0.4)))
     assert of_typed.overturning_members >= of_statics.overturning_members > known.overturning_members
     assert of_typed.verdict is of_statics.verdict
     assert of_typed.verdict.badness > known.verdict.badness
@@ -177,7 +179,7 @@ def test_beside_a_known_crack_that_overturns_the_worst_other_is_told_and_followe
     """With the one that statics chooses all members fall, too; a stronger motion does not change what is said of it."""
     typed = Wall.hinged_at(6.0, 3.0, 0.4, crack="known")
     for factor in (6.0, 12.0):
-        known = rocking.assess(record(factor * typed.mechanism().uplift_multiplier * 9.80665), typed)
+        known = assess(record(factor * typed.mechanism().uplift_multiplier * 9.80665), typed)
         assert known.verdict is Verdict.OVERTURNS and known.decision.warnings == ()
         assert known.crack == typed.crack_in_words
         first, *beside = known.ensembles.followed
@@ -314,9 +316,9 @@ def test_a_wall_falls_as_it_bulges_below_the_tie_that_holds_it_for_good(crack):
     times = np.arange(0, 12, STEP)
     motion = Accelerogram(np.where(times < 3, 8 * np.sin(6 * times), 0.0), STEP)
     span = LoadedWall.of_size(6.4, 0.4, 19e3, top_load=1e4, one_sided=True, restitution=0.7)
-    about_its_foot, between_supports = (rocking.assess(motion, case) for case in (front.mechanism(), span))
+    about_its_foot, between_supports = (assess(motion, case) for case in (front.mechanism(), span))
     assert (about_its_foot.verdict, about_its_foot.overturning_members) == (Verdict.STANDS, 0)
-    assessed = rocking.assess(motion, front)
+    assessed = assess(motion, front)
     assert assessed.verdict is between_supports.verdict is Verdict.OVERTURNS
     assert assessed.overturning_members == between_supports.overturning_members == 64
     assert assessed.crack == "hinge at 4.822 m (bulges between foot and tie)"
@@ -341,7 +343,7 @@ def test_what_a_tie_keeps_shut_caps_no_word(step):
     times = np.arange(0, 6, step)
     cycles = 9.80665 * np.sin(2 * np.pi * times / 0.6) * (times < 1.8)
     for amplitude, expected in ((0.8, Verdict.PROBABLY_OVERTURNS), (1.2, Verdict.PROBABLY_OVERTURNS)):
-        assessed = rocking.assess(Accelerogram(amplitude * cycles, step), front)
+        assessed = assess(Accelerogram(amplitude * cycles, step), front)
         assert assessed.verdict is expected
         assert assessed.overturning_share > 0.7
 
@@ -360,7 +362,7 @@ def test_a_held_wall_that_turns_far_only_probably_stands():
     )
     words = {}
     for amplitude in (4.0, 5.0):
-        assessed = rocking.assess(record(amplitude, 0.6), front)
+        assessed = assess(record(amplitude, 0.6), front)
         (case,) = assessed.cases.values()
         limits = [limit for limit in case.limits if limit.warning.kind is not AssessmentKind.FRICTION_SHORT]
         decision = decide(replace(case.facts(front), stacks=None), limits)
@@ -420,14 +422,14 @@ def test_a_wall_at_rest_on_ties_that_give_only_probably_stands(share):
     times = np.arange(0, 6, STEP)
     swing = np.sin(2 * np.pi * times / wall.tie_swing[0]) * (times < 5)
     motion = Accelerogram(share * wall.static_multiplier * 9.80665 * swing, STEP)
-    assessed = rocking.assess(motion, wall)
+    assessed = assess(motion, wall)
     assert np.all(assessed.rotation_ratios == 0)
     assert assessed.decision.verdict is Verdict.PROBABLY_STANDS
     assert [warning.kind for warning in assessed.decision.warnings] == [AssessmentKind.TIES_GIVE]
     assert AssessmentKind.CONTACT_DYNAMICS in [warning.kind for warning in assessed.decision.would_settle]
     stacks = contacts.contact_share(wall, GroundMotions.of(motion), AssessmentSettings(), 8)
     assert (stacks.falls > 0) is (share == 0.95)
-    unmoved = rocking.assess(motion, replace(wall, tie_stiffness=1e9)).decision
+    unmoved = assess(motion, replace(wall, tie_stiffness=1e9)).decision
     assert (unmoved.verdict, unmoved.warnings) == (Verdict.STANDS, ())
 
 
@@ -445,10 +447,10 @@ def test_ties_that_give_are_told_beside_the_word():
     times = np.arange(0, 6, STEP)
     swing = np.sin(2 * np.pi * times / wall.tie_swing[0]) * (times < 5)
     motion = Accelerogram(1.02 * wall.static_multiplier * 9.80665 * swing, STEP)
-    decision = rocking.assess(motion, wall.on_joints(ROUGH)).decision
+    decision = assess(motion, wall.on_joints(ROUGH)).decision
     assert decision.verdict is Verdict.PROBABLY_STANDS
     assert [warning.kind for warning in decision.warnings] == [AssessmentKind.TIES_GIVE]
-    unmoved = rocking.assess(motion, replace(wall, tie_stiffness=1e9, joints=ROUGH)).decision
+    unmoved = assess(motion, replace(wall, tie_stiffness=1e9, joints=ROUGH)).decision
     assert (unmoved.verdict, unmoved.warnings) == (Verdict.STANDS, ())
 
 
@@ -464,7 +466,7 @@ def test_a_restitution_typed_far_below_that_of_the_geometry_is_followed_beside_i
     verdicts = set()
     for amplitude in (1.0, 2.0, 3.0, 5.0):
         motion = Accelerogram(amplitude * wave, STEP)
-        both, livelier = (rocking.assess(motion, one_case) for one_case in (typed, own))
+        both, livelier = (assess(motion, one_case) for one_case in (typed, own))
         verdicts.add(both.verdict)
         if livelier.overturning_members:
             assert both.crack == "restitution 0.98 of its geometry"
