@@ -85,24 +85,20 @@ def _on_common_span(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
 
 def _to_the_shortest(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
     """Return channels that do not say when they begin from the first sample of each to the end of the shortest."""
-    size = min(channel.acceleration.size for channel in channels)
-    longest = max(channel.acceleration.size for channel in channels)
-    cut = []
-    is_far = longest - size > LONGEST_TAIL * longest
+    sizes = [channel.acceleration.size for channel in channels]
+    size, longest = min(sizes), max(sizes)
     apart = (longest - size) * channels[0].time_step
-    warnings = (
-        [RockingWarning.of(RecordKind.LENGTHS_UNLIKE, least=size, most=longest, apart_s=apart)]
-        if is_far
-        else []
-    )
+    unlike = RockingWarning.of(RecordKind.LENGTHS_UNLIKE, least=size, most=longest, apart_s=apart)
+    warnings = [unlike] if longest - size > LONGEST_TAIL * longest else []
+    cut = []
     for channel in channels:
-        surplus = channel.acceleration.size - size
-        sentence = (
-            f"The last {surplus} samples left out: the station's shortest file holds {size}, and all are taken to "
-            "begin together."
-        )
-        samples = channel.acceleration[:size]
-        cut.append((channel.processed_by(samples, sentence) if surplus else channel).warned(*warnings))
+        if surplus := channel.acceleration.size - size:
+            sentence = (
+                f"The last {surplus} samples left out: the station's shortest file holds {size}, and all are taken to "
+                "begin together."
+            )
+            channel = channel.processed_by(channel.acceleration[:size], sentence)
+        cut.append(channel.warned(*warnings))
     return cut
 
 

@@ -170,10 +170,8 @@ def _counted_once(
     The vertical one may be among the horizontal ones, where the row names it as such: that is no copy.
     """
     distinct: list[Accelerogram] = []
-    is_apart = vertical is not None and vertical.component not in {
-        component.component for component in horizontal
-    }
-    for channel in (*horizontal, *filter(None, [vertical if is_apart else None])):
+    is_among = vertical is None or vertical.component in {channel.component for channel in horizontal}
+    for channel in filter(None, (*horizontal, None if is_among else vertical)):
         place = next((at for at, other in enumerate(distinct) if same_motion(channel, other)), None)
         if place is None:
             distinct.append(channel)
@@ -182,9 +180,9 @@ def _counted_once(
             distinct[place] = first.warned(
                 RockingWarning.of(RecordKind.SAME_MOTION, channel.component, other=first.component)
             )
-    if is_apart and distinct[-1] is vertical:
+    if not is_among and distinct[-1] is vertical:
         return distinct[:-1], vertical
-    return distinct, None if is_apart else vertical
+    return distinct, vertical if is_among else None
 
 
 def _called(name: str, channels: Sequence[Accelerogram]) -> Accelerogram:

@@ -73,6 +73,7 @@ class _Earthquake:
         words = [word for word in re.findall(r"[^\W\d_]{3,}", event.lower()) if word not in _GENERIC]
         stem = "".join(words)[:_LETTERS] or re.sub(r"\W", "", (event or event_time).lower())
         number = re.search(r"[A-Za-z]-(\d\d)(?!\d|-)|[\s_#-](\d{1,3})$", event)
+        which = (number[1] or number[2]).lstrip("0") or "0" if number else ""
         instant, has_hour = _instant(event_time)
         if instant is None:
             instant, has_hour = _instant(event)
@@ -84,13 +85,7 @@ class _Earthquake:
             stated_year = int(short[1]) + (1900 if int(short[1]) > 30 else 2000)
         if stated_year is None and instant is not None:
             stated_year = datetime.fromtimestamp(instant, UTC).year
-        return cls(
-            stem,
-            ((number[1] or number[2]).lstrip("0") or "0") if number else "",
-            stated_year,
-            instant,
-            has_hour,
-        )
+        return cls(stem, which, stated_year, instant, has_hour)
 
     def is_of(self, other: "_Earthquake") -> bool:
         """Whether both are one: of one time, or of one name that neither number, year nor day contradicts."""

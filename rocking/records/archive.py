@@ -274,11 +274,6 @@ def _checked(sizes: Mapping[str, int]) -> frozenset[str]:
     """
     if "[Content_Types].xml" in sizes:
         raise RecordError("this is a workbook or a document; save the sheet as CSV.", format="workbook")
-    if len(sizes) > _MOST_MEMBERS:
-        raise RecordError(
-            f"the archive holds {len(sizes)} files, more than {_MOST_MEMBERS}; unpack it, or part it.",
-            files=len(sizes),
-        )
     if (size := sum(sizes.values())) > _LARGEST_WHOLE:
         raise RecordError(
             f"the archive unpacks to {size} bytes, more than {_LARGEST_WHOLE}; unpack it.", size=size

@@ -213,11 +213,8 @@ def vertical_warning(channels: Sequence[Channel]) -> RockingWarning | None:
     if len(channels) == 1:  # a heading of a table is prose, and no less horizontal for that
         code = channels[0].component.strip()
         is_code = _SEED.fullmatch(code) and not names_acceleration(code)
-        return (
-            RockingWarning(RecordKind.LONE_MAY_BE_VERTICAL, code)
-            if is_code and warnings_of_channel(channels[0])
-            else None
-        )
+        is_open = is_code and warnings_of_channel(channels[0])
+        return RockingWarning(RecordKind.LONE_MAY_BE_VERTICAL, code) if is_open else None
     of_unknown = [channel.component for channel in channels if channel.azimuth is None]
     if len(channels) < _OF_A_STATION or not of_unknown:
         return None

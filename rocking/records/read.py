@@ -233,7 +233,6 @@ def bare_text(content: bytes) -> bytes:
     return body + b"\n" if ended else body
 
 
-_BY_OBSPY = "Or: rocking.from_obspy(obspy.read(path), unit=...)"
 _OTHER_KINDS = tuple((re.compile(pattern, re.I), sentence) for pattern, sentence in (
     (rb"PK\x03\x04", "this is a zip archive; call it .zip, or unpack it."),
     (rb"(.|\n){257}ustar", "this is a tar archive; call it .tar, or unpack it."),
@@ -300,7 +299,7 @@ def recognise(content: bytes) -> Format:
     words = head.decode("latin-1").splitlines()[0].strip()
     raise UnknownFormatError(
         f"no reader recognises this file, which begins with {(words if words.isprintable() else head[:8])!r}; "
-        f"rocking read --details says why. {_BY_OBSPY}.",
+        "rocking read --details says why. Or: rocking.from_obspy(obspy.read(path), unit=...).",
         tuple(f"{form.name}: no {form.signature}" for form in FORMATS),
         format=words,
     )

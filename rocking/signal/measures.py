@@ -155,7 +155,7 @@ def response_spectrum(
     accelerogram : Accelerogram
         The component.
     periods : ndarray or None, optional
-        (m,) undamped periods, s; None: 100 of them, evenly spaced on a logarithmic axis.
+        (m,) undamped periods, s; None: 70 of them, evenly spaced on a logarithmic axis.
     damping : float, default 0.05
         Share of the critical damping, in [0, 1).
 

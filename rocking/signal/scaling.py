@@ -87,11 +87,8 @@ def scaled_to(
         f"All components multiplied by {factor:.5g}, so that the larger {target.measure.upper()} of the horizontal "
         f"ones is {target.text.split(' ', 1)[1]}."
     )
-
-    is_far = not 1 / LARGEST_FACTOR <= factor <= LARGEST_FACTOR
-    warning = (
-        [RockingWarning.of(SignalKind.SCALED_FAR, factor=factor, largest=LARGEST_FACTOR)] if is_far else []
-    )
+    far = RockingWarning.of(SignalKind.SCALED_FAR, factor=factor, largest=LARGEST_FACTOR)
+    warning = [] if 1 / LARGEST_FACTOR <= factor <= LARGEST_FACTOR else [far]
 
     def enlarged(record: Accelerogram) -> Accelerogram:
         larger = scaled(record, factor).warned(*warning)
