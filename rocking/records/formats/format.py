@@ -179,7 +179,8 @@ class Format:
             return False
         if not isinstance(self.first, re.Pattern):
             return self.first(content)
-        return self.first.match(_EMPTY_LINES.sub("", content[:_OPENING].decode("latin-1"))) is not None
+        opening = _EMPTY_LINES.sub("", content[:_OPENING].decode("latin-1"), count=1)
+        return self.first.match(opening) is not None
 
 
 _OPENING = 40_000  # bytes: a hundred lines of the longest header
