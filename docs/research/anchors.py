@@ -154,7 +154,7 @@ def anchor_trial(component: SiteRecord, place: int) -> AnchorTrial:
         grip=min((tie.grip / tie.most for tie in ties), default=np.inf),
         needed=max((tie.needed / tie.grip for tie in ties), default=0.0),
         verdict=station.verdict,
-        farthest=case.largest_rotation_ratio,
+        farthest=case.largest_of_part(None),
         falls=sum(falls for falls, _ in runs) if runs else None,
         runs=len(runs) or None,
         turn_rad=max(turn for _, turn in runs) if runs else None,

@@ -171,7 +171,7 @@ def between_trial(component: SiteRecord, place: int) -> BetweenTrial:
         peak=float(motion.peak_acceleration / (multiplier * GRAVITY)),
         verdict=station.verdict,
         governs=station.crack,
-        farthest=case.largest_rotation_ratio,
+        farthest=case.largest_of_part(None),
         falls=sum(bay.falls for bay in bays) if bays else None,
         moved=max(bay.farthest for bay in bays) / thickness if bays else None,
         ending_falls=sum(response.falls for response in ending) if ending else None,

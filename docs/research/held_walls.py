@@ -201,7 +201,7 @@ def held_trial(component: SiteRecord, kind: str, place: int) -> HeldTrial:
         mechanism=decide(replace(case.facts(wall), stacks=None), told).verdict,
         warnings=";".join(str(warning.kind) for warning in station.decision.warnings),
         verdict=station.verdict,
-        farthest=case.largest_rotation_ratio,
+        farthest=case.largest_of_part(None),
         stack_falls=case.contact.falls if case.contact else None,
         stack_runs=case.contact.runs if case.contact else None,
         true_falls=sum(falls for falls, _ in runs),

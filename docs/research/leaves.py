@@ -157,7 +157,7 @@ def leaves_trial(component: SiteRecord, kind: str, place: int) -> LeavesTrial:
         verdict=station.verdict,
         as_one=together.verdict,
         governs=station.crack,
-        farthest=case.largest_rotation_ratio,
+        farthest=case.largest_of_part(None),
         true_falls=max(counts) if counts else None,
         true_runs=8 if counts else None,
         turn_rad=max(turns),

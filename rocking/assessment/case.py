@@ -176,11 +176,6 @@ class CaseResult:
         """Rotation ratio of the mechanism on the record; nan of a pair, and where the case failed."""
         return self.response.rotation_ratio if self.response else math.nan
 
-    @property
-    def largest_rotation_ratio(self) -> float:
-        """The largest of all its runs, with any crack that was followed; inf where one overturns."""
-        return self.largest_of_part(None)
-
     def largest_of_part(self, part: str | None) -> float:
         """Return the largest of its runs in which a part falls by itself, a leaf or "" for all of it; None: of any."""
         if self.ensembles is not None:

@@ -68,11 +68,6 @@ class ContactShare:
     runs: int = 0
     reason: str = ""
 
-    @property
-    def words(self) -> str:
-        """Their count in words."""
-        return f"{self.falls} of {self.runs} runs of contact dynamics fall" if self.runs else self.reason
-
 
 @lru_cache(maxsize=256)
 def stackable(structure: Structure) -> bool:

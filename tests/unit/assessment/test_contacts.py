@@ -298,14 +298,14 @@ def test_a_tie_that_is_too_stiff_for_the_usual_step_is_followed_at_a_shorter_one
 def test_one_rigid_body_is_left_to_its_members():
     share = contact_share(Block.of_size(0.8, 4.0), GroundMotions.of(sine(2.0)))
     assert share.runs == 0
-    assert "moves as its mechanism does" in share.words
+    assert "moves as its mechanism does" in share.reason
 
 
 def test_what_is_no_stack_says_so():
     frame = Frame(Block.of_size(0.5, 4.0), 3, 1.0)
     share = contact_share(frame, GroundMotions.of(sine(2.0)))
     assert share.runs == 0
-    assert "a stack of courses" in share.words
+    assert "a stack of courses" in share.reason
 
 
 def test_an_impact_that_keeps_little_by_balance_is_doubted_and_a_typed_one_is_not():
