@@ -9,6 +9,7 @@ import numpy as np
 from rocking.assessment.decide import ONE_RUN, Severity, Verdict
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.rows import (
+    AgreementRow,
     ComparisonRow,
     ExpectedFallsRow,
     VerdictRow,
@@ -270,3 +271,15 @@ def to_check(warnings: Iterable[WarningRow]) -> list[str]:
         *first,
         f"To be checked likewise, as warnings.csv says: {values} of {listed(names, _MOST_NAMED)}.",
     ]
+
+
+def falls_seen_in_words(agreed: Sequence[AgreementRow]) -> str:
+    """Say how many of the falls the closed form sees: "sees 19 of 28 falls, and 2 of 3 under made records".
+
+    agreed: the counts of all cases first, and among the others those of made records alone.
+    """
+    of_all, *others = agreed
+    of_made = (
+        f", and {row.overturning_hits} of {row.overturning} under made records" for row in others if row.made
+    )
+    return f"sees {of_all.overturning_hits} of {counted(of_all.overturning, 'fall')}{''.join(of_made)}"

@@ -15,6 +15,7 @@ from rocking.assessment.conclusion import (
     conclusions,
     fallen_in_one_run,
     falls_in_words,
+    falls_seen_in_words,
     to_check,
     worst_of_each,
 )
@@ -293,12 +294,7 @@ def _scatter(
     """The scatter of all cases, so many mm high, with what the closed form saw of the falls as its heading."""
     if sum(map(lifts, comparison)) < FEWEST_POINTS:
         return ()
-    of_all, *others = agreed
-    falls = f"{of_all.overturning_hits} of {counted(of_all.overturning, 'fall')}"
-    of_made = [
-        f", and {row.overturning_hits} of {row.overturning} under made records" for row in others if row.made
-    ]
-    heading = f"The closed form sees {falls}{''.join(of_made)}"
+    heading = f"The closed form {falls_seen_in_words(agreed)}"
     alt = "Scatter of the rotation ratio by closed form against that by integration, in four quadrants."
     figure = prediction_scatter(comparison, pulses, height)
     carried = any(row.support_period_s is not None for row in comparison)

@@ -9,6 +9,7 @@ from rocking.assessment.conclusion import conclusions, worst_of_each
 from rocking.assessment.decide import worst_first
 from rocking.assessment.rows import (
     SUMMARY_TABLES,
+    AgreementRow,
     ComparisonRow,
     ExpectedFallsRow,
     FailureRow,
@@ -161,7 +162,10 @@ def _kept(job: Job, shown: Mapping[type[Row], list[Row]], made: Sequence[MadePro
     verdicts = rows_of(VerdictRow, shown)
     failures = rows_of(FailureRow, shown)
     warnings = rows_of(WarningRow, shown)
-    lines = [*closing_lines(verdicts, failures, rows_of(ExpectedFallsRow, shown), warnings)]
+    comparison = rows_of(ComparisonRow, shown)
+    expected = rows_of(ExpectedFallsRow, shown)
+    agreed = rows_of(AgreementRow, shown)
+    lines = [*closing_lines(verdicts, comparison, failures, expected, warnings, agreed)]
     for _, kept in made:
         lines += wrapped(kept.conclusion)
     records = worst_first((row.record, row.severity) for row in worst_period_each(verdicts))

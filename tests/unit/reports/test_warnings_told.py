@@ -89,7 +89,7 @@ def assumed(report: RecordReport) -> str:
 
 def lines_told(rows):
     """What the end of a run tells of the warnings, one string a warning."""
-    text = "\n".join(closing_lines([], [], warnings=rows))
+    text = "\n".join(closing_lines([], [], [], warnings=rows))
     return re.sub(r"\n {8}", " ", text).splitlines()
 
 

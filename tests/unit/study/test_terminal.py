@@ -2,8 +2,10 @@
 
 import math
 
+from rocking.assessment.case import PeriodResult
+from rocking.assessment.rows import ComparisonRow, agreement_rows
 from rocking.study.terminal import closing_lines, record_line
-from tests.unit.assessment.made_rows import broken, case, failure, station, verdicts
+from tests.unit.assessment.made_rows import broken, case, compared, failure, station, verdicts
 
 
 def test_the_worst_component_counts() -> None:
@@ -41,7 +43,21 @@ def test_a_failure_stands_first_without_repeating_the_record() -> None:
     assert line == "failed: wall: it cannot stand. it cannot be read.; uncertain: pier (one run)"
 
 
-def test_the_end_says_the_conclusion_the_worst_structures_and_what_failed() -> None:
+def compared_as(station_: PeriodResult, record: str, predicted: float) -> list[ComparisonRow]:
+    """Rows of the comparison of a station, the closed form and what was integrated."""
+    return [
+        compared(
+            name,
+            case.integrated_rotation_ratio,
+            station_.structure,
+            record=record,
+            predicted_rotation_ratio=predicted,
+        )
+        for name, case in station_.cases.items()
+    ]
+
+
+def test_the_end_says_the_conclusion_the_worst_five_by_every_method_and_what_the_closed_form_saw() -> None:
     first = [station(case("EW", math.inf, falls=60)), station(case("EW", math.inf, "wall", falls=64))]
     second = [
         station(case("EW", math.inf, falls=64)),
@@ -49,14 +65,30 @@ def test_the_end_says_the_conclusion_the_worst_structures_and_what_failed() -> N
         *(station(case("EW", 0.1, f"arch {number}", falls=0)) for number in range(12)),
     ]
     rows = [*verdicts(first, "a"), *verdicts(second, "b")]
-    lines = list(closing_lines(rows, [failure("", "", "not read.", "c")]))
+    comparison = [
+        *compared_as(first[0], "a", math.inf),
+        *compared_as(first[1], "a", 0.44),
+        *compared_as(second[0], "b", 0.2),
+        *compared_as(second[1], "b", math.inf),
+    ]
+    agreed = [*agreement_rows(comparison, {})]
+    lines = list(closing_lines(rows, comparison, [failure("", "", "not read.", "c")], agreed=agreed))
     assert (
         lines[0] == "2 records, 14 structures. 2 of 14 structures overturn or probably do under some record."
     )
-    named = " ".join(map(str.strip, lines[1:-1]))
-    assert named.startswith("overturns: ") and named.count("(100\u00a0%)") == 2
-    assert named.count("arch") == 6 and named.endswith("; 6 structures more in verdicts.csv")
-    assert lines[-1] == "1 record failed, wholly or in part: c; the first: not read."
+    table = {line[:16].strip(): line[16:].split() for line in lines[4:9]}
+    assert table["wall"] == ["a", "0.44", "–", "falls", "–", "overturns", "100", "%"]
+    assert table["pier"] == ["b", "0.20", "–", "falls", "–", "overturns", "100", "%"]
+    assert len(table) == 5
+    assert lines[9].startswith("Others  stands: arch ") and lines[9].endswith(
+        "; 6 structures more in verdicts.csv"
+    )
+    assert sum(line.count("arch") for line in lines[4:10]) == 3 + 3, "eight names with the pier and the wall"
+    assert lines[-2:] == [
+        "The closed form sees 1 of 3 falls; 1 false alarm.",
+        "1 record failed, wholly or in part: c; the first: not read.",
+    ]
+    assert max(map(len, lines)) <= 104
 
 
 def test_lines_at_the_end_are_no_wider_than_104_letters_whatever_the_names() -> None:
@@ -64,14 +96,20 @@ def test_lines_at_the_end_are_no_wider_than_104_letters_whatever_the_names() -> 
     stations = [station(case("EW", math.inf, name, falls=60)) for name in names]
     names_of_records = [f"record {number} whose name no column has room for, by far" for number in range(12)]
     rows = [row for record in names_of_records for row in verdicts(stations, record)]
+    comparison = [
+        row
+        for record in names_of_records
+        for one_station in stations
+        for row in compared_as(one_station, record, 0.1)
+    ]
     failures = [failure("", "", "not read.", record) for record in names_of_records]
-    lines = list(closing_lines(rows, failures))
+    lines = list(closing_lines(rows, comparison, failures))
     assert max(map(len, lines)) <= 104 and len(lines) < 24
 
 
 def test_a_fault_of_a_structure_under_all_records_is_a_sentence_and_no_record() -> None:
     faults = [failure("", "pier", f"a fault {number}.", "") for number in range(20)]
-    lines = list(closing_lines([], [*faults, failure("", "wall", "a fault.", "c")]))
+    lines = list(closing_lines([], [], [*faults, failure("", "wall", "a fault.", "c")]))
     assert lines == [
         *(f"pier: a fault {number}." for number in range(8)),
         "1 record failed, wholly or in part: c; the first: a fault.",
@@ -80,7 +118,7 @@ def test_a_fault_of_a_structure_under_all_records_is_a_sentence_and_no_record() 
 
 def test_nothing_overturns() -> None:
     stands = verdicts([station(case("", 0.1, falls=0))])
-    assert next(closing_lines(stands, [])) == "1 record, 1 structure. pier stands."
+    assert next(closing_lines(stands, [], [])) == "1 record, 1 structure. pier stands."
     unknown = verdicts([station(broken(""))])
-    assert list(closing_lines(unknown, []))[1].startswith("cannot be told: pier")
-    assert list(closing_lines([], [])) == []
+    assert list(closing_lines(unknown, [], []))[4].split()[:2] == ["pier", "a"]
+    assert list(closing_lines([], [], [])) == []
