@@ -4,7 +4,7 @@ import io
 
 import numpy as np
 import pytest
-from obspy import Stream, Trace, UTCDateTime, read_inventory
+from obspy import Stream, Trace, UTCDateTime, read, read_inventory
 from obspy.core.inventory import Comment, Inventory, Network
 
 from rocking.errors import RecordError
@@ -143,3 +143,17 @@ def test_a_log_of_text_next_to_the_channels_is_passed_over() -> None:
     assert record.component == "HNE"
     with refused(RecordError, "channel", log.id):
         Accelerogram.from_obspy(Stream([log]), unit="nm/s2")
+
+
+def test_a_sac_file_ends_where_its_header_says() -> None:
+    """As the file was written, and not once it is cut, which leaves the header as it was."""
+    content = io.BytesIO()
+    trace().write(content, format="SAC")
+    content.seek(0)
+    stream = read(content, format="SAC")
+    assert len(Accelerogram.from_obspy(stream, unit="um/s2")) == 1
+    stream[0].stats.sac.e += 1.0
+    with refused(RecordError, "e"):
+        Accelerogram.from_obspy(stream, unit="um/s2")
+    stream.trim(stream[0].stats.starttime + 1)
+    assert len(Accelerogram.from_obspy(stream, unit="um/s2")) == 1
