@@ -185,6 +185,20 @@ def resorce(stated: float = 1.0) -> str:
     )  # fmt: skip
 
 
+def esd() -> str:
+    """The layout of the database's own page on its files, with an example of 1999."""
+    return (
+        "file:                         002727xa.cor\nearthquake code:                 990\n"
+        "station code:                    694\ntotal number of channels:     3\n"
+        "orientation of transducer:    NS\nfull scale amplitude:          0.50g\n"
+        f"time of first sample:         31.12.1999 04:55:53.671UTC\nsampling period:               {STEP:.6f}s\n"
+        f"number of samples:             {N}\nrecord length:                {(N - 1) * STEP:.3f}s\n"
+        "units:                        m/s*s, m/s & s\ncomments & processing history:\n"
+        "%-  8th order elliptical bandpass-filter (0.25-25.00Hz)\n-> corrected acceleration time histories\n"
+        + columns(TRUE, 8, "13.5E")
+    )  # fmt: skip
+
+
 def geonet(stated: float = 1.0) -> str:
     return (
         "Uncorrected accelerogram 1 GNS Science\nSite WTMC      42 37 10S\n"
@@ -410,6 +424,7 @@ MADE: dict[str, tuple[Callable[..., str], float, Options]] = {
     "EMOD3D text": (emod3d, 5e-5, Options(unit="g")),
     "AFAD/NSMN text": (afad, 1e-8, Options()),
     "RESORCE": (resorce, 1e-7, Options()),
+    "ESD": (esd, 1e-5, Options()),
     "GeoNet V1A/V2A": (geonet, 5e-5, Options()),
     "UNAM/CICESE": (unam, 5e-7, Options()),
     "UNAM/CICESE: blank second block": (unam_with_blank_block, 5e-7, Options()),

@@ -78,6 +78,7 @@ def more(real_records: Path) -> list[dict[str, str]]:
 
 WITHOUT_SAMPLE = {
     "ASDF station",
+    "ESD",
     "USC Volume 2",
     "GSE",
     "SLIST or TSPAIR",
@@ -85,7 +86,8 @@ WITHOUT_SAMPLE = {
     "SEISAN",
     "REFTEK 130",
 }
-"""Formats of which none lies here: one of which two files are in the repository usgs/groundmotion-processing
+"""Formats of which none lies here: one whose layout is on the page of its database (isesd.hi.is, "Datafile Format"),
+one of which two files are in the repository usgs/groundmotion-processing
 (017m30bt.s0a, 274o42pv.s0a of tests/data, commit 97fa3e74), and those whose files obspy installs, which
 tests/contracts/test_by_obspy.py reads."""
 

@@ -42,6 +42,7 @@ SAID: dict[str, list[tuple[Any, ...]]] = {
         (*one_case, "0921", "TK", "", False, None)
         for one_case in (("N-S", 0.0), ("E-W", 90.0), ("U-D", None))
     ],
+    "ESD": [("NS", 0.0, "694", "", "990", True, 0.25)],
     "RESORCE": [("NS", 0.0, "", "", "2009-04-06T01:32:39", True, 0.1)],
     "GeoNet V1A/V2A": [("N45E", 45.0, "WTMC", "NZ", "", False, None)],
     "UNAM/CICESE": [("N45E", 45.0, "ACAC", "", "", False, None), ("V", None, "ACAC", "", "", False, None)],
@@ -254,3 +255,19 @@ def test_the_code_of_a_channel_says_what_it_measures(code: str, told: RockingWar
 def test_text_with_names_and_units_below_a_header_of_a_network_is_the_networks() -> None:
     (record, *_) = read_text(made_files.jma().replace("gal(cm/s/s)", "gal"))
     assert record.source.format == "JMA CSV"
+
+
+def test_a_file_of_the_european_database_holds_velocity_beside_acceleration() -> None:
+    velocity = "-> corrected velocity time histories\n" + made_files.columns(made_files.TRUE, 8, "13.5E")
+    (record,) = read_text(made_files.esd() + velocity + "STOP\n")
+    assert record.acceleration.size == made_files.N
+    assert record.start_time == "1999-12-31T04:55:53.671000Z"
+    kinds = {warning.kind for warning in record.warnings}
+    assert kinds & {RecordKind.VELOCITY_UNLIKE, RecordKind.VELOCITY_UNLIKE_THERE}
+
+
+@pytest.mark.parametrize("kind", ["uncorrected acceleration", "corrected velocity"])
+def test_another_series_of_the_european_database_is_refused_by_name(kind: str) -> None:
+    other = made_files.esd().replace("corrected acceleration", kind)
+    with refused(RecordError, "quantity"):
+        read_text(other)

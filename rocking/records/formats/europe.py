@@ -1,8 +1,9 @@
-"""Formats of European networks and collections: DYNA (ESM, ITACA, AFAD), AFAD, RESORCE."""
+"""Formats of European networks and collections: DYNA (ESM, ITACA, AFAD), AFAD, RESORCE, ESD."""
 
 import re
 from typing import Any
 
+from rocking.errors import RecordError
 from rocking.quantities import NUMBER
 from rocking.records.direction import Direction
 from rocking.records.formats import text
@@ -16,8 +17,10 @@ from rocking.records.formats.format import (
     optional_number,
     parted,
     typed_magnitude,
+    universal,
 )
 from rocking.records.formats.text import iso_date
+from rocking.records.plausibility import agree_with_velocity
 from rocking.signal.accelerogram import Accelerogram
 
 _DYNA = Layout("", keyed(
@@ -30,9 +33,10 @@ _DYNA = Layout("", keyed(
 _DYNA_END = re.compile(r"(?!AAD_|[A-Z][A-Z0-9_/^]*:)")
 _DYNA_FIRST = re.compile(r"(?:AAD_.*\n)*EVENT_NAME:(?:.*\n){1,100}?SAMPLING_INTERVAL_S:")
 """AFAD puts lines AAD_ above a header after filtering the samples anew (Kahramanmaraş 2023)."""
-_DYNA_HEADER = 200  # lines of the longest header, of this format and of the next two
+_DYNA_HEADER = 200  # lines of the longest header, of this format and of the next three
 _AFAD_HEADER = 40
 _RESORCE_HEADER = 20
+_ESD_HEADER = 100
 
 
 def _read_dyna(content: bytes, options: Options) -> list[Accelerogram]:
@@ -89,6 +93,39 @@ def _read_resorce(content: bytes, options: Options) -> list[Accelerogram]:
     return _RESORCE.series(f"{head}\n{rows[0]}", rows[1:], options)
 
 
+_ESD_SECTION = re.compile(r"[ \t]*->[ \t]*(un)?corrected[ \t]+(\w+)", re.I)
+_ESD_FIRST = re.compile(
+    rf"[ \t]*file:.*\n[ \t]*earthquake code:(?:.*\n){{1,{_ESD_HEADER}}}?{_ESD_SECTION.pattern}", re.I
+)
+_ESD = Layout("m/s2", {
+    "unit": r"^[ \t]*units:[ \t]*([^,;\s]+)", "high_pass": r"band-?pass[ -]?filter[ ]*\(([\d.]+)",
+    "corrected": r"^[ \t]*->[ \t]*(corrected)", "step": key("SAMPLING PERIOD", r"([\d.]+)"),
+    "duration": key("RECORD LENGTH", r"([\d.]+)"),
+} | keyed(
+    samples="NUMBER OF SAMPLES", component="ORIENTATION OF TRANSDUCER", station="STATION CODE", event="EARTHQUAKE CODE",
+), per_line=10, width=13)  # fmt: skip
+_ESD_START = re.compile(r"(?im)^[ \t]*time of first sample:[ \t]*(\d\d)\.(\d\d)\.(\d{4}) +([\d:.]+) *UTC")
+
+
+def _read_esd(content: bytes, options: Options) -> list[Accelerogram]:
+    head, rows = parted(content, _ESD_SECTION.match, "that begins with ->", _ESD_HEADER)
+    begins = [at for at, row in enumerate(rows) if row.lstrip().startswith(("->", "STOP"))]
+    ends = [*begins[1:], len(rows)]
+    sections = [rows[begin:end] for begin, end in zip(begins, ends, strict=True)]
+    of_motion = [lines for lines in sections if re.match(r"\s*-> *corrected acc", lines[0], re.I)]
+    if len(of_motion) != 1:
+        titles = ", ".join(lines[0].strip(" \t->")[:40] for lines in sections)
+        raise RecordError(
+            f"the file holds {titles}; use the file of corrected acceleration (.cor).", quantity=titles
+        )
+    (title, *numbers) = of_motion[0]
+    start = _ESD_START.search(head)
+    facts = {"start_time": universal("{2}-{1}-{0} {3}".format(*start.groups()), 0.0)} if start else {}
+    (record,) = _ESD.series(f"{head}\n{title}", numbers, options, **facts)
+    velocity = [lines[1:] for lines in sections if re.match(r"\s*-> *corrected vel", lines[0], re.I)]
+    return [agree_with_velocity(record, text.fields(velocity[0], 13)) if velocity else record]
+
+
 DYNA = Format(
     "DYNA (ESM, ITACA, AFAD)",
     "ESM and ITACA (ORFEUS, INGV), AFAD",
@@ -112,4 +149,11 @@ RESORCE = Format(
     _RESORCE_FIRST,
     _read_resorce,
     "RESORCE",
+)
+ESD = Format(
+    "ESD",
+    "European Strong-Motion Database (ISESD), corrected files",
+    "keys file and earthquake code at the start and a line that begins with -> corrected",
+    _ESD_FIRST,
+    _read_esd,
 )
