@@ -2,11 +2,11 @@
 
 from rocking.structures import LoadedWall
 
-HELD = LoadedWall.hinged_at(
+HELD = LoadedWall.of_size(
     3.2,
-    1.9,
     0.25,
     20e3,
+    1.9,
     tie_heights=(1.6,),
     tie_stiffness=5e7,
     one_sided=True,

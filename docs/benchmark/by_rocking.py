@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 import rocking
+from rocking.codes.code_capacity import CodeCapacity
 
 HERE = Path(__file__).parent
 
@@ -54,7 +55,7 @@ def answers() -> dict[str, float]:
         "arch_multiplier": _multiplier(rocking.Arch(10.0, 1.05, math.radians(157.5), voussoirs=7)),
         "wall_multiplier": _multiplier(rocking.Wall(1.6, 1.6, 0.25)),
         "loaded_wall_multiplier": _multiplier(
-            rocking.LoadedWall.hinged_at(3.2, 1.6, 0.25, 18e3, top_load=20e3, restitution=0.5)
+            rocking.LoadedWall.of_size(3.2, 0.25, 18e3, 1.6, top_load=20e3, restitution=0.5)
         ),
         "tied_facade_multiplier": _tied(),
         "two_storey_facade_multiplier": rocking.Facade(
@@ -134,7 +135,8 @@ def _tied() -> float:
         (6.0,), (0.6,), 20e3, restitution=0.7, behind="cross_walls", crack_storey=1, crack="known",
         tie_heights=(5.8,), tie_stiffness=1e6, tie_strength=8e3,
     )  # fmt: skip
-    return wall.static_capacity().onset_multiplier
+    by_code = CodeCapacity(wall.candidates()[0], wall.static_capacity(), confidence_factor=1.0)
+    return by_code.onset_multiplier
 
 
 if __name__ == "__main__":

@@ -169,7 +169,7 @@ def _wall(slenderness: float) -> Wall:
 
 
 def _hinged(height_ratio: float, thickness_ratio: float) -> Wall:
-    return Wall.hinged_at(1.0, 1 / (1 + height_ratio), thickness_ratio, restitution=0.9)
+    return Wall.of_size(1.0, thickness_ratio, 1 / (1 + height_ratio), restitution=0.9)
 
 
 @cache

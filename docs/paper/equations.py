@@ -109,7 +109,7 @@ def _largest_row() -> EquationRow:
     drawn = []
     coarse = HEIGHT_RATIOS[::20]
     for ratio in coarse:
-        wall = Wall.hinged_at(1.0, 1 / (1 + ratio), 0.1, restitution=0.9)
+        wall = Wall.of_size(1.0, 0.1, 1 / (1 + ratio), restitution=0.9)
         critical = math.atan2(wall.thickness, wall.lower_height)
         drawn.append(
             -_derivative(lambda at, wall=wall: drawn_gravity(wall, at), critical)

@@ -135,7 +135,7 @@ def anchor_trial(component: SiteRecord, place: int) -> AnchorTrial:
         motion = strong_part(record.scaled(factor), multiplier)
         station = assess(motion, wall)
     (case,) = station.cases.values()
-    ties = [restraint for restraint in wall.restraints() if restraint.kind == "tie"]
+    ties = [restraint for restraint in wall.restraints if restraint.kind == "tie"]
     is_light = any(tie.slides_out for tie in ties)
     runs: list[tuple[bool, float]] = []
     kept: list[tuple[bool, float]] = []

@@ -156,8 +156,8 @@ class Member:
         left, right = self.sections[joint]
         if self.slab is not None:
             load = self.slab * UNIT_WEIGHT * self.height * (right - left)
-            return LoadedWall.hinged_at(
-                self.height, base, right - left, UNIT_WEIGHT, top_load=load, top_slab="flat"
+            return LoadedWall.of_size(
+                self.height, right - left, UNIT_WEIGHT, base, top_load=load, top_slab="flat"
             )
         masses, centres, gyrations = (values[1 + joint :] for values in self.bodies.properties)
         centre = complex(masses @ centres / masses.sum())

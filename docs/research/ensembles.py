@@ -32,6 +32,7 @@ from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.records import Accelerogram
 from rocking.signal.rotation import rotate
 from rocking.structures import Structure
+from rocking.structures.crackable import Crackable
 from rocking.tables import column, row
 
 DRAWS = 4000
@@ -195,7 +196,7 @@ def screening_trials(
     draw = sites.draw_of(component.identifier)
     for structure_name, structure in SCALES * list(structures.items()):
         every = cracks(structure)
-        if len(every) == 1 or structure.crack_is_known:
+        if len(every) == 1 or not isinstance(structure, Crackable) or structure.crack_is_known:
             continue
         factor = sites.lifting_factor(record, every[0].mechanism.uplift_multiplier, sites.UPLIFTS, draw)
         motions = GroundMotions.of(record.scaled(factor))

@@ -135,8 +135,8 @@ def keeping_little(draw: np.random.Generator) -> LoadedWall | Facade:
         height, thickness = float(draw.uniform(2.4, 4.0)), float(draw.uniform(0.2, 0.5))
         hinge = height * float(draw.uniform(0.3, 0.85))
         load = UNIT_WEIGHT * height * thickness * float(np.exp(draw.uniform(*np.log([0.05, 1.5]))))
-        wall = LoadedWall.hinged_at(
-            height, hinge, thickness, UNIT_WEIGHT, top_load=load, top_slab="flat", crack="known"
+        wall = LoadedWall.of_size(
+            height, thickness, UNIT_WEIGHT, hinge, top_load=load, top_slab="flat", crack="known"
         )
         wall = replace(wall, top_friction=10.0)
         if 0 < wall.mechanism().restitution < LITTLE:

@@ -159,8 +159,8 @@ def loaded_wall(draw: np.random.Generator) -> Case:
     with warnings.catch_warnings():
         # A wall that keeps nothing of an impact is meant here.
         warnings.simplefilter("ignore", StructureWarning)
-        size = height, hinge, thickness, UNIT_WEIGHT
-        wall = LoadedWall.hinged_at(*size, top_load=load, top_slab="flat", crack="known")
+        size = height, thickness, UNIT_WEIGHT, hinge
+        wall = LoadedWall.of_size(*size, top_load=load, top_slab="flat", crack="known")
     return laid(wall)
 
 

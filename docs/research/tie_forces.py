@@ -83,7 +83,7 @@ def tie_rows(component: SiteRecord, place: int) -> Iterator[TieRow]:
     motion = strong_part(component.accelerogram.scaled(factor), multiplier)
     needed = {
         restraint.height: restraint.needed
-        for restraint in wall.restraints()
+        for restraint in wall.restraints
         if restraint.kind == "tie" and restraint.needed > 0
     }
     stack = wall.stack()

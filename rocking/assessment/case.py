@@ -15,6 +15,7 @@ from rocking.assessment.cracks import (
     counting_cracks,
     cracks,
     decided_by,
+    loses_seat_at,
     never_overturns_because,
     worth_measuring,
 )
@@ -32,6 +33,7 @@ from rocking.records import Accelerogram
 from rocking.sine_pulse import AsPrinted, Maximum
 from rocking.structures import EquivalentBlock, Outcome, Structure
 from rocking.structures.structure import Candidate
+from rocking.structures.tied import held
 from rocking.warnings import RockingWarning
 
 DECISIVE = ("responses", "directions")
@@ -142,10 +144,10 @@ class CaseResult:
         if not math.isfinite(support_loss):
             return self
         lost_at = {
-            candidate.description: candidate.structure.loses_seat_at(support_loss)
+            candidate.description: loses_seat_at(candidate.structure, support_loss)
             for candidate in cracks(body)
         }
-        own = lost_at.get(self.crack, body.loses_seat_at(support_loss))
+        own = lost_at.get(self.crack, loses_seat_at(body, support_loss))
         case = replace(self, seat_lost=self.integrated_rotation_ratio > own)
         if self.ensembles is None:
             return case
@@ -203,7 +205,9 @@ class CaseResult:
             followed = [crack for crack in self.ensembles.followed if crack.counts]
             rests = all(bool((crack.ensemble.rotation_ratios == 0).all()) for crack in followed)
         typed = counting_cracks(body)[0].mechanism.restitution_range is not None
-        tops = (restraint for restraint in body.restraints() if restraint.kind == "top" and restraint.lets_go)
+        wall = held(body)
+        restraints = wall.restraints if wall else ()
+        tops = (restraint for restraint in restraints if restraint.kind == "top" and restraint.lets_go)
         own = self.ensembles.facts if self.ensembles else Facts()
         return replace(
             own,
@@ -368,7 +372,8 @@ class PeriodResult:
         warnings = [warning for warning in self.decision.warnings if warning.kind in failed]
         body = self.scene.structure
         # Stacks whose ties yield at their anchors take seconds a run, and are followed at the record itself alone.
-        if math.isfinite(body.anchors_slide_at):
+        wall = held(body)
+        if wall and math.isfinite(wall.anchors_slide_at):
             warnings.append(RockingWarning(AssessmentKind.ANCHOR_GIVES))
         if not stackable(body):
             warnings += [

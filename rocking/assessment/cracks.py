@@ -22,10 +22,12 @@ from rocking.assessment.settings import AssessmentSettings
 from rocking.motion.response import lifting_friction
 from rocking.motion.table import table_of
 from rocking.structures import Structure
-from rocking.structures.crackable import WEAK_MASONRY
+from rocking.structures.crackable import crushing
 from rocking.structures.structure import CRACKS, Candidate, with_geometry
 from rocking.warnings import RockingWarning
 
+_SEATS = 65
+"""Rotations up to the critical one at which it is asked how far floors have moved, with lines between them."""
 IN_DOUBT = 0.3
 """Rotation ratio of a member beyond which it is in doubt that a mechanism other than that of statics stands."""
 FAR_FROM_DOUBT = IN_DOUBT / 2
@@ -154,7 +156,7 @@ def mechanisms_of(structure: Structure) -> tuple[Candidate, ...]:
 @lru_cache(maxsize=256)
 def crushing_factor(structure: Structure) -> float | None:
     """Return the static multiplier over that of weak masonry; None of what states its strength or would not stand."""
-    crushed = structure.crushing(WEAK_MASONRY)
+    crushed = crushing(structure)
     return None if crushed is None else structure.static_multiplier / crushed.static_multiplier
 
 
@@ -173,6 +175,22 @@ def prepare_structure(structure: Structure, settings: AssessmentSettings, *, ver
             table_of(mechanism.equivalent_block("uplift"))
     mechanisms_of(structure)
     crushing_factor(structure)
+
+
+def loses_seat_at(structure: Structure, support_loss: float) -> float:
+    """Return the least share of the critical rotation at which it has moved by `support_loss` [m] below a floor.
+
+    inf where it overturns before.
+    """
+    lost = math.inf
+    for side, linkage in zip(structure.mechanism().sides, structure.linkages, strict=False):
+        shares = np.linspace(0.0, min(1.0, side.end_rotation / side.critical_rotation), _SEATS)
+        moved = linkage.moved_from_bearings(shares * side.critical_rotation)
+        place = int(np.argmax(moved >= support_loss))
+        if moved[place] >= support_loss:
+            ends = slice(place - 1, place + 1)
+            lost = min(lost, float(np.interp(support_loss, moved[ends], shares[ends])))
+    return lost
 
 
 def counting_cracks(structure: Structure) -> tuple[Candidate, ...]:
@@ -282,7 +300,7 @@ def _of_part(
             return list(several)
         always = [candidate for candidate in several if candidate.bulges]
         rest = [candidate for candidate in several if not candidate.bulges]
-        return always + screened(rest, of_statics, motions, settings, first.multiplier)
+        return always + screened(rest, of_statics, motions, settings, first.mechanism.uplift_multiplier)
 
     def followed(candidate: Candidate) -> FollowedCrack:
         of_one = ensemble(
@@ -350,7 +368,7 @@ def slides_at(candidate: Candidate) -> float:
     friction = candidate.structure.joints.friction
     if not friction < needed < math.inf:
         return math.nan
-    return candidate.multiplier * friction / needed
+    return candidate.mechanism.uplift_multiplier * friction / needed
 
 
 _lifting_friction = lru_cache(maxsize=1024)(lifting_friction)
@@ -371,7 +389,7 @@ def screened(
     `lifted_at`, the λ of the first crack, may rock.
     """
     if np.all(of_statics.rotation_ratios == 0):
-        others = [candidate for candidate in others if candidate.multiplier < lifted_at]
+        others = [candidate for candidate in others if candidate.mechanism.uplift_multiplier < lifted_at]
     order = np.argsort(-of_statics.rotation_ratios, kind="stable")
     few = design(settings.ensemble)[order[[0, 1, order.size // 2]]]
     follow = partial(

@@ -24,7 +24,7 @@ from rocking.assessment.contacts import (
     stackable,
 )
 from rocking.assessment.cores import in_order
-from rocking.assessment.cracks import counting_cracks
+from rocking.assessment.cracks import counting_cracks, loses_seat_at
 from rocking.assessment.evidence import cannot_be_told
 from rocking.assessment.evidence.asked import Asked
 from rocking.assessment.evidence.walls import anchors_slide
@@ -35,6 +35,7 @@ from rocking.errors import RockingError
 from rocking.records import Accelerogram
 from rocking.structures import Structure
 from rocking.structures.structure import Candidate
+from rocking.structures.tied import held_all_along
 
 DRAWS = 6
 """Runs of contact dynamics at one factor: of one motion of many records, whose spread is larger than that of draws, or
@@ -103,7 +104,7 @@ def _falls_at(
         return Falls(0.0, 1.0, Model.NONE)
     told = Falls(share, share, Model.MECHANISM)
     if contacts and share < 1 and anchors_slide(structure, motions):
-        plane = contact_share(structure.held_all_along, motions, settings, DRAWS, until_sure=False)
+        plane = contact_share(held_all_along(structure), motions, settings, DRAWS, until_sure=False)
         if plane.runs and (more := max(share, plane.falls / plane.runs)):
             return Falls(more, more, Model.CONTACTS)
     if share == 1 or rests or not _asks_contacts(asked, share):
@@ -214,7 +215,7 @@ def reserve(
     falls, m. share: that falls under the motions themselves, which no factor contradicts; nan where it is not known.
     Raises MotionError as `integrate` does, and where contact dynamics is asked and cannot follow it.
     """
-    falls_beyond = crack.structure.loses_seat_at(support_loss)
+    falls_beyond = loses_seat_at(crack.structure, support_loss)
     of_members = reserve_of_members(crack.mechanism, motions, settings.ensemble, falls_beyond=falls_beyond)
     if not stackable(structure) or not motions.excitation > 0:
         return of_members.held_to(share)

@@ -13,12 +13,15 @@ from numpy.typing import ArrayLike
 from rocking.codes.kinds import CheckKind
 from rocking.quantities import GRAVITY
 from rocking.structures.capacity import StaticCapacity
+from rocking.structures.mechanism import SideTie
 from rocking.structures.structure import Candidate
 from rocking.warnings import RockingWarning
 
 _MOST_FALL = 0.5
 """Share of the largest capacity in acceleration by which it may fall as a part breaks (C8.7.1.2.1.6)."""
 
+_OVERTURNS_AS_IT_BREAKS = 1 + 1e-9
+"""Share of φ_cr up to which a tie breaks at it, but for rounding."""
 _JUST_BEFORE = 1 - 1e-12
 """Share of the rotation at which a tie breaks up to which it surely holds."""
 
@@ -85,8 +88,18 @@ class CodeCapacity:
 
     @property
     def onset_multiplier(self) -> float:
-        """α_0 (C8.7.1.1), with the work L_i of ties at the force at which they yield or break."""
-        return self.static.onset_multiplier
+        """α_0 by virtual work at rest: each tie pulls with the force at which it yields (C8.7.1.1).
+
+        One without a strength pulls with its pretension, as nobody knows what it bears.
+        """
+        side = self.static.side
+        at_rest = np.zeros(())
+        work = 0.0
+        for tie in side.ties:
+            if np.isfinite(tie.tie.strength):
+                more = tie.tie.strength - float(tie.tie.tension(tie.stretch(at_rest)))
+                work += more * max(float(tie.stretch_slope(at_rest)), 0.0)
+        return (side.at("gravity", 0.0) + work) / side.at("ground", 0.0)
 
     @property
     def participating_mass_ratio(self) -> float:
@@ -120,12 +133,49 @@ class CodeCapacity:
         """d_0 [m], where a vanishes with only such actions as hold on until then; inf where it vanishes nowhere."""
         if not self.static.side.can_overturn:
             return math.inf
-        return float(self.displacement(self.static.collapse_rotation))
+        return float(self.displacement(self.collapse_rotation))
+
+    @property
+    def _breaking(self) -> list[tuple[float, SideTie]]:
+        """The rotation at which each tie breaks, rad, inf of one that does not, and the tie."""
+        side = self.static.side
+        return [(tie.rotation(tie.tie.rupture_stretch, side.end_rotation), tie) for tie in side.ties]
+
+    @cached_property
+    def ruptures(self) -> tuple[float, ...]:
+        """Rotations up to φ_cr at which ties break, in order, rad."""
+        critical = self.static.side.critical_rotation * _OVERTURNS_AS_IT_BREAKS
+        return tuple(sorted({rotation for rotation, _ in self._breaking if rotation <= critical}))
+
+    @cached_property
+    def collapse_rotation(self) -> float:
+        """φ at which λ vanishes with only such ties as hold on until then, rad; 0 where it stands by the others alone.
+
+        It is φ_cr but where the structure overturns as a tie breaks.
+        """
+        from scipy.optimize import brentq  # slow to import, and needed by ties that break only
+
+        side = self.static.side
+        critical = side.critical_rotation
+        untied = side.untied_gravity
+        if not self.ruptures or untied is None:
+            return critical
+        lasting = [tie for rotation, tie in self._breaking if rotation > critical * _OVERTURNS_AS_IT_BREAKS]
+
+        def gravity(rotation: float) -> float:
+            at = np.asarray(rotation)
+            return float(untied(at) + sum(tie.moment(at, at) for tie in lasting))
+
+        if gravity(0.0) <= 0:
+            return 0.0
+        if gravity(critical) >= 0:
+            return critical
+        return float(brentq(gravity, 0.0, critical, xtol=1e-16, rtol=1e-14))
 
     @cached_property
     def limiting_ruptures(self) -> tuple[float, ...]:
         """The rotations [rad] at which a tie breaks and a falls more than half of its maximum below it, in order."""
-        ruptures = np.array(self.static.ruptures)
+        ruptures = np.array(self.ruptures)
         if not ruptures.size:
             return ()
         critical = self.static.side.critical_rotation
@@ -135,6 +185,19 @@ class CodeCapacity:
         beyond = ruptures * (2 - _JUST_BEFORE)
         after = np.where(beyond < critical, self.acceleration(np.minimum(beyond, critical)), 0.0)
         return tuple(ruptures[after < (1 - _MOST_FALL) * largest].tolist())
+
+    def _rotation_at(self, displacement: float) -> float:
+        """The rotation [rad], up to φ_cr, at which d is `displacement` [m]."""
+        from scipy.optimize import brentq  # slow to import
+
+        critical = self.static.side.critical_rotation
+        if displacement >= self.displacement(critical):
+            return critical
+        return float(
+            brentq(
+                lambda at: float(self.displacement(at)) - displacement, 0.0, critical, xtol=1e-16, rtol=1e-15
+            )
+        )
 
     def limit(self, state: LimitState) -> LimitPoint:
         """Return where `state` lies on the capacity curve; the period is nan where there is no displacement.
@@ -160,8 +223,7 @@ class CodeCapacity:
                 period=math.nan,
                 reason=RockingWarning(CheckKind.LIMIT_NOWHERE),
             )
-        rotation = self.static.rotation_at(displacement / self.static.displacement_factor)
-        acceleration = float(self.acceleration(rotation))
+        acceleration = float(self.acceleration(self._rotation_at(displacement)))
         period = math.nan
         if displacement > 0:
             period = state.period_factor * math.sqrt(displacement / acceleration)

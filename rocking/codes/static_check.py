@@ -25,6 +25,7 @@ from rocking.structures.crackable import Crackable
 from rocking.structures.joints import USUAL
 from rocking.structures.leaves import parts_of
 from rocking.structures.structure import AS_DESCRIBED, Candidate
+from rocking.structures.tied import held
 from rocking.warnings import Phrase, RockingWarning
 
 _SAME = 1e-9
@@ -84,15 +85,15 @@ def _kinematic_check(structure: Structure, spectrum: DesignSpectrum, terms: Code
     floor = FloorDemand(spectrum, terms.support)
     starts = _starts(mechanisms, floor)
     first = _lowest(starts.capacities)  # all feel the same motion as they start
+    wall = held(structure)
+    restraints = wall.restraints if wall else ()
     made = StructureCheck(
         limit_state=terms.limit_state,
         damage_level=float(starts.levels(np.array([first]))[0]),
         mechanisms=mechanisms,
         governing=mechanisms[first],
-        restraints=structure.restraints(),
-        warning=next(
-            (restraint.warning for restraint in structure.restraints() if restraint.ties == math.inf), None
-        ),
+        restraints=restraints,
+        warning=next((restraint.warning for restraint in restraints if restraint.ties == math.inf), None),
     )
     if terms.limit_state == "SLD":
         return replace(made, linear=_onset_check(made, spectrum))
@@ -173,14 +174,14 @@ def _opening(structure: Structure) -> Iterator[Candidate]:
         )
     own = [candidate for candidate in structure.candidates() if not candidate.part]
     cracked = [candidate for candidate in own if candidate.counts and not candidate.bulges]
-    if structure.statics_chooses:
-        typed = structure.crack_in_words if isinstance(structure, Crackable) else ""
+    if isinstance(structure, Crackable) and structure.statics_chooses:
+        typed = structure.crack_in_words
         cracked = [*cracked[:1], *(candidate for candidate in cracked[1:] if candidate.description == typed)]
     family = [candidate for candidate in structure.mechanisms() if not candidate.part]
     bulges = [candidate for candidate in family if candidate.bulges and not candidate.refusal]
+    opens_elsewhere = bulges and not (isinstance(structure, Crackable) and structure.crack_is_known)
     for candidate in cracked:
         body = candidate.structure
-        opens_elsewhere = bulges and not structure.crack_is_known
         shut = opens_elsewhere and candidate.stays_shut
         for sign, side in _sides(body):
             if shut and sign > 0:
@@ -202,7 +203,8 @@ def _opening(structure: Structure) -> Iterator[Candidate]:
 def _sides(body: Structure) -> Iterator[tuple[int, str]]:
     """The sides to which a body falls, by sign and in words."""
     signs = (1,) if body.symmetric or body.one_sided else (1, -1)
-    yield from zip(signs, body.side_names, strict=False)
+    names = ("outwards", "inwards") if held(body) else ("to the right", "to the left")
+    yield from zip(signs, names, strict=False)
 
 
 def _lowest(levels: np.ndarray, then: np.ndarray | None = None) -> int:

@@ -12,6 +12,7 @@ from rocking.quantities import GRAVITY, counted, four_digits
 from rocking.records import Accelerogram
 from rocking.structures import Outcome, Structure
 from rocking.structures.linkage import UnknownContacts, largest_so_far
+from rocking.structures.tied import held
 from rocking.warnings import RockingWarning
 
 if TYPE_CHECKING:
@@ -186,19 +187,20 @@ def check_model(
         0.0 if motion is None else np.interp(times[rocks], motion.times, motion.acceleration, right=0.0)
         for motion in (accelerogram, vertical)
     )
+    wall = held(structure)
     try:
         states = turned[rocks], velocity[rocks], None, ground, lift, largest_so_far(turned)[rocks]
         contacts = structure.contact_forces(*states)
-        holding = tuple(float(reaction.force.max()) for reaction in structure.reactions(*states))
+        reactions = wall.reactions(*states) if wall else ()
     except UnknownContacts as why:
         return ModelCheck(reason=str(why))
     largest = min(float(rotation.max()), structure.mechanism().positive.end_rotation)
     return ModelCheck(
         float(np.max(contacts.required_friction)),
         bool(contacts.opens.any()),
-        ties=structure.tie_events(largest),
+        ties=wall.tie_events(largest) if wall else "",
         lifting_friction=lifting_friction(structure),
-        holding=holding,
+        holding=tuple(float(reaction.force.max()) for reaction in reactions),
     )
 
 

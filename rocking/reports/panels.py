@@ -23,6 +23,7 @@ from rocking.reports.style import (
     styled,
     svg,
 )
+from rocking.structures.arch import Arch
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -341,7 +342,7 @@ def _plot_structure(
         bay = bay_of(structure)
         if bay is not None:
             draw_bay(axes, bay)
-    if not rotation and len(structure.thrust_line()):
+    if not rotation and isinstance(structure, Arch):
         axes.plot(*structure.thrust_line().T, color="C3", linewidth=1.0, label="thrust line at uplift")
         # above the axes: an arch reaches into every corner of them
         axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), borderaxespad=0.2, frameon=False)

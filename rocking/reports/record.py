@@ -74,6 +74,7 @@ from rocking.reports.supports import SupportPanel, floor_sentences, support_pane
 from rocking.structures import Structure
 from rocking.structures.crackable import Crackable
 from rocking.structures.kinds import StructureKind
+from rocking.structures.leaves import beside
 from rocking.warnings import Kind, RockingWarning
 
 if TYPE_CHECKING:
@@ -481,7 +482,7 @@ def _turned(row: VerdictRow, structure: Structure) -> Picture:
     broken = cracked(structure, row.crack)
     sign = -1 if row.peak_side == -1 else 1
     side = broken.mechanism().sides[0 if sign > 0 else -1]
-    rest = structure.beside(part_cracked(structure, row.crack))
+    rest = beside(structure, part_cracked(structure, row.crack))
     shapes = sketch(broken, sign * _DRAWN * side.critical_rotation, *_ROOM, rest=rest)
     return drawn_by_hand(shapes, *_ROOM, f"{row.structure}, turned, and at rest.")
 

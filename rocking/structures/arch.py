@@ -171,7 +171,7 @@ class Arch(Crackable):
                 other = replace(self, hinge_angles=tuple(angles), crack="known", restitution=restitution)
                 other.mechanism()
                 others.append(Candidate(description, np.nan, other))
-        return tuple(sorted(others, key=lambda candidate: candidate.multiplier))
+        return tuple(sorted(others, key=lambda candidate: candidate.uplift_multiplier))
 
     @property
     def crack_position(self) -> float:

@@ -12,7 +12,6 @@ import numpy as np
 from rocking.errors import SizeError
 from rocking.structures.block import Block, RigidBody, Spire
 from rocking.structures.crackable import USUAL_WEIGHT
-from rocking.structures.drawing import Path
 from rocking.structures.facade import Facade, behind_leaf
 from rocking.structures.fields import Field, Form, constructor, field_of, length
 from rocking.structures.leaves import Leaf, Leaved
@@ -41,9 +40,6 @@ class FreeWall(Block, Leaved):
             return _bonded(self.height, leaf, self.bonder_heights, options)
         return Block.of_size(leaf.thickness, self.height, **options)
 
-    def _dimensions(self) -> dict[str, Path | list[Path]]:
-        return {**super()._dimensions(), **self._leaf_dimensions()}
-
 
 @dataclass(frozen=True, repr=False)
 class Gable(RigidBody, Leaved):
@@ -64,9 +60,6 @@ class Gable(RigidBody, Leaved):
             return _bonded(height, leaf, self.bonder_heights, {**options, "narrows": True})
         body: dict[str, Any] = _triangle({"height": height, "thickness": leaf.thickness})
         return RigidBody(**body, **options)
-
-    def _dimensions(self) -> dict[str, Path | list[Path]]:
-        return {**super()._dimensions(), **self._leaf_dimensions()}
 
 
 def _of_leaf(wall: Block | RigidBody) -> dict[str, Any]:

@@ -4,10 +4,8 @@ The displacement of the equivalent system of one degree of freedom and its parti
 displacements at rest.
 """
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 from operator import itemgetter
 
 import numpy as np
@@ -16,11 +14,8 @@ from numpy.typing import ArrayLike
 from rocking.drawn import Drawn
 from rocking.structures.drawing import plane
 from rocking.structures.linkage import Linkage
-from rocking.structures.mechanism import Side, SideTie
+from rocking.structures.mechanism import Side
 
-_CUBED_IS_ROUNDING = 1e-6
-"""Halley's method cubes the error: after a relative step this small none is left."""
-_MOST_STEPS = 100
 _STILL = 1e-12
 """Share of the largest virtual displacement below which one is rounding: at what is held."""
 
@@ -103,55 +98,10 @@ class StaticCapacity:
         at = np.asarray(rotation, dtype=float)
         return self.side.gravity(at) / self.side.ground(at)
 
-    @property
-    def onset_multiplier(self) -> float:
-        """α_0 by virtual work at rest: each tie pulls with the force at which it yields (Circolare, C8.7.1.1).
-
-        One without a strength pulls with its pretension, as nobody knows what it bears.
-        """
-        at_rest = np.zeros(())
-        work = 0.0
-        for tie in self.side.ties:
-            if np.isfinite(tie.tie.strength):
-                more = tie.tie.strength - float(tie.tie.tension(tie.stretch(at_rest)))
-                work += more * max(float(tie.stretch_slope(at_rest)), 0.0)
-        return (self.side.at("gravity", 0.0) + work) / self.side.at("ground", 0.0)
-
     def displacement(self, rotation: ArrayLike) -> np.ndarray:
         """Return the horizontal displacement of the control point, m."""
         moved = self.linkage.point(self.control_part, self.control_corner, rotation).moved.real
         return moved - self.rounding
-
-    def rotation_at(self, displacement: float) -> float:
-        """Return the rotation up to φ_cr at which the control point has moved by `displacement` [m].
-
-        By Halley's method, kept between rotations on either side, from the chord to φ_cr.
-        """
-        critical = self.side.critical_rotation
-        farthest = float(self.displacement(critical))
-        if displacement >= farthest:
-            return critical
-        low, high = 0.0, critical
-        rotation = critical * displacement / farthest
-        for _ in range(_MOST_STEPS):
-            moved, velocity, bend = self._control(rotation)
-            missing = moved - displacement
-            low, high = (low, rotation) if missing > 0 else (rotation, high)
-            slope = velocity - missing * bend / (2 * velocity) if velocity > 0 else 0.0
-            new = rotation - missing / slope if slope > 0 else math.inf
-            if not low <= new <= high:
-                new = (low + high) / 2
-            step = abs(new - rotation)
-            rotation = new
-            if step <= _CUBED_IS_ROUNDING * rotation:
-                break
-        return rotation
-
-    def _control(self, rotation: float) -> tuple[float, float, float]:
-        """The horizontal displacement of the control point [m] and its derivatives with φ."""
-        point = self.linkage.point(self.control_part, self.control_corner, rotation)
-        moved, velocity, bend = (float(derivative.real) for derivative in point)
-        return moved - self.rounding, velocity, bend
 
     def curve(self, count: int) -> StaticCurve:
         """Return it at `count` equal steps of rotation, and where ties yield or break and just beyond."""
@@ -168,42 +118,3 @@ class StaticCapacity:
             control_point=self.place,
             participating_mass_ratio=self.participating_mass_ratio,
         )
-
-    @property
-    def _breaking(self) -> list[tuple[float, SideTie]]:
-        """The rotation at which each tie breaks, rad, inf of one that does not, and the tie."""
-        end = self.side.end_rotation
-        return [(tie.rotation(tie.tie.rupture_stretch, end), tie) for tie in self.side.ties]
-
-    @cached_property
-    def ruptures(self) -> tuple[float, ...]:
-        """Rotations up to φ_cr at which ties break, in order, rad."""
-        critical = self.side.critical_rotation * (1 + 1e-9)  # where it overturns as a tie breaks, to rounding
-        return tuple(sorted({rotation for rotation, _ in self._breaking if rotation <= critical}))
-
-    @cached_property
-    def collapse_rotation(self) -> float:
-        """φ at which λ vanishes with only such ties as hold on until then, rad; 0 where it stands by the others alone.
-
-        It is φ_cr but where the structure overturns as a tie breaks.
-        """
-        from scipy.optimize import brentq  # as above
-
-        critical = self.side.critical_rotation
-        if not self.ruptures or self.side.untied_gravity is None:
-            return critical
-        lasting = [tie for rotation, tie in self._breaking if rotation > critical * (1 + 1e-9)]
-        untied = self.side.untied_gravity
-
-        def gravity(rotation: float) -> float:
-            at = np.asarray(rotation)
-            return float(untied(at) + sum(tie.moment(at, at) for tie in lasting))
-
-        if gravity(0.0) <= 0:
-            return 0.0
-        if gravity(critical) >= 0:
-            return critical
-        exact = self.linkage.untied_zero
-        if exact is not None and not lasting:
-            return exact
-        return float(brentq(gravity, 0.0, critical, xtol=1e-16, rtol=1e-14))

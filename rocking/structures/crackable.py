@@ -13,7 +13,7 @@ from rocking.errors import DoesNotStandError, StructureError, StructureWarning
 from rocking.structures.fields import CompressiveStrength, Value
 from rocking.structures.kinds import StructureKind
 from rocking.structures.linkage import HIGHEST_SHARE
-from rocking.structures.structure import CRACKS, Candidate, Structure, by_multiplier
+from rocking.structures.structure import CRACKS, Candidate, Structure, by_multiplier, ranked
 from rocking.warnings import Phrase, RockingWarning
 
 USUAL_WEIGHT = 20e3
@@ -41,30 +41,42 @@ class Crushable(Structure):
                 "both, or none.",
             )
 
-    def crushing(self, strength: float) -> "Structure | None":
-        if self.compressive_strength is not None:
-            return None
-        weight = getattr(self, "unit_weight", None) or USUAL_WEIGHT
-        values: dict[str, Any] = {"compressive_strength": strength, "unit_weight": weight}
-        try:
-            return replace(self, **values)
-        except StructureError:
-            return None
-
     def _stand_crushed(self) -> None:
         """Refuse what its own weight crushes; called once its other values are checked."""
         if self.compressive_strength is not None:
             self.mechanism()
 
 
+def crushing(structure: Structure, strength: float = WEAK_MASONRY) -> Structure | None:
+    """Return a structure of masonry that crushes at a `strength` [Pa], of a usual weight where none is given.
+
+    None of what is not of masonry, states its own strength, or does not stand so.
+    """
+    if not isinstance(structure, Crushable) or structure.compressive_strength is not None:
+        return None
+    weight = getattr(structure, "unit_weight", None) or USUAL_WEIGHT
+    values: dict[str, Any] = {"compressive_strength": strength, "unit_weight": weight}
+    try:
+        return replace(structure, **values)
+    except StructureError:
+        return None
+
+
 @dataclass(frozen=True, repr=False)
 class Crackable(Crushable):
     """A structure that may open somewhere else than where it is described.
 
+    crack_name: what its candidates move ("hinge", "crack"). statics_chooses: whether codes check the mechanism of least
+    λ alone, as between supports limit analysis finds it; otherwise every crack that may open is a mechanism of its own.
+    _as_one_leaf: the values of its fields with which its leaves do not part.
     crack: "known" where it exists at the place of its description (a survey, a joint): it decides, and what another
     one would do is reported as well. None, the default: the place of the description is one of those at which it may
     crack, and each of them counts.
     """
+
+    crack_name: ClassVar[str]
+    statics_chooses: ClassVar[bool] = False
+    _as_one_leaf: ClassVar[dict[str, Any]] = {}
 
     crack: Annotated[
         Literal["known"] | None,
@@ -88,6 +100,7 @@ class Crackable(Crushable):
 
     @property
     def crack_is_known(self) -> bool:
+        """Whether it is known how it opens, so that this decides and not what statics chooses."""
         return self.crack == "known"
 
     @property
@@ -99,7 +112,16 @@ class Crackable(Crushable):
             return RockingWarning(StructureKind.CRACK_KNOWN)
         return RockingWarning.of(StructureKind.CRACK_KNOWN_AT, height_m=float(self.crack_position))
 
+    @property
+    def _bulges(self) -> tuple[Candidate, ...]:
+        """What may form of a held wall wherever it is cracked, by their λ."""
+        return ()
+
+    def _ranked(self, count: int) -> tuple[Candidate, ...]:
+        return ranked(self._cracked(count), self._bulges, is_known=self.crack_is_known)
+
     def _cracked(self, count: int) -> tuple[Candidate, ...]:
+        """The cracks of it that may form, `count` or one more; first the one that is known, or that statics chooses."""
         others = self._may_form(count)
         if not self.crack_is_known:
             for candidate in others:

@@ -13,7 +13,7 @@ from typing import Annotated, Any, ClassVar, Literal
 import numpy as np
 
 from rocking.errors import StructureError
-from rocking.quantities import GRAVITY, counted, whole
+from rocking.quantities import counted, whole
 from rocking.structures.crackable import unplaced
 from rocking.structures.drawing import Path, span
 from rocking.structures.fields import Lean, Value, restitution_value, stated
@@ -24,13 +24,9 @@ from rocking.structures.linkage import Restitution
 from rocking.structures.stack import (
     MOST_COURSES,
     Course,
-    Held,
-    PointMass,
     Stack,
     counted_courses,
-    course_at,
     joined,
-    loaded,
     slab,
 )
 from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight
@@ -323,7 +319,6 @@ class Facade(Tied):
         They end at the feet of storeys and where something holds the wall; of a wall that is held there are by default
         COURSES a storey, as it bulges within one.
         """
-        self._check_plane()
         bulges = bool(self.held_wall.holds)
         if courses is None and self.crack_is_known and self.opening is None and not bulges:
             body = [joined(list(self._storey_courses(1, self.crack_position)))]
@@ -331,34 +326,12 @@ class Facade(Tied):
             storeys = len(self.storey_heights) if bulges and courses is None else 1
             number = min(storeys * counted_courses(courses), MOST_COURSES // 2)
             body = list(self._storey_courses(number))
-        held: list[Held] = []
-        slabs: tuple[Course, ...] = ()
-        foot = body[0].base
-        last = len(self.floor_loads) - 1
-        for storey, load in enumerate(self.floor_loads):
-            level = float(self.levels[storey + 1])
-            thickness = self.thicknesses[storey]
-            if not load or level <= foot:
-                continue
-            point = (-thickness / 2 - self.eccentricity + self._aside * level, level)
-            place = course_at(body, level)
-            if storey == last and self.top_slab == "flat":
-                slabs = (self._flat_slab(thickness, load),)
-            elif self.loads_held:
-                held.append(Held(place, point, force=(0.0, -load)))
-            else:
-                body[place] = loaded(body[place], [PointMass(point, load / GRAVITY)])
-        for height, thrust in self._thrusts:
-            if height > foot:
-                held.append(Held(course_at(body, height), self._outer(height), force=(thrust, 0.0)))
-        held += self._held_in(body)
-        return Stack((*body, *slabs), tuple(held))
+        return self._stacked(body)
 
-    def _flat_slab(self, thickness: float, load: float) -> Course:
-        """The uppermost floor as a body that stays flat and moves along."""
+    def _slab(self, load: Load) -> Course:
         self._check_slab("loads_held")
-        aside = self._aside * self.height
-        return slab(aside - thickness, aside, self.height, load, upright=True)
+        aside = self._aside * load.z
+        return slab(aside - self.thicknesses[-1], aside, load.z, load.weight, upright=True)
 
     def _placed(self, height: float) -> dict[str, Any]:
         foot = np.flatnonzero(self.levels[:-1] == height)
@@ -374,7 +347,6 @@ class Facade(Tied):
             "storey_heights": [span([0.0, low], [0.0, high], apart) for low, high in pairwise(levels)],
             "thicknesses": [span([-thickness, z], [0.0, z]) for thickness, z in middles],
         }
-        paths |= self._leaf_dimensions()
         if self.crack_height:
             paths["crack_height"] = [span([0.0, 0.0], [0.0, self.crack_height], [0.06 * self.height, 0.0])]
         return paths

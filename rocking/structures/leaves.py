@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 import numpy as np
 
 from rocking.errors import DoesNotStandError, StructureWarning
-from rocking.structures.drawing import Mark, Path, plane, rectangle, span
+from rocking.structures.drawing import Dimension, Mark, plane, rectangle, span
 from rocking.structures.fields import Value, length
 from rocking.structures.kinds import StructureKind
 from rocking.structures.structure import LeafAlone, Structure
@@ -181,23 +181,6 @@ class Leaved(Structure):
             ]
         return (*super().marks(rotation), *marks)
 
-    def beside(self, leaf: str) -> list[np.ndarray]:
-        alone = dict(self.leaves_alone).get(leaf)
-        if alone is None:
-            return []
-        place = LEAVES[len(self.leaves)].index(leaf)
-        own_face = max(float(outline[:, 0].max()) for outline in alone.outline())
-        outlines = []
-        for foot, top, inner, outer in self._sections:
-            faces = self._faces(inner, outer)
-            aside = own_face - faces[place][0]
-            outlines += [
-                plane(rectangle(low + aside, high + aside, foot, top))
-                for number, (high, low) in enumerate(faces)
-                if number != place
-            ]
-        return outlines
-
     def _faces(self, inner: float, outer: float) -> list[tuple[float, float]]:
         """The outer and the inner face of each leaf from outside in, m; what the wall is thicker lies between them."""
         gap = (outer - inner - sum(self.leaves)) / (len(self.leaves) - 1)
@@ -207,21 +190,39 @@ class Leaved(Structure):
             outer -= thickness + gap
         return faces
 
-    def _leaf_dimensions(self) -> dict[str, list[Path]]:
-        """The dimension of the thickness of each leaf, one below the other as their letters are broader than they."""
+    def dimensions(self) -> tuple[Dimension, ...]:
+        """Return also that of the thickness of each leaf, one below the other as their letters are broader."""
         if not self.leaves:
-            return {}
+            return super().dimensions()
         _, _, inner, outer = self._sections[0]
         faces = self._faces(inner, outer)
         apart = -0.06 * self._leaf_top
-        return {
-            "leaves": [
-                span([low, 0.0], [high, 0.0], [0.0, place * apart])
-                for place, (high, low) in enumerate(faces, start=1)
-            ]
-        }
+        of_leaves = [
+            span([low, 0.0], [high, 0.0], [0.0, place * apart])
+            for place, (high, low) in enumerate(faces, start=1)
+        ]
+        return self.described.dimensions({**self._dimensions(), "leaves": of_leaves})
 
 
 def parts_of(structure: Structure) -> tuple[LeafAlone, ...]:
     """Return what falls by itself: the structure, under no name, and each of its leaves that may part."""
     return LeafAlone("", structure), *structure.leaves_alone
+
+
+def beside(structure: Structure, leaf: str) -> list[np.ndarray]:
+    """Return the outlines (k, 2) of its other leaves at rest, m, as a leaf of that name sees them alone."""
+    alone = dict(structure.leaves_alone).get(leaf)
+    if alone is None or not isinstance(structure, Leaved):
+        return []
+    place = LEAVES[len(structure.leaves)].index(leaf)
+    own_face = max(float(outline[:, 0].max()) for outline in alone.outline())
+    outlines = []
+    for foot, top, inner, outer in structure._sections:
+        faces = structure._faces(inner, outer)
+        aside = own_face - faces[place][0]
+        outlines += [
+            plane(rectangle(low + aside, high + aside, foot, top))
+            for number, (high, low) in enumerate(faces)
+            if number != place
+        ]
+    return outlines

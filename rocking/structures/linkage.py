@@ -229,6 +229,16 @@ class Linkage(ABC):
         """Return how points fixed to a part have moved at `rotation` [rad] from `start`, where they are at rest."""
         return self.carried(part, start, self.motion(rotation))
 
+    def moved_from_bearings(self, rotation: ArrayLike) -> np.ndarray:
+        """Return how far it has moved sideways below what bears or pushes on it, m, shape of `rotation`.
+
+        Of several floors, beams or vaults the farthest; 0 of what bears none.
+        """
+        bearing = [hung for hung in self.hung if hung.kind in ("load", "thrust")]
+        moved = [np.abs(self.point(hung.part, hung.start, rotation).moved.real) for hung in bearing]
+        result: np.ndarray = np.max([np.zeros(np.shape(rotation)), *moved], axis=0)
+        return result
+
     def inertia(self, rotation: ArrayLike) -> np.ndarray:
         """I = Σ m|r'|² + I_c ω², shape of `rotation`."""
         motion = self.motion(rotation)
@@ -265,11 +275,6 @@ class Linkage(ABC):
             if hung.force
         ]
         return self.weight(rotation) - sum(powers, np.zeros(())) / self.unit
-
-    @property
-    def untied_zero(self) -> float | None:
-        """The rotation at which G without the ties vanishes, rad, where it has a formula; else None."""
-        return None
 
     def gravity_slope(self, rotation: ArrayLike) -> np.ndarray:
         """dG/dφ; of a tie between yield and rupture that of the force it keeps."""
@@ -429,11 +434,6 @@ class Turning(Linkage):
         """sin(α − φ)."""
         return np.sin(self.slenderness - np.asarray(rotation))
 
-    @property
-    def untied_zero(self) -> float | None:
-        """The zero of G(0) cos φ + G(π/2) sin φ: weights and forces on a body that turns give nothing else."""
-        return float(np.arctan2(self.untied_gravity(0.0), -self.untied_gravity(np.pi / 2)))
-
     def ground(self, rotation: ArrayLike) -> np.ndarray:
         """cos(α − φ)."""
         return np.cos(self.slenderness - np.asarray(rotation))
@@ -513,15 +513,6 @@ class Reaction(NamedTuple):
     height: float
     force: np.ndarray
     pressing: float = 0.0
-
-    @property
-    def needed_friction(self) -> np.ndarray:
-        """The friction coefficient at which friction alone gives that force, (k,); inf where nothing presses."""
-        return (
-            np.maximum(self.force, 0.0) / self.pressing
-            if self.pressing
-            else np.where(self.force > 0, np.inf, 0.0)
-        )
 
 
 @dataclass(frozen=True, kw_only=True)

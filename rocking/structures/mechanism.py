@@ -281,12 +281,21 @@ class Side:
             return critical / self.uplift_multiplier
         return -self.at("ground", critical) / self.at("gravity_slope", critical)
 
-    @cached_property
+    @property
     def arc(self) -> tuple[Arc, RotationMap]:
         """The arc q = ∫ √(I/I(0)) dφ as far as it is smooth, and its inverse.
 
         Raises StructureError where it is not smooth even near φ_cr.
         """
+        if self._arc is None:
+            raise StructureError(
+                f"the mechanism's inertia is not smooth up to {self.critical_rotation:.4g} rad, its critical_rotation, "
+                "but must be to be followed, or for a block exact at rest; take the block linearised about φ_cr."
+            )
+        return self._arc
+
+    @cached_property
+    def _arc(self) -> tuple[Arc, RotationMap] | None:
         beyond = self.end_rotation - self.critical_rotation
         for cut in CUTS:
             with np.errstate(all="ignore"):
@@ -294,10 +303,7 @@ class Side:
                 inverse = None if arc is None else rotation_map(arc, _MAP_ACCURACY)
             if arc is not None and inverse is not None:
                 return arc, inverse
-        raise StructureError(
-            f"the mechanism's inertia is not smooth up to {self.critical_rotation:.4g} rad, its critical_rotation, but "
-            "must be to be followed, or for a block exact at rest; take the block linearised about φ_cr."
-        )
+        return None
 
     def equivalent_block(self, scale: Scale = "exact_at_rest") -> EquivalentBlock:
         """Return the linear block that stands for this side alone; see Mechanism.equivalent_block."""

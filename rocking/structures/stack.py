@@ -284,18 +284,9 @@ class Stack:
         return float(min(steps))
 
 
-@dataclass(frozen=True)
-class PointMass:
-    """A mass fixed to a course at a point [m], as a floor that bears on a hinge and moves along."""
-
-    point: tuple[float, float]
-    mass: float
-
-
-def loaded(course: Course, masses: Sequence[PointMass]) -> Course:
-    """Return the course with point masses fixed to it."""
-    points = [(mass.mass, mass.point, 0.0) for mass in masses]
-    return replace(course, **_together([(course.mass, course.centre, course.inertia), *points]))
+def loaded(course: Course, point: tuple[float, float], mass: float) -> Course:
+    """Return the course with a mass fixed to it at a point [m], as a floor that bears on a hinge and moves along."""
+    return replace(course, **_together([(course.mass, course.centre, course.inertia), (mass, point, 0.0)]))
 
 
 def _together(bodies: Sequence[tuple[float, tuple[float, float], float]]) -> dict[str, Any]:

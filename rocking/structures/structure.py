@@ -3,7 +3,7 @@
 import math
 import warnings
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field, fields, replace
 from functools import cached_property
 from itertools import chain
@@ -29,7 +29,6 @@ from rocking.structures.linkage import (
     MotionState,
     Reaction,
     Restitution,
-    Restraint,
     UnknownContacts,
     largest_so_far,
     momentum_balance,
@@ -45,8 +44,6 @@ if TYPE_CHECKING:
     from rocking.structures.held_wall import HeldWall, Opening
 
 
-_SEATS = 65
-"""Rotations up to the critical one at which it is asked how far floors have moved, with lines between them."""
 AS_DESCRIBED = "as described"
 """The description of the one mechanism of what does not crack."""
 CRACKS = 11
@@ -65,21 +62,15 @@ class Structure(ABC):
     its joints have alike; what they may do follows from its geometry, by `_joints_do`.
 
     type_name: the `type` in a file. _described_as: what each constructor that a file may use describes, by the name of
-    its class method, "" for the class itself. crack_name: what its candidates move ("hinge", "crack"); "" without.
-    _usual_restitution: where none is given. statics_chooses: whether codes check the mechanism of least λ alone, as
-    between supports limit analysis finds it; otherwise every crack that may open is a mechanism of its own.
-    _contacts_unknown: why no contact forces are known; "" where the moving parts give them. _as_one_leaf: the values
-    of its fields with which its leaves do not part.
+    its class method, "" for the class itself. _usual_restitution: where none is given. _contacts_unknown: why no
+    contact forces are known; "" where the moving parts give them.
     """
 
     __signature__ = PlainSignature()
     type_name: ClassVar[str] = ""
     _described_as: ClassVar[dict[str, str]] = {}
-    crack_name: ClassVar[str] = ""
     _usual_restitution: ClassVar[float | str] = "momentum"
-    statics_chooses: ClassVar[bool] = False
     _contacts_unknown: ClassVar[str] = ""
-    _as_one_leaf: ClassVar[dict[str, Any]] = {}
 
     restitution_range: Annotated[
         float | None,
@@ -135,14 +126,6 @@ class Structure(ABC):
         """
         return math.nan
 
-    @property
-    def anchors_slide_at(self) -> float:
-        """The acceleration [g] at which what the anchor of a tie grips slides out of the wall (theory: section 13.3).
-
-        inf where the wall around each anchor gives what the tie needs at rest, and where there is no tie.
-        """
-        return math.inf
-
     def mechanism(self) -> Mechanism:
         """Return the structure in standard form; the same object at every call."""
         return self._mechanism
@@ -157,45 +140,15 @@ class Structure(ABC):
         """Whether it rocks to the positive side only, as it leans on something; a key of types that may."""
         return False
 
-    def without_ties(self) -> "Structure | None":
-        """Return the same structure with no tie, None of what has none; raises StructureError where it falls so."""
-        return None
-
     @property
-    def held_all_along(self) -> "Structure":
-        """The same structure where nothing falls between its ties, as a plane stack takes it."""
-        return self
-
-    @property
-    def tie_swing(self) -> "tuple[float, Structure] | None":
-        """The period [s] with which it swings on its ties, and the bulge of least λ that they hold; None without."""
-        return None
-
-    @property
-    def is_held(self) -> bool:
-        """Whether something holds it sideways above its foot."""
-        return False
+    def does(self) -> str:
+        """How it falls, in words: "overturns"; of a wall that is held "bulges between foot and tie"."""
+        return "overturns"
 
     @property
     def symmetric(self) -> bool:
         """Whether the negative side is the mirror image of the positive one."""
         return True
-
-    @property
-    def side_names(self) -> tuple[str, str]:
-        """To which side it falls, in words: where `peak_side` is +1, and where it is −1."""
-        return "to the right", "to the left"
-
-    def restraints(self) -> tuple[Restraint, ...]:
-        """Return what keeps it from moving outwards above its foot, with the forces that this needs and gives."""
-        return ()
-
-    def reactions(self, *_: Any, **__: Any) -> tuple[Reaction, ...]:
-        """Return the force of everything that holds it sideways above its foot, over k states as of `contact_forces`.
-
-        None of what nothing holds, or of which only the share of its weight is known.
-        """
-        return ()
 
     def on_joints(self, joints: Joints) -> Self:
         """Return it on these joints; it describes itself as it did."""
@@ -204,18 +157,6 @@ class Structure(ABC):
             if joints.friction == self.joints.friction
             else self.described.describes(replace(self, joints=joints))
         )
-
-    def crushing(self, strength: float) -> "Structure | None":
-        """Return it of masonry that crushes at a `strength` [Pa], of a usual weight where none is given.
-
-        None of what is not of masonry, states its own strength, or does not stand so.
-        """
-        return None
-
-    @property
-    def does(self) -> str:
-        """How it falls, in words: "overturns"; of a wall that is held "bulges between foot and tie"."""
-        return "overturns"
 
     @property
     def cautions(self) -> tuple[RockingWarning, ...]:
@@ -268,32 +209,6 @@ class Structure(ABC):
         if not mirrored or self.symmetric:
             return self._parts()
         return [(part, -corners.conj()) for part, corners in self._parts()]
-
-    def moved_from_bearings(self, rotation: float) -> float:
-        """Return how far it has moved sideways below what bears or pushes on it at a signed `rotation` [rad], m.
-
-        Of several floors, beams or vaults the farthest; 0 of what bears none.
-        """
-        linkage, motion = self._posed(rotation)
-        bearing = [hung for hung in linkage.hung if hung.kind in ("load", "thrust")]
-        moved = (linkage.carried(hung.part, hung.start, motion).moved.real for hung in bearing)
-        return max((abs(float(aside)) for aside in moved), default=0.0)
-
-    def loses_seat_at(self, support_loss: float) -> float:
-        """Return the least share of the critical rotation at which it has moved by `support_loss` [m] below a floor.
-
-        inf where it overturns before.
-        """
-        lost = math.inf
-        sides = self.mechanism().sides
-        for sign, side in zip((1, -1), sides, strict=False):
-            shares = np.linspace(0.0, min(1.0, side.end_rotation / side.critical_rotation), _SEATS)
-            moved = [self.moved_from_bearings(sign * share * side.critical_rotation) for share in shares]
-            place = int(np.argmax(np.array(moved) >= support_loss))
-            if moved[place] >= support_loss:
-                ends = slice(place - 1, place + 1)
-                lost = min(lost, float(np.interp(support_loss, moved[ends], shares[ends])))
-        return lost
 
     def hinges(self, rotation: float = 0.0) -> np.ndarray:
         """Return the contact points (k, 2) in m at a signed `rotation` [rad]; at rest those of the positive side."""
@@ -434,21 +349,6 @@ class Structure(ABC):
         """Return the loads, thrusts, ties and supports on it at a signed `rotation` [rad]."""
         return ()
 
-    def beside(self, leaf: str) -> list[np.ndarray]:
-        """Return the outlines (k, 2) of its other leaves at rest, m, as a leaf of that name sees them alone."""
-        return []
-
-    def thrust_line(self, count: int = 200) -> np.ndarray:
-        """Return the line of thrust as it starts to rock to the positive side, about `count` points (k, 2) in m.
-
-        (0, 2) for a structure of which none is known.
-        """
-        return np.empty((0, 2))
-
-    def tie_events(self, rotation: float) -> str:
-        """Return which ties have yielded or broken once a signed `rotation` [rad] was reached, in words; "" if none."""
-        return ""
-
     def candidates(self, count: int = CRACKS) -> "tuple[Candidate, ...]":
         """Return the mechanisms that may form, `count` or one more; the first decides, the others by their λ.
 
@@ -459,18 +359,13 @@ class Structure(ABC):
         """
         known: dict[int, tuple[Candidate, ...]] = self.__dict__.setdefault("_candidates", {})
         if count not in known:
-            own = ranked(self._cracked(count), self._bulges, is_known=self.crack_is_known)
-            known[count] = of_parts(own, [leaf.candidates(count) for leaf in self.leaves_alone])
+            alone = [leaf.named(leaf.structure.candidates(count)) for leaf in self.leaves_alone]
+            known[count] = of_parts(self._ranked(count), alone)
         return known[count]
 
-    def _cracked(self, count: int) -> "tuple[Candidate, ...]":
-        """The cracks of it that may form, `count` or one more; first the one that is known, or that statics chooses."""
+    def _ranked(self, count: int) -> "tuple[Candidate, ...]":
+        """What may form of all of it as one body, `count` or one more; the first decides."""
         return (Candidate(AS_DESCRIBED, np.nan, self),)
-
-    @property
-    def _bulges(self) -> "tuple[Candidate, ...]":
-        """What may form of a held wall wherever it is cracked, by their λ."""
-        return ()
 
     def mechanisms(self) -> "tuple[Candidate, ...]":
         """Return every mechanism in which it may fall; a wall that is held at several heights has many by name."""
@@ -480,11 +375,6 @@ class Structure(ABC):
     def leaves_alone(self) -> "tuple[LeafAlone, ...]":
         """Its leaves that may part, each as a structure of its own; () of what has one."""
         return ()
-
-    @property
-    def crack_is_known(self) -> bool:
-        """Whether it is known how it opens, so that this decides and not what statics chooses."""
-        return True
 
     @cached_property
     def static_multiplier(self) -> float:
@@ -662,11 +552,6 @@ class Candidate:
         return own
 
     @property
-    def falls_between_ties(self) -> bool:
-        """Whether it falls between two ties of a row."""
-        return self.opening is not None and self.opening.between
-
-    @property
     def slips(self) -> bool:
         """Whether it is its top that slips under what lies on it."""
         wall: HeldWall | None = getattr(self.structure, "held_wall", None)
@@ -683,14 +568,9 @@ class Candidate:
         return not getattr(self.structure, "lets_go", True)
 
     @property
-    def multiplier(self) -> float:
-        """λ of its mechanism."""
-        return self.mechanism.uplift_multiplier
-
-    @property
     def uplift_multiplier(self) -> float:
         """λ of limit analysis, with ties at the force at which they yield; without ties where its motion begins."""
-        return self.multiplier if self.limit is None else self.limit
+        return self.mechanism.uplift_multiplier if self.limit is None else self.limit
 
     @property
     def critical_rotation(self) -> float:
@@ -717,14 +597,14 @@ class Candidate:
     @property
     def reactions(self) -> tuple[Reaction, ...]:
         """What holds it back as it starts to its side, N per metre; () of what cannot be followed or is not known."""
-        if self.refusal:
+        asked: Callable[..., tuple[Reaction, ...]] | None = getattr(self.structure, "reactions", None)
+        if self.refusal or asked is None:
             return ()
-        wall = self.structure
         try:
             if self.sign >= 0:
-                return wall.reactions()
+                return asked()
             least = -1e-12 * self.side.end_rotation
-            return wall.reactions([least], [0.0], ground=[self.side.uplift_multiplier * GRAVITY])
+            return asked([least], [0.0], ground=[self.side.uplift_multiplier * GRAVITY])
         except UnknownContacts:
             return ()
 
@@ -753,14 +633,6 @@ class LeafAlone(NamedTuple):
 
     name: str
     structure: Structure
-
-    def candidates(self, count: int) -> tuple[Candidate, ...]:
-        """Return what may form of it, as of its wall."""
-        return self.named(self.structure.candidates(count))
-
-    def mechanisms(self) -> tuple[Candidate, ...]:
-        """Return every mechanism of it, as of its wall."""
-        return self.named(self.structure.mechanisms())
 
     def named(self, candidates: Iterable[Candidate]) -> tuple[Candidate, ...]:
         """Return mechanisms of the leaf as those of the wall, which name it."""
@@ -791,8 +663,8 @@ def ranked(
     """
     every_crack = list(cracked)
     followed = [bulge for bulge in bulges if not bulge.refusal]
-    between = [bulge for bulge in followed if bulge.falls_between_ties][:1]
-    at_ties = [bulge for bulge in followed if not bulge.falls_between_ties]
+    between = [bulge for bulge in followed if bulge.opening and bulge.opening.between]
+    at_ties = [bulge for bulge in followed if not (bulge.opening and bulge.opening.between)]
     slipping = [bulge for bulge in at_ties if bulge.slips][:1]
     bulging = [bulge for bulge in at_ties if not bulge.slips][:1]
     counting = [crack for crack in every_crack if crack.counts]
@@ -802,12 +674,12 @@ def ranked(
     if not is_known:
         opens = [crack for crack in counting if math.isfinite(crack.uplift_multiplier)]
         counting = opens if opens or followed else counting
-        if any(bulge.mechanism.can_overturn for bulge in (*bulging, *slipping, *between)):
+        if any(bulge.mechanism.can_overturn for bulge in (*bulging, *slipping, *between[:1])):
             counting = [crack for crack in counting if crack.mechanism.can_overturn]
         if slipping:
             slips_at = slipping[0].uplift_multiplier
             counting = [crack for crack in counting if crack.uplift_multiplier <= slips_at]
-    for bulge in (*bulging, *slipping, *between):
+    for bulge in (*bulging, *slipping, *between[:1]):
         is_weakest = all(bulge.uplift_multiplier < crack.uplift_multiplier for crack in counting)
         counting.insert(0 if is_weakest else len(counting), bulge)
     return (*counting, *not_counting)

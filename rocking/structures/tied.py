@@ -31,7 +31,17 @@ from rocking.structures.linkage import (
     inset,
 )
 from rocking.structures.mechanism import Tie
-from rocking.structures.stack import Course, Held, Stop, course_at, courses_between, joints_between
+from rocking.structures.stack import (
+    ROUGH,
+    Course,
+    Held,
+    Stack,
+    Stop,
+    course_at,
+    courses_between,
+    joints_between,
+    loaded,
+)
 from rocking.structures.structure import Candidate, Structure, every
 from rocking.warnings import Phrase, RockingWarning
 
@@ -216,11 +226,6 @@ class Tied(CrackedAtHeight, Leaved):
             self._demand(not given or follows, name, ", but follows from the rods; leave it out.")
             object.__setattr__(self, name, value)
 
-    @property
-    def side_names(self) -> tuple[str, str]:
-        """Outwards and inwards, where ties, loads or what it leans on distinguish them."""
-        return super().side_names if self.symmetric and not self.one_sided else ("outwards", "inwards")
-
     def _moves(self, mirrored: bool) -> Opening:
         """How it opens to one side; what is described as it is described."""
         if self.opening is not None and self.opening.outwards != mirrored:
@@ -236,6 +241,7 @@ class Tied(CrackedAtHeight, Leaved):
         return self.held_wall.outlines(self._opens)
 
     def without_ties(self) -> Self | None:
+        """Return the same wall with no tie, None of what has none; raises StructureError where it falls so."""
         return replace(self, **_NO_TIES) if self.tie_heights else None
 
     @property
@@ -250,13 +256,6 @@ class Tied(CrackedAtHeight, Leaved):
         """The share of the length of the wall that the anchors of a row grip (theory: section 13.3)."""
         width = self.anchor_width or (None if self.held_between else self.unit_length)
         return 1.0 if width is None or self.tie_spacing is None else min(1.0, width / self.tie_spacing)
-
-    @property
-    def held_all_along(self) -> Self:
-        """The same wall where what its anchors grip holds it between them, too, as a plane stack takes it to."""
-        if not self.ties_apart:
-            return self
-        return replace(self, held_between="floor", anchor_width=self.anchor_width or self.unit_length)
 
     def _slab_edge(self, thickness: float, load: float) -> float:
         """Distance of the edge on which a slab of that `load` [N/m] lies from the middle of its wall, m."""
@@ -355,7 +354,7 @@ class Tied(CrackedAtHeight, Leaved):
         others = self._bulges if self.crack_is_known or self._is_one_bulge else self._family
         if self.symmetric:
             others = tuple(candidate for candidate in others if candidate.sign >= 0)
-        return every(cracked, others, [leaf.mechanisms() for leaf in self.leaves_alone])
+        return every(cracked, others, [leaf.named(leaf.structure.mechanisms()) for leaf in self.leaves_alone])
 
     @cached_property
     def _bulges(self) -> tuple[Candidate, ...]:
@@ -376,10 +375,6 @@ class Tied(CrackedAtHeight, Leaved):
             return elsewhere or opening.between or candidate.slips
 
         return tuple(filter(bulges, self._family))
-
-    @property
-    def is_held(self) -> bool:
-        return bool(self.held_wall.holds)
 
     @property
     def _is_one_bulge(self) -> bool:
@@ -467,7 +462,7 @@ class Tied(CrackedAtHeight, Leaved):
         held sideways asks for its own inertia as well.
         Raises UnknownContacts where the bodies do not determine them.
 
-        >>> wall = rocking.LoadedWall.hinged_at(3.6, 2.4, 0.35, 18e3, top_load=40e3, top_slab="flat", restitution=0.5)
+        >>> wall = rocking.LoadedWall.of_size(3.6, 0.35, 18e3, 2.4, top_load=40e3, top_slab="flat", restitution=0.5)
         >>> [(each.kind, each.height, round(float(each.force[0]))) for each in wall.reactions()]
         [('top', 3.6, 19705)]
         """
@@ -484,12 +479,9 @@ class Tied(CrackedAtHeight, Leaved):
             for first, other in zip(found[0], found[-1], strict=True)
         )
 
-    def restraints(self) -> tuple[Restraint, ...]:
-        """Return the ties and the top, each with what it needs as the weakest mechanism that it holds back starts."""
-        return self._restraints
-
     @cached_property
-    def _restraints(self) -> tuple[Restraint, ...]:
+    def restraints(self) -> tuple[Restraint, ...]:
+        """The ties and the top, each with what it needs as the weakest mechanism that it holds back starts."""
         wall = self.held_wall
         found = []
         for hold in wall.holds:
@@ -503,7 +495,7 @@ class Tied(CrackedAtHeight, Leaved):
             each = [
                 (candidate.name, reaction)
                 for candidate in asked
-                for reaction in candidate.structure.reactions()
+                for reaction in candidate.reactions
                 if (reaction.kind, reaction.height) == (hold.kind, hold.height)
             ]
             name, reaction = max(each, key=lambda asking: float(asking[1].force[0]))
@@ -528,15 +520,19 @@ class Tied(CrackedAtHeight, Leaved):
 
     @cached_property
     def anchors_slide_at(self) -> float:
+        """The acceleration [g] at which what the anchor of a tie grips slides out of the wall (theory: section 13.3).
+
+        inf where the wall around each anchor gives what the tie needs at rest, and where there is no tie.
+        """
         if not any(
-            restraint.kind == "tie" and restraint.needed > restraint.grip for restraint in self.restraints()
+            restraint.kind == "tie" and restraint.needed > restraint.grip for restraint in self.restraints
         ):
             return math.inf
         return self.held_wall.anchors_slide_at
 
     @property
     def does(self) -> str:
-        """How it falls, in words."""
+        """How it falls, in words: "bulges between foot and tie"."""
         return self.held_wall.name(self._opens)
 
     @property
@@ -546,6 +542,7 @@ class Tied(CrackedAtHeight, Leaved):
 
     @cached_property
     def tie_swing(self) -> tuple[float, Structure] | None:
+        """The period [s] with which it swings on its ties, and the bulge of least λ that they hold; None without."""
         stiffness = self.tie_stiffness * sum(height**2 for height in self.tie_heights)
         ties = {hold.height for hold in self.held_wall.holds if hold.kind == "tie"}
         hanging = (
@@ -564,8 +561,8 @@ class Tied(CrackedAtHeight, Leaved):
 
     def _holds_back(self, hold: Hold, candidate: Candidate) -> bool:
         """Whether a hold of the wall stops the upper body of a mechanism, of it or a leaf, that falls outwards."""
-        wall = candidate.structure
-        if not isinstance(wall, Tied) or wall._opens.is_triangle:
+        wall = held(candidate.structure)
+        if wall is None or wall._opens.is_triangle:
             return False
         if not any((own.kind, own.height) == (hold.kind, hold.height) for own in wall.held_wall.holds):
             return False  # bonders hold a leaf in place of the ties of its wall
@@ -605,6 +602,7 @@ class Tied(CrackedAtHeight, Leaved):
         return None
 
     def tie_events(self, rotation: float) -> str:
+        """Return which ties have yielded or broken once a signed `rotation` [rad] was reached, in words; "" if none."""
         tie = self._tie
         events = []
         tied = [hung for hung in self.linkages[0].hung if hung.tie]
@@ -703,6 +701,35 @@ class Tied(CrackedAtHeight, Leaved):
     def _outer(self, height: float) -> tuple[float, float]:
         """The point of the outer face at a height [m]."""
         return self._storeys[-1].right + self._aside * height, height
+
+    @abstractmethod
+    def _slab(self, load: Load) -> Course:
+        """A load as a body on top of its courses: one that stays flat, or that only rises."""
+
+    def _stacked(self, body: list[Course], of_slab: float = ROUGH) -> Stack:
+        """The stack of its courses with what bears on them, pushes and holds them; of_slab: friction under a slab."""
+        self._check_plane()
+        foot = body[0].base
+        held: list[Held] = []
+        slabs: list[Course] = []
+        for load in self._loads:
+            point = (load.x + self._aside * load.z, load.z)
+            place = course_at(body, load.z)
+            if not load.weight or load.z <= foot:
+                continue
+            if load.slab or (load.moves and not load.rides):
+                slabs.append(self._slab(load))
+            elif load.rides:
+                body[place] = loaded(body[place], point, load.weight / GRAVITY)
+            else:
+                held.append(Held(place, point, force=(0.0, -load.weight)))
+        for height, thrust in self._thrusts:
+            if height > foot:
+                held.append(Held(course_at(body, height), self._outer(height), force=(thrust, 0.0)))
+        held += self._held_in(body)
+        is_held = not slabs and any(hold.kind == "top" for hold in self.held_wall.holds)
+        top = (0.0, self.height) if is_held else None
+        return Stack((*body, *slabs), tuple(held), top, of_slab if slabs else ROUGH)
 
     def _held_in(self, courses: Sequence[Course]) -> list[Held]:
         """What holds its courses: ties, what they lean on, floors behind them, and bonders."""
@@ -820,6 +847,19 @@ class Tied(CrackedAtHeight, Leaved):
             "moving inwards, a tightened tie goes slack."
         )
         demand(not pretension or self.one_sided, "tie_pretension", said)
+
+
+def held(structure: Structure) -> Tied | None:
+    """Return a structure as the wall that ties, floors or its top may hold, which says what they do; else None."""
+    return structure if isinstance(structure, Tied) else None
+
+
+def held_all_along(structure: Structure) -> Structure:
+    """Return a structure where what anchors grip holds it between its ties, too, as a plane stack takes it to."""
+    wall = held(structure)
+    if wall is None or not wall.ties_apart:
+        return structure
+    return replace(wall, held_between="floor", anchor_width=wall.anchor_width or wall.unit_length)
 
 
 _RODS_SPREAD: dict[str, Any] = {key.name: key.default for key in fields(Tied) if key.name.startswith("rod_")}

@@ -30,7 +30,7 @@ from rocking.structures.linkage import (
 )
 from rocking.structures.stack import (
     ROUGH,
-    Held,
+    Course,
     Stack,
     counted_courses,
     slab,
@@ -156,26 +156,6 @@ class Wall(Tied):
         )
 
     @classmethod
-    def _heights(cls, height: float, hinge_height: float | None, crack: KnownCrack) -> tuple[float, float]:
-        """The heights below and above the hinge [m], in the middle where none is typed.
-
-        Raises StructureError for a hinge outside the wall, or a crack that is known, but not where.
-        """
-        form_made_by(cls, "of_size").check(height=height)
-        if hinge_height is None:
-            if crack is not None:
-                raise unplaced("hinge_height")
-            return height / 2, height / 2
-        hinge = finite(StructureError, "hinge_height", hinge_height, "m")
-        if not 0 < hinge < height:
-            raise SizeError.of(
-                "hinge_height",
-                repr(hinge),
-                f" m, but must lie inside the wall, between 0 and its height of {height!r} m.",
-            )
-        return hinge, height - hinge
-
-    @classmethod
     def of_size(
         cls,
         height: Height,
@@ -186,23 +166,20 @@ class Wall(Tied):
         crack: KnownCrack = None,
         **options: Any,
     ) -> Self:
-        """Return the wall of that height and thickness [m], hinged where it is typed, or else where statics puts it."""
-        lower, upper = cls._heights(height, hinge_height, crack)
-        wall = cls(lower, upper, thickness, unit_weight=unit_weight, crack=crack, **options)
-        return wall if hinge_height is not None else wall.cracked_by_statics()
+        """Return the wall of that height and thickness [m], hinged where it is typed, or else where statics puts it.
 
-    @classmethod
-    def hinged_at(
-        cls,
-        height: float,
-        hinge_height: float,
-        thickness: float,
-        unit_weight: float | None = None,
-        **options: Any,
-    ) -> Self:
-        """Return the wall of that total height whose hinge lies at `hinge_height` [m] above the base."""
-        hinge = finite(StructureError, "hinge_height", hinge_height, "m")
-        return cls.of_size(height, thickness, hinge_height=hinge, unit_weight=unit_weight, **options)
+        Raises StructureError for a hinge outside the wall, or a crack that is known, but not where.
+        """
+        form_made_by(cls, "of_size").check(height=height)
+        if hinge_height is None and crack is not None:
+            raise unplaced("hinge_height")
+        typed = height / 2 if hinge_height is None else hinge_height
+        hinge = finite(StructureError, "hinge_height", typed, "m")
+        if not 0 < hinge < height:
+            said = f" m, but must lie inside the wall, between 0 and its height of {height!r} m."
+            raise SizeError.of("hinge_height", repr(hinge), said)
+        wall = cls(hinge, height - hinge, thickness, unit_weight=unit_weight, crack=crack, **options)
+        return wall if hinge_height is not None else wall.cracked_by_statics()
 
     @property
     def height(self) -> float:
@@ -247,7 +224,6 @@ class Wall(Tied):
             "lower_height": span([half, 0.0], [half, crack], right),
             "upper_height": span([half, crack], [half, top], right),
             "thickness": span([-half, top], [half, top], [0.0, apart]),
-            **self._leaf_dimensions(),
         }
 
     @property
@@ -295,28 +271,18 @@ class Wall(Tied):
 
     def stack(self, courses: int | None = None) -> Stack:
         """Return its two blocks where the hinge is known and no tie holds it, else courses; below what loads it."""
-        self._check_plane()
         holds_within = [hold for hold in self.held_wall.holds if hold.kind != "top"]
         if courses is None and self.crack_is_known and not holds_within:
             wall = self._storey_courses(1, cuts=[self.lower_height])
         else:
             wall = self._storey_courses(counted_courses(courses))
-        half = self.thickness / 2
-        top = (-self.eccentricity, self.height)
-        held = tuple(self._held_in(wall))
-        if not self.top_load:
-            return Stack(wall, held, top_held_at=(0.0, self.height))
+        return self._stacked(list(wall), ROUGH if self.top_friction is None else self.top_friction)
+
+    def _slab(self, load: Load) -> Course:
         if self.top_slab == "flat":
             self._check_slab("load_held")
-        if self.load_held:
-            weight = Held(len(wall) - 1, top, force=(0.0, -self.top_load))
-            return Stack(wall, (*held, weight), top_held_at=(0.0, self.height))
-        edges = (-3 * half, 3 * half)
-        if self.top_slab == "hinged":
-            edges = (top[0] - _BEARING * half, top[0] + _BEARING * half)
-        floor = slab(*edges, self.height, self.top_load, guided=True)
-        own = ROUGH if self.top_friction is None else self.top_friction
-        return Stack((*wall, floor), held, friction=own)
+        half = (3.0 if self.top_slab == "flat" else _BEARING) * self.thickness / 2
+        return slab(load.x - half, load.x + half, load.z, load.weight, guided=True)
 
 
 @stated

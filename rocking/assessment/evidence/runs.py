@@ -8,6 +8,7 @@ from rocking.assessment.decide import UNANIMOUS, Limit, Verdict
 from rocking.assessment.evidence.asked import Asked, Evidence
 from rocking.assessment.evidence.bodies import friction_needed
 from rocking.assessment.kinds import AssessmentKind
+from rocking.structures.tied import held_all_along
 from rocking.warnings import RockingWarning
 
 
@@ -74,7 +75,7 @@ class Anchored:
         return slides_out and asked.settings.fidelity != "quick" and not asked.is_settled
 
     def look(self, asked: Asked) -> ContactShare | None:
-        plane = asked.structure.held_all_along
+        plane = held_all_along(asked.structure)
         share = asked.contacts(plane)
         # Of how it falls between its ties a plane stack that stands says nothing, and lifts no other limit.
         lifts_others = plane is not asked.structure and len(asked.limits) > 1 and not share.falls

@@ -13,6 +13,7 @@ from rocking.floors.place import swinging
 from rocking.motion.integration import Members, integrate_members, strict
 from rocking.structures import Structure
 from rocking.structures.leaves import parts_of
+from rocking.structures.tied import held
 from rocking.warnings import RockingWarning
 
 BEYOND = 0.4
@@ -29,10 +30,11 @@ class TurnsFar:
         return asked.moves(verdict) and not asked.slides_throughout and asked.case.ensembles is not None
 
     def look(self, asked: Asked) -> Limit | None:
-        held = {name for name, part in parts_of(asked.structure) if part.is_held}
+        walls = ((name, held(part)) for name, part in parts_of(asked.structure))
+        parts = {name for name, wall in walls if wall and wall.held_wall.holds}
         assert asked.case.ensembles is not None
         far = any(
-            crack.counts and crack.facts.farthest > BEYOND and crack.part in held
+            crack.counts and crack.facts.farthest > BEYOND and crack.part in parts
             for crack in asked.case.ensembles.followed
         )
         return Limit(warning=RockingWarning(AssessmentKind.HELD_BEYOND)) if far else None
@@ -55,7 +57,8 @@ class Anchors:
 
 def anchors_slide(structure: Structure, motions: GroundMotions) -> bool:
     """Whether an anchor of one part slides out."""
-    level = min(part.anchors_slide_at for _, part in parts_of(structure))
+    walls = (held(part) for _, part in parts_of(structure))
+    level = min((wall.anchors_slide_at for wall in walls if wall), default=math.inf)
     return math.isfinite(level) and motions.excitation > level
 
 
@@ -80,9 +83,10 @@ def ties_give(structure: Structure, motions: GroundMotions, settings: Assessment
     them as one body, and its bulge is shaken by the absolute acceleration of that oscillator: the bulge of least λ that
     a tie holds or bears is followed under it, with both signs of every direction. What cannot be followed counts.
     """
-    if structure.tie_swing is None:
+    wall = held(structure)
+    if wall is None or wall.tie_swing is None:
         return False
-    own_period, bulge = structure.tie_swing
+    own_period, bulge = wall.tie_swing
     both = Members(1 + settings.ensemble.amplitude_range, polarity=[1.0, -1.0])
     for motion in (motions.horizontal[direction] for direction in directions(motions)):
         # Below two samples of the record it cannot be distinguished from one that moves with the ground.

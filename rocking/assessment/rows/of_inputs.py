@@ -15,7 +15,7 @@ from rocking.pulses import Pulse, PulseEvidence, VelocityPulse
 from rocking.pulses.pulse import PulseAnalysis
 from rocking.signal.measures import RecordMeasures, record_measures
 from rocking.structures import Mechanism, Structure
-from rocking.structures.crackable import WEAK_MASONRY
+from rocking.structures.crackable import Crackable, crushing
 from rocking.structures.equivalent_block import EquivalentBlock, Scale
 from rocking.structures.mechanism import PRINTED_SCALE
 from rocking.tables import Columns, Row, RowOf, column, row
@@ -350,12 +350,12 @@ def structure_rows(
         linearised = _block(mechanism, "linearised")
         uplift = _block(mechanism, "uplift")
         defects = mechanism.block_defects if at_rest else None
-        crushed = body.crushing(WEAK_MASONRY)
+        crushed = crushing(body)
         yield StructureRow(
             structure=name,
             type=body.described.type_name,
             geometry=body.description,
-            crack=body.crack_name,
+            crack=body.crack_name if isinstance(body, Crackable) else "",
             block_used=scale,
             block_printed=PRINTED_SCALE,
             frequency_parameter_rad_s=side.frequency_parameter if side else math.nan,

@@ -162,8 +162,9 @@ class ComparedCase(OfStructure):
         if response is None or not math.isfinite(response.rotation_ratio):
             return math.nan
         body = cracked(self.period_result.scene.structure, self.case.crack)
-        critical = body.mechanism().sides[-1 if response.peak_side < 0 else 0].critical_rotation
-        return body.moved_from_bearings(response.peak_side * response.rotation_ratio * critical)
+        place = -1 if response.peak_side < 0 else 0
+        reached = response.rotation_ratio * body.mechanism().sides[place].critical_rotation
+        return float(body.linkages[place].moved_from_bearings(reached))
 
     @property
     def acts(self) -> Acts | None:

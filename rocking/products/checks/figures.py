@@ -18,6 +18,7 @@ from rocking.reports.printing import unit_of
 from rocking.reports.sentences import Sentences
 from rocking.reports.style import PREDICTED, PULSE, new_figure, panel_at, room_for_texts, styled
 from rocking.structures import Structure
+from rocking.structures.leaves import beside
 
 _HEIGHT = 102.0
 """mm; of the mechanism to the left of its bars."""
@@ -56,7 +57,7 @@ def bars_figure(
     rotation = mechanism.candidate.sign * _TURNED * mechanism.static.side.critical_rotation
     # The values at loads and ties are English; on an Italian page they stand among the assumptions alone.
     values = words.language == "en"
-    rest = structure.beside(mechanism.candidate.part)
+    rest = beside(structure, mechanism.candidate.part)
     draw_structure(drawn, body, rotation, values=values, rest=rest)
     _to_scale(figure, drawn)
     if bay is not None:

@@ -28,6 +28,7 @@ from rocking.products.checks.rows import KINDS, CodeCheckRow, code_check_rows
 from rocking.reports.pages import Panel, Section
 from rocking.reports.printing import sentence, strong, table_of, words, write_document
 from rocking.structures.structure import Candidate
+from rocking.structures.tied import held
 from rocking.study.documents import made_or_failed
 from rocking.study.job import Job, Study
 from rocking.study.kept import Kept, Rows
@@ -221,7 +222,8 @@ def _checked(
         with one_structure(scene.name):
             checked = check_here(scene.structure)
             with suppress(RockingError):  # without its ties it may not stand
-                alone = scene.structure.without_ties()
+                wall = held(scene.structure)
+                alone = wall and wall.without_ties()
                 untied = None if alone is None else check_here(alone)
     except RockingError as error:
         checked = None

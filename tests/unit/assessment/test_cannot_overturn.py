@@ -113,7 +113,7 @@ def test_it_has_no_fragility():
 @pytest.mark.parametrize("crack", [None, "known"])
 def test_the_verdict_and_the_fragility_ask_the_same_cracks(crack):
     """A hinge that is typed below a tie: no record may stand as a word says where a curve says that none can fall."""
-    wall = LoadedWall.hinged_at(3.2, 1.9, 0.25, 20e3, tie_heights=(3.0,), tie_stiffness=5e5, crack=crack)
+    wall = LoadedWall.of_size(3.2, 0.25, 20e3, 1.9, tie_heights=(3.0,), tie_stiffness=5e5, crack=crack)
     settings = AssessmentSettings(ensemble=EnsembleSettings(reserve=0))
     word = rocking.assess(record(3.0), wall, settings=settings).verdict
     try:

@@ -74,7 +74,7 @@ def test_a_crack_that_overturns_in_one_run_is_the_worse_of_the_two():
         case("EW", 0.2), variations=(Variation(integrated_rotation_ratio=math.inf, crack="crack at 3 m"),)
     )
     block = station(fallen)
-    wall = Wall.hinged_at(6.0, 3.0, 0.4)
+    wall = Wall.of_size(6.0, 0.4, 3.0)
     result = replace(block, scene=replace(block.scene, structure=wall))
     assert (result.verdict, result.crack, result.decision.share) == ("uncertain", "crack at 3 m", 1.0)
     # beside a crack that is known it is told alone

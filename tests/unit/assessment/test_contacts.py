@@ -71,8 +71,8 @@ def sine(amplitude: float, period: float = 0.6) -> Accelerogram:
 def test_walls_whose_contacts_open_and_whose_blocks_fall_do_not_stand(name, real_records):
     (height, hinge, thickness, load), path, kept, factor = FALLING_WALLS[name]
     # The joints of its stack hold as much.
-    size = height, hinge, thickness, 18e3
-    wall = LoadedWall.hinged_at(*size, top_load=load, top_slab="flat", top_friction=5.0, crack="known")
+    size = height, thickness, 18e3, hinge
+    wall = LoadedWall.of_size(*size, top_load=load, top_slab="flat", top_friction=5.0, crack="known")
     whole = rocking.read(real_records / path)[0]
     motion = replace(whole, acceleration=whole.acceleration[kept]).scaled(factor)
     followed = rocking.assess(motion, wall)
@@ -316,8 +316,8 @@ def test_an_impact_that_keeps_little_by_balance_is_doubted_and_a_typed_one_is_no
     motions = GroundMotions.of(sine(0.5, 0.1))
     kinds = {}
     for share in (0.3, 0.9):
-        wall = LoadedWall.hinged_at(
-            height, hinge, thickness, 20e3, top_load=share * nothing_kept, top_slab="flat", crack="known"
+        wall = LoadedWall.of_size(
+            height, thickness, 20e3, hinge, top_load=share * nothing_kept, top_slab="flat", crack="known"
         )
         kept = wall.mechanism().restitution
         kinds[kept < 0.3] = why_open(wall, motions, 0.05, DEFAULT)

@@ -301,7 +301,7 @@ def test_components_without_a_name_are_numbered():
     assert list(assess(pair, BLOCK, members=16).cases) == ["component 1", "component 2"]
 
 
-@pytest.mark.parametrize("structure", [BLOCK, Wall.hinged_at(3.0, 1.5, 0.4), Arch(5.0, 0.8, np.radians(150))])
+@pytest.mark.parametrize("structure", [BLOCK, Wall.of_size(3.0, 0.4, 1.5), Arch(5.0, 0.8, np.radians(150))])
 def test_an_assessment_goes_to_another_process_and_back(structure):
     result = assess(_record(4.0), structure, members=16)
     for again in (pickle.loads(pickle.dumps(result)), copy.deepcopy(result)):

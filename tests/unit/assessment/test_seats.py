@@ -8,6 +8,7 @@ import pytest
 
 from rocking import Accelerogram, Block, Facade, Verdict
 from rocking.assessment.assessor import Assessor
+from rocking.assessment.cracks import loses_seat_at
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.reserve import reserve_of_members
@@ -22,13 +23,13 @@ def test_a_floor_loses_its_bearing_where_the_top_has_moved_so_far():
     side = FRONT.mechanism().positive
     for phi in (0.02, 0.1):
         by_hand = 3.0 * np.sin(phi) + 0.25 * (1 - np.cos(phi))
-        assert FRONT.moved_from_bearings(phi) == pytest.approx(by_hand, rel=1e-12)
-    loss = FRONT.moved_from_bearings(0.4 * side.critical_rotation)
-    assert FRONT.loses_seat_at(loss) == pytest.approx(0.4, rel=1e-4)
-    assert FRONT.loses_seat_at(2.0) == math.inf
+        assert FRONT.linkages[0].moved_from_bearings(phi) == pytest.approx(by_hand, rel=1e-12)
+    loss = FRONT.linkages[0].moved_from_bearings(0.4 * side.critical_rotation)
+    assert loses_seat_at(FRONT, loss) == pytest.approx(0.4, rel=1e-4)
+    assert loses_seat_at(FRONT, 2.0) == math.inf
     bare = replace(FRONT, floor_loads=())
-    assert bare.moved_from_bearings(0.1) == 0 and bare.loses_seat_at(1e-6) == math.inf
-    assert Block.of_size(0.5, 3.0).loses_seat_at(1e-6) == math.inf
+    assert bare.linkages[0].moved_from_bearings(0.1) == 0 and loses_seat_at(bare, 1e-6) == math.inf
+    assert loses_seat_at(Block.of_size(0.5, 3.0), 1e-6) == math.inf
 
 
 @pytest.mark.parametrize("members", [0, 64])
@@ -57,9 +58,9 @@ def test_the_reserve_counts_what_loses_its_bearing():
     swing = 0.6 * FRONT.static_multiplier * 9.80665 * np.sin(2 * np.pi * times / 0.8) * (times < 3)
     motions = GroundMotions.of(Accelerogram(swing, 0.01))
     settings = EnsembleSettings(members=16, reserve=8.0)
-    loss = FRONT.moved_from_bearings(0.1 * FRONT.mechanism().positive.critical_rotation)
+    loss = FRONT.linkages[0].moved_from_bearings(0.1 * FRONT.mechanism().positive.critical_rotation)
     overturns, loses = (
-        reserve_of_members(FRONT.mechanism(), motions, settings, falls_beyond=FRONT.loses_seat_at(seat))
+        reserve_of_members(FRONT.mechanism(), motions, settings, falls_beyond=loses_seat_at(FRONT, seat))
         for seat in (math.inf, loss)
     )
     assert loses.median < 0.97 * overturns.median and loses.low <= overturns.low

@@ -36,7 +36,7 @@ PAIR = [
 ]
 STRUCTURES = {
     "block": Block(2.0, 0.2),
-    "wall": Wall.hinged_at(6.0, 3.0, 0.4, crack="known"),
+    "wall": Wall.of_size(6.0, 0.4, 3.0, crack="known"),
     "arch": Arch(5.0, 0.3, np.radians(150)),
 }
 ONE = {"block": STRUCTURES["block"]}

@@ -24,7 +24,7 @@ from rocking.structures.joints import Joints
 from rocking.structures.stack import Stack, courses_between, joined
 from tests.refusals import refused
 
-HINGED = LoadedWall.hinged_at(3.2, 1.6, 0.35, 18e3, top_load=1000.0, top_slab="flat", crack="known")
+HINGED = LoadedWall.of_size(3.2, 0.35, 18e3, 1.6, top_load=1000.0, top_slab="flat", crack="known")
 FIRM = Joints(5.0)
 """Joints in which no anchor of a tie slides out."""
 BEARING = {"top_load": 3000.0, "eccentricity": 0.05, "crack": "known"}
@@ -58,8 +58,8 @@ def sampled(pulse: Pulse) -> Accelerogram:
         Block.of_size(0.8, 4.0),
         Wall(1.6, 1.6, 0.35, crack="known"),
         HINGED,
-        LoadedWall.hinged_at(3.2, 1.6, 0.35, 18e3, **BEARING),
-        LoadedWall.hinged_at(3.2, 1.6, 0.35, 18e3, load_held=True, **BEARING),
+        LoadedWall.of_size(3.2, 0.35, 18e3, 1.6, **BEARING),
+        LoadedWall.of_size(3.2, 0.35, 18e3, 1.6, load_held=True, **BEARING),
         Facade(
             (3.5, 3.0), (0.6, 0.5), 20e3, floor_loads=(12e3, 6e3), thrust=1e3, crack_storey=1, crack="known"
         ),

@@ -54,7 +54,7 @@ def test_the_table_names_each_kind_of_mechanism_once_with_the_force_that_holds_i
 def test_the_page_says_what_holds_the_top_and_what_slips():
     wall = LoadedWall.of_size(3.0, 0.35, 19e3, top_load=2e3, restitution=0.7).on_joints(Joints(0.6))
     told = " ".join(basis(wall).sentences)
-    (top,) = wall.restraints()
+    (top,) = wall.restraints
     assert str(top.warning) in told
 
 

@@ -20,6 +20,7 @@ from rocking.reports.printing import MEASURED, compile_document
 from rocking.reports.record import RecordReport, failure_page
 from rocking.signal.accelerogram import Accelerogram
 from rocking.structures import Arch, ArchOnPiers, Block, Facade, Frame, Joints, LoadedWall, Spire, Wall
+from rocking.structures.crackable import crushing
 from rocking.structures.kinds import StructureKind
 from rocking.tables import cell
 from rocking.warnings import RockingWarning
@@ -459,7 +460,7 @@ def test_page_one_says_that_a_crack_is_known_and_how_many_members_another_one_wo
 def test_page_one_tells_what_was_typed_and_what_crushing_would_change_before_page_two_explains_it():
     """Crushing is told where the motion is so near what overturns the wall that the loss of λ takes it there."""
     wall = LoadedWall.of_size(3.2, 0.25, 18e3, top_load=6e4, restitution=0.6)
-    lost = wall.static_multiplier / wall.crushing(2e6).static_multiplier
+    lost = wall.static_multiplier / crushing(wall).static_multiplier
     typed = Block.of_size(0.6, 4.0, restitution=0.6)
     own = replace(typed, restitution=None).mechanism().restitution
     seen = set()

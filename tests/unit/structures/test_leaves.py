@@ -18,6 +18,7 @@ from rocking.structures import Block, Facade, LoadedWall, Wall
 from rocking.structures.building_parts import FreeWall
 from rocking.structures.held_wall import Storey
 from rocking.structures.kinds import StructureKind
+from rocking.structures.leaves import beside
 from tests.refusals import refused
 
 G = 9.80665
@@ -364,12 +365,12 @@ def test_the_rest_of_the_wall_stands_beside_a_leaf_as_it_does_in_the_wall():
         wall = rocking.structure_from_config({"type": kind, **SIZES[kind], "leaves_m": [0.2, 0.25]})
         for name, leaf in wall.leaves_alone:
             own = np.vstack(leaf.outline())[:, 0]
-            (other,) = wall.beside(name)
+            (other,) = beside(wall, name)
             is_outer = name == "outer leaf"
             gap = own.min() - other[:, 0].max() if is_outer else other[:, 0].min() - own.max()
             assert gap == pytest.approx(0.05)
             assert np.ptp(other[:, 0]) == pytest.approx(0.25 if is_outer else 0.2)
-        assert wall.beside("") == []
+        assert beside(wall, "") == []
 
 
 def drawn_front(draw):
@@ -464,5 +465,5 @@ def test_a_tie_of_the_wall_is_not_asked_what_a_bonder_of_a_leaf_takes():
     sizes = {"unit_weight": 20e3, "restitution": 0.5, "tie_heights": (1.6,), "tie_stiffness": 50e3}
     whole = LoadedWall(1.6, 1.6, 0.3, **sizes)
     leaved = replace(whole, leaves=(0.12, 0.12), bonders=(1.6, 3.2))
-    needed = [[tie.needed for tie in wall.restraints() if tie.kind == "tie"] for wall in (whole, leaved)]
+    needed = [[tie.needed for tie in wall.restraints if tie.kind == "tie"] for wall in (whole, leaved)]
     assert needed[0] == pytest.approx(needed[1])

@@ -23,7 +23,7 @@ def facade(**changes):
         (lambda: Block(1.0, 0.2, restitution="magic"), "restitution", "'magic'"),
         (lambda: Wall(2.0, 1.0, float("nan")), "thickness", "nan"),
         (lambda: Block(1.0, 0.2, one_sided=True), "restitution", "missing"),
-        (lambda: Wall.hinged_at(3.0, 3.5, 0.3), "hinge_height", "3.5"),
+        (lambda: Wall.of_size(3.0, 0.3, 3.5), "hinge_height", "3.5"),
         (lambda: RigidBody(0.3, 0.4, 2.0, -1.4), "inertia", "-1.4"),
         (lambda: Spire(3.0, 12.0, crack_height=12.0), "crack_height", "12.0"),
         (lambda: Spire(3.0, 12.0, 1.5), "wall_thickness", "1.5"),

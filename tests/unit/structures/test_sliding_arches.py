@@ -160,7 +160,7 @@ def test_a_level_joint_below_a_pier_slides_at_its_friction():
 
 def test_hinges_that_are_typed_slide_as_all_joints_do():
     first, *others = SLIDES.candidates(4)
-    assert others[0].multiplier > first.multiplier
+    assert others[0].mechanism.uplift_multiplier > first.mechanism.uplift_multiplier
     for case in (first, *others):
         assert (
             case.structure.on_joints(Joints(0.4)).slides_at() == SLIDES.on_joints(Joints(0.4)).slides_at() > 0

@@ -19,6 +19,7 @@ from rocking.errors import RockingError, SizeError, StructureError
 from rocking.reports.drawings import bay_of
 from rocking.structures import Facade, Joints, LoadedWall
 from rocking.structures.kinds import StructureKind
+from rocking.structures.tied import held_all_along
 from tests.refusals import refused
 
 G = 9.80665
@@ -257,12 +258,12 @@ def test_anchors_slide_out_at_the_load_of_hand():
     weight, load = 18e3 * 0.4 * 3.2, 5e3
     grip = 0.6 * (load + 0.2 * 18e3 * 0.4)
     by_hand = ((weight + load) * 0.2 + grip * 3.2) / (weight * 1.6 + load * 3.2)
-    (tie,) = ALL_ALONG.restraints()
+    (tie,) = ALL_ALONG.restraints
     assert tie.needed > tie.grip == pytest.approx(grip)
     assert ALL_ALONG.anchors_slide_at == pytest.approx(by_hand, rel=1e-6)
     assert by_hand < 0.7 * ALL_ALONG.static_multiplier
     larger = replace(ALL_ALONG, anchor_height=1.0)
-    assert larger.restraints()[0].grip == pytest.approx(0.6 * (load + 18e3 * 0.4))
+    assert larger.restraints[0].grip == pytest.approx(0.6 * (load + 18e3 * 0.4))
     assert larger.anchors_slide_at == ALL_ALONG.without_ties().anchors_slide_at == np.inf
     weak = replace(ALL_ALONG, tie_strength=grip / 2, tie_plastic_elongation=0.05)
     assert weak.anchors_slide_at == np.inf  # it yields before
@@ -274,13 +275,13 @@ def test_each_anchor_gives_the_friction_of_what_it_grips_and_needs_the_force_of_
     along = replace(
         ALL_ALONG.on_joints(Joints(friction=0.4)), tie_spacing=spacing, unit_length=0.5, held_between=None
     )
-    (per_metre,) = ALL_ALONG.on_joints(Joints(friction=0.4)).restraints()
+    (per_metre,) = ALL_ALONG.on_joints(Joints(friction=0.4)).restraints
     for width in (None, 0.25, 0.5, 20.0):
-        (tie,) = replace(along, anchor_width=width).restraints()
+        (tie,) = replace(along, anchor_width=width).restraints
         assert tie.grip * spacing == pytest.approx(per_metre.grip * min(width or 0.5, spacing))
         assert tie.warnings[1]["needed_kN"] == pytest.approx(per_metre.needed * spacing / 1e3)
         assert tie.warnings[1]["grip_kN"] == pytest.approx(tie.grip * spacing / 1e3)
-    (held,) = replace(along, held_between="floor").restraints()
+    (held,) = replace(along, held_between="floor").restraints
     assert held.grip == per_metre.grip
     assert replace(along, anchor_width=0.25).anchors_slide_at <= along.anchors_slide_at
     with refused(SizeError, "tie_spacing"):
@@ -330,7 +331,7 @@ def test_light_anchors_at_a_spacing_fall_where_the_ties_alone_stand():
     light = replace(ALL_ALONG, tie_spacing=2.0, anchor_width=0.1)
     held = replace(light, anchor_width=2.0, anchor_height=3.2)
     apart = replace(light, held_between=None, unit_length=0.4)
-    assert apart.held_all_along.static_multiplier == light.static_multiplier
+    assert held_all_along(apart).static_multiplier == light.static_multiplier
     assert shaken(held, 0.4, 0.8).verdict is rocking.Verdict.STANDS
     for wall in (light, apart):
         assert shaken(wall, 0.4, 0.8).verdict.badness >= rocking.Verdict.UNCERTAIN.badness
