@@ -32,7 +32,7 @@ def drawing(kind: str, form: Form) -> Figure:
     """
     from matplotlib.figure import Figure  # not needed where only the forms are
 
-    form = TYPES[kind][0] if form.is_in_a_file else form
+    form = TYPES[kind][0] if "file" in form.keys else form
     example = {field.key: field.value.example for field in form.fields if field.required or field.unit}
     if "restitution" in form.keys:  # no balance gives that of a wall which friction and ties hold
         example |= {"restitution": 0.5}

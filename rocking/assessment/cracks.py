@@ -148,9 +148,18 @@ def mechanisms_of(structure: Structure) -> tuple[Candidate, ...]:
     """Return every mechanism: those that may be followed, and behind them those that statics alone lists."""
     forming = cracks(structure)
     listed = (
-        candidate for candidate in structure.mechanisms() if not any(candidate.is_as(own) for own in forming)
+        candidate
+        for candidate in structure.mechanisms()
+        if not any(_alike(candidate, own) for own in forming)
     )
     return (*forming, *listed)
+
+
+def _alike(one: Candidate, other: Candidate) -> bool:
+    """Whether two are one mechanism, whose hinge two searches place a little apart."""
+    if one.structure is other.structure or one.description == other.description:
+        return True
+    return not other.refusal and one.is_own_of(other.structure)
 
 
 @lru_cache(maxsize=256)

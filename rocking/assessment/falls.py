@@ -27,7 +27,7 @@ from rocking.assessment.cores import in_order
 from rocking.assessment.cracks import counting_cracks, loses_seat_at
 from rocking.assessment.evidence import cannot_be_told
 from rocking.assessment.evidence.asked import Asked
-from rocking.assessment.evidence.walls import anchors_slide
+from rocking.assessment.evidence.walls import anchors_slide, held_all_along
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.reserve import SHARES, Reserve, reserve_of_members
 from rocking.assessment.settings import AssessmentSettings
@@ -35,7 +35,6 @@ from rocking.errors import RockingError
 from rocking.records import Accelerogram
 from rocking.structures import Structure
 from rocking.structures.structure import Candidate
-from rocking.structures.tied import held_all_along
 
 DRAWS = 6
 """Runs of contact dynamics at one factor: of one motion of many records, whose spread is larger than that of draws, or

@@ -56,6 +56,14 @@ class Facade(Tied):
 
     type_name: ClassVar[str] = "facade"
     crack_name: ClassVar[str] = "crack"
+    _of_loads: ClassVar[tuple[str, ...]] = (
+        "floor_loads",
+        "eccentricity",
+        "top_slab",
+        "loads_held",
+        "thrust",
+        "thrust_height",
+    )
     _described_as: ClassVar[dict[str, str]] = {
         "": "Façade of one storey or several with floor loads, ties and thrust; forces per metre of façade"
     }
@@ -193,16 +201,10 @@ class Facade(Tied):
         held_at = self.bonder_heights
         if leaf.moves == "inwards":
             held_at = (*held_at, *(hold.height for hold in self.held_wall.holds if hold.inwards == np.inf))
-        loads: dict[str, Any] = {"floor_loads": (), "eccentricity": 0.0, "thrust": 0.0, "thrust_height": None}
-        loads |= {"loads_held": False, "top_slab": "hinged"}
-        if self._bears(leaf):
-            bearing = [
-                thickness for thickness, load in zip(self.thicknesses, self.floor_loads, strict=False) if load
-            ]
-            loads["eccentricity"] = self._eccentricity_on(leaf, bearing, self.eccentricity)
-            taken = ["floor_loads", "loads_held", "top_slab"]
-            taken += ["thrust", "thrust_height"] if leaf.moves != "inwards" else []
-            loads |= {name: getattr(self, name) for name in taken}
+        bearing = [t for load, t in zip(self.floor_loads, self.thicknesses, strict=False) if load]
+        loads = self._loads_on(leaf, bearing)
+        if leaf.moves == "inwards":
+            loads |= {"thrust": 0.0, "thrust_height": None}
         # Its cracks are those of the wall, but that bonders leave it others.
         cracked = {"crack": None, "crack_storey": None, "crack_height": None} if held_at else {}
         return replace(

@@ -267,11 +267,6 @@ class Form:
         return cls(kind.type_name, meaning, tuple(described), kind, make)
 
     @property
-    def is_in_a_file(self) -> bool:
-        """Whether it names a file that holds the structure."""
-        return any(key.kind is str for key in self.fields)
-
-    @property
     def keys(self) -> dict[str, Field]:
         """The fields by key."""
         return {key.key: key for key in self.fields}

@@ -621,12 +621,6 @@ class Candidate:
         alike = math.isclose(one.uplift_multiplier, other.uplift_multiplier, rel_tol=1e-6)
         return alike and math.isclose(one.critical_rotation, other.critical_rotation, rel_tol=1e-3)
 
-    def is_as(self, other: "Candidate") -> bool:
-        """Whether it and another one are one mechanism, whose hinge two searches place a little apart."""
-        if self.structure is other.structure or self.description == other.description:
-            return True
-        return not other.refusal and self.is_own_of(other.structure)
-
 
 class LeafAlone(NamedTuple):
     """A leaf by its name, "outer leaf", as a structure of its own."""

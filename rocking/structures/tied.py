@@ -75,10 +75,12 @@ class Tied(CrackedAtHeight, Leaved):
 
     Rods have the stiffness E A/(L s), the strength f_y A/s and the pretension T/s. Ties hold each leaf without bonders
     as they hold the wall; a leaf that goes inwards alone is held by none.
+    _of_loads: the fields that say what bears on it.
     opening: of one of its `mechanisms()`, in which alone it moves; held_at: the heights at which the rest of a wall
     holds this leaf of it to both sides, m; files give neither.
     """
 
+    _of_loads: ClassVar[tuple[str, ...]]
     _as_one_leaf: ClassVar[dict[str, Any]] = {**Leaved._as_one_leaf, "loaded_leaf": None}
     tie_heights: Annotated[
         tuple[float, ...], Value("Heights of the ties above the ground", [1.6], "m", (0.2, 60), "z")
@@ -540,25 +542,6 @@ class Tied(CrackedAtHeight, Leaved):
         """How it opens: as one of the family, or as it is described."""
         return self.opening or self._described_opening or Opening(foot=self.crack_position)
 
-    @cached_property
-    def tie_swing(self) -> tuple[float, Structure] | None:
-        """The period [s] with which it swings on its ties, and the bulge of least λ that they hold; None without."""
-        stiffness = self.tie_stiffness * sum(height**2 for height in self.tie_heights)
-        ties = {hold.height for hold in self.held_wall.holds if hold.kind == "tie"}
-        hanging = (
-            candidate.structure
-            for candidate in self.mechanisms()
-            if (way := candidate.opening) and way.hinge is not None and way.outwards
-            if not candidate.refusal and (way.foot in ties or way.hold in ties)
-        )
-        bulge = next(hanging, None) if stiffness else None
-        if bulge is None:
-            return None
-        wall = self.held_wall
-        inertia = sum(storey.weight * (storey.high**3 - storey.low**3) / 3 for storey in wall.storeys)
-        inertia += sum(load.weight * load.z**2 for load in wall.loads if load.rides)
-        return 2 * math.pi * math.sqrt(inertia / (GRAVITY * stiffness)), bulge
-
     def _holds_back(self, hold: Hold, candidate: Candidate) -> bool:
         """Whether a hold of the wall stops the upper body of a mechanism, of it or a leaf, that falls outwards."""
         wall = held(candidate.structure)
@@ -761,6 +744,13 @@ class Tied(CrackedAtHeight, Leaved):
         """Whether the loads bear on a leaf."""
         return leaf.name == f"{self.loaded_leaf or 'inner'} leaf"
 
+    def _loads_on(self, leaf: Leaf, thicknesses: Iterable[float]) -> dict[str, Any]:
+        """The fields of what bears on a leaf. thicknesses: of the wall where its loads bear, m."""
+        if not self._bears(leaf):
+            return {key.name: key.default for key in fields(self) if key.name in self._of_loads}
+        loads = {name: getattr(self, name) for name in self._of_loads}
+        return loads | {"eccentricity": self._eccentricity_on(leaf, thicknesses, loads["eccentricity"])}
+
     def _ties_of(self, leaf: Leaf) -> dict[str, Any]:
         """The fields by which the ties of the wall hold a leaf: outwards, tightened where it cannot go inwards."""
         ties = {name: getattr(self, name) for name in _NO_TIES} | _RODS_SPREAD
@@ -852,14 +842,6 @@ class Tied(CrackedAtHeight, Leaved):
 def held(structure: Structure) -> Tied | None:
     """Return a structure as the wall that ties, floors or its top may hold, which says what they do; else None."""
     return structure if isinstance(structure, Tied) else None
-
-
-def held_all_along(structure: Structure) -> Structure:
-    """Return a structure where what anchors grip holds it between its ties, too, as a plane stack takes it to."""
-    wall = held(structure)
-    if wall is None or not wall.ties_apart:
-        return structure
-    return replace(wall, held_between="floor", anchor_width=wall.anchor_width or wall.unit_length)
 
 
 _RODS_SPREAD: dict[str, Any] = {key.name: key.default for key in fields(Tied) if key.name.startswith("rod_")}

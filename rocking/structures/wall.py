@@ -90,6 +90,13 @@ class Wall(Tied):
     crack_name: ClassVar[str] = "hinge"
     statics_chooses: ClassVar[bool] = True
     lowest_crack: ClassVar[float] = 1 - HIGHEST_SHARE
+    _of_loads: ClassVar[tuple[str, ...]] = (
+        "top_load",
+        "eccentricity",
+        "top_slab",
+        "load_held",
+        "top_friction",
+    )
     _described_as: ClassVar[dict[str, str]] = {
         "of_size": "Wall held at floor and ceiling, by its height, and perhaps that of a hinge",
         "": "Wall held at floor and ceiling, by the heights below and above its hinge",
@@ -137,16 +144,7 @@ class Wall(Tied):
 
     def _alone(self, leaf: Leaf) -> Self:
         """A leaf between the same supports; of one that bears nothing these hold the top."""
-        loads: dict[str, Any] = {
-            "top_load": 0.0,
-            "eccentricity": 0.0,
-            "top_friction": None,
-            "load_held": False,
-        }
-        loads["top_slab"] = "hinged"
-        if self._bears(leaf):
-            loads |= {name: getattr(self, name) for name in loads}
-            loads["eccentricity"] = self._eccentricity_on(leaf, [self.thickness], self.eccentricity)
+        loads = self._loads_on(leaf, [self.thickness])
         return replace(
             self,
             thickness=leaf.thickness,

@@ -7,8 +7,8 @@ from rocking.assessment.cracks import cracked
 from rocking.assessment.decide import UNANIMOUS, Limit, Verdict
 from rocking.assessment.evidence.asked import Asked, Evidence
 from rocking.assessment.evidence.bodies import friction_needed
+from rocking.assessment.evidence.walls import held_all_along
 from rocking.assessment.kinds import AssessmentKind
-from rocking.structures.tied import held_all_along
 from rocking.warnings import RockingWarning
 
 

@@ -1,6 +1,7 @@
 """Evidence against walls that are held: they turn far, an anchor slides out, their ties give."""
 
 import math
+from dataclasses import replace
 
 from rocking.assessment.contacts import directions
 from rocking.assessment.decide import Limit, Verdict
@@ -11,6 +12,7 @@ from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import RockingError
 from rocking.floors.place import swinging
 from rocking.motion.integration import Members, integrate_members, strict
+from rocking.quantities import GRAVITY
 from rocking.structures import Structure
 from rocking.structures.leaves import parts_of
 from rocking.structures.tied import held
@@ -76,6 +78,36 @@ class TiesGive:
         return Limit(warning=RockingWarning(AssessmentKind.TIES_GIVE), at_rest=True) if gives else None
 
 
+def held_all_along(structure: Structure) -> Structure:
+    """Return a structure where what anchors grip holds it between its ties, too, as a plane stack takes it to."""
+    wall = held(structure)
+    if wall is None or not wall.ties_apart:
+        return structure
+    return replace(wall, held_between="floor", anchor_width=wall.anchor_width or wall.unit_length)
+
+
+def tie_swing(structure: Structure) -> tuple[float, Structure] | None:
+    """Return the period [s] with which a wall swings on its ties, and the weakest bulge that they hold; else None."""
+    tied = held(structure)
+    if tied is None or not tied.tie_stiffness:
+        return None
+    wall = tied.held_wall
+    ties = {hold.height for hold in wall.holds if hold.kind == "tie"}
+    hanging = (
+        candidate.structure
+        for candidate in tied.mechanisms()
+        if (way := candidate.opening) and way.hinge is not None and way.outwards
+        if not candidate.refusal and (way.foot in ties or way.hold in ties)
+    )
+    bulge = next(hanging, None)
+    if bulge is None:
+        return None
+    stiffness = tied.tie_stiffness * sum(height**2 for height in tied.tie_heights)
+    inertia = sum(storey.weight * (storey.high**3 - storey.low**3) / 3 for storey in wall.storeys)
+    inertia += sum(load.weight * load.z**2 for load in wall.loads if load.rides)
+    return 2 * math.pi * math.sqrt(inertia / (GRAVITY * stiffness)), bulge
+
+
 def ties_give(structure: Structure, motions: GroundMotions, settings: AssessmentSettings) -> bool:
     """Whether one part turns beyond BEYOND under the motion that its ties let through.
 
@@ -83,10 +115,10 @@ def ties_give(structure: Structure, motions: GroundMotions, settings: Assessment
     them as one body, and its bulge is shaken by the absolute acceleration of that oscillator: the bulge of least λ that
     a tie holds or bears is followed under it, with both signs of every direction. What cannot be followed counts.
     """
-    wall = held(structure)
-    if wall is None or wall.tie_swing is None:
+    swing = tie_swing(structure)
+    if swing is None:
         return False
-    own_period, bulge = wall.tie_swing
+    own_period, bulge = swing
     both = Members(1 + settings.ensemble.amplitude_range, polarity=[1.0, -1.0])
     for motion in (motions.horizontal[direction] for direction in directions(motions)):
         # Below two samples of the record it cannot be distinguished from one that moves with the ground.

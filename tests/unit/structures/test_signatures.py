@@ -61,7 +61,7 @@ def test_a_wrong_folder_of_results_is_refused_at_once(tmp_path: Path) -> None:
 
 
 def test_nothing_rocks_to_one_side_alone_unless_it_is_said():
-    forms = ((name, form) for name, of_type in TYPES.items() for form in of_type if not form.is_in_a_file)
+    forms = ((name, form) for name, of_type in TYPES.items() for form in of_type if "file" not in form.keys)
     made = [
         structure_from_config(
             {"type": name} | {key: field.value.example for key, field in form.keys.items() if field.required}

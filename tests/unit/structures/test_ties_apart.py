@@ -11,6 +11,7 @@ import rocking
 from rocking.assessment.assessor import Assessor
 from rocking.assessment.contacts import stackable
 from rocking.assessment.cracks import cracks, mechanisms_of
+from rocking.assessment.evidence.walls import held_all_along
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
@@ -19,7 +20,6 @@ from rocking.errors import RockingError, SizeError, StructureError
 from rocking.reports.drawings import bay_of
 from rocking.structures import Facade, Joints, LoadedWall
 from rocking.structures.kinds import StructureKind
-from rocking.structures.tied import held_all_along
 from tests.refusals import refused
 
 G = 9.80665
