@@ -8,7 +8,6 @@ import sys
 from collections.abc import Iterator, Sequence
 from importlib.util import find_spec
 from pathlib import Path
-from typing import BinaryIO
 
 from rocking.assessment.rows import FailureRow
 from rocking.errors import ConfigurationError, RockingError
@@ -23,7 +22,7 @@ from rocking.study.plan import Plan, check_config_file, check_files, config_file
 from rocking.study.products import BY_NAME
 
 _LOCK = Path(".snakemake") / "rocking_run.lock"
-"""Locked by `rocking run` while it works, in the folder of the study; holds the marks of a run until it has ended."""
+"""Locked by `rocking run` while it works, in the folder of the study; where nobody locks it, a run was killed."""
 _ANSWERS = re.compile(
     r"(-[nhvlSDt]|--(dry-?run|help|version|list|list-rules|list-changes|lint|dag|rulegraph|filegraph|d3dag|summary|"
     r"detailed-summary|report|unlock|touch|archive|delete-all-output|print-compilation))(=.*)?"
@@ -156,7 +155,8 @@ def _alone(folder: Path) -> Iterator[None]:
     """
     lock_file = folder / _LOCK
     lock_file.parent.mkdir(exist_ok=True)
-    with lock_file.open("a+b") as stream:
+    was_killed = lock_file.exists()
+    with lock_file.open("w") as stream:
         try:
             fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
@@ -165,16 +165,8 @@ def _alone(folder: Path) -> Iterator[None]:
             ) from None
         except OSError as error:
             print(f"{folder}: not locked, {error.strerror}; start no other run there meanwhile.")
-        stream.seek(0)
-        if stream.read():
+        if was_killed:
             for lock in (lock_file.parent / "locks").glob("*"):
                 lock.unlink()
-        _write(stream, b"under way")
         yield
-        _write(stream, b"")
-
-
-def _write(stream: BinaryIO, content: bytes) -> None:
-    stream.truncate(0)
-    stream.write(content)
-    stream.flush()
+        lock_file.unlink()
