@@ -30,12 +30,11 @@ FURTHER = """
 """
 """Beside the shipped structures, two of which stand on supports; of the last one the stacks decide."""
 SETTINGS = {
-    "ensemble": {"members": 8},
+    "ensemble": {"members": 8, "reserve": 0},
     "processing": {"apply": "never"},
     "processing_variants": False,
     "candidates": 0,
     "vertical": True,
-    "fidelity": "contact",
     "design_spectrum": {"points": "design.csv"},
     "checks": {"stations": 1},
 }
