@@ -25,19 +25,19 @@ from rocking.study.settings import package_sha256, read_settings
 from rocking.study.work import work_of
 
 _SCHEDULER = os.getppid()
-for product in PRODUCTS:
-    with contextlib.suppress(ImportError):  # the other jobs run without its folder
-        work_of(product)
 package_sha256()
 with contextlib.suppress(RockingError):  # each job would compile by itself
     compile_all()
     load_all()
 with contextlib.suppress(Exception):  # what is wrong with a study its jobs report
     settings = read_settings(yaml.safe_load(os.environ.pop(PREPARED)))
+    for product in PRODUCTS:
+        if product.in_every_run(settings):
+            with contextlib.suppress(ImportError):  # the other jobs run without its folder
+                work_of(product)
     now = time.time()
-    for path in Path(settings.results).rglob(
-        "*"
-    ):  # where a clock was set back, snakemake would never be content
+    # Where a clock was set back, snakemake would never be content.
+    for path in Path(settings.results).rglob("*"):
         if path.lstat().st_mtime > now:
             os.utime(path, (now, now), follow_symlinks=False)
     for _ in prepare(settings):

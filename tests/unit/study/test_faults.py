@@ -25,7 +25,7 @@ from tests.unit.study.test_job import _record, _study
 FUNCTIONS = {
     "rocking.assessment.assessor": ("compute_prediction", "governing_crack", "cracked"),
     "rocking.assessment.one_case": ("check_model", "ensemble_over_cracks", "other_cracks"),
-    "rocking.assessment.rows.of_inputs": ("crushing",),
+    StructureRow.__module__: ("crushing",),
     rows_of_record.__module__: ("candidate_cases",),
 }
 METHODS = ("mechanism", "candidates", "contact_forces", "capacity_curve")
