@@ -28,7 +28,7 @@ from rocking.structures.structure_list import TYPES, structure_from_config
 SCHEMA = jsonschema.validators.validator_for(scenes_schema())(scenes_schema())
 UNCHECKED = [HealthCheck.too_slow, HealthCheck.filter_too_much]
 FEW = settings(
-    max_examples=settings.default.max_examples // 12,
+    max_examples=settings.default.max_examples // 24,
     deadline=None,
     derandomize=True,
     suppress_health_check=UNCHECKED,

@@ -68,7 +68,8 @@ def test_jobs_run_side_by_side_with_all_imported_and_print_into_their_logs(tmp_p
         assert warm == "True" and threads == "1" and parent != done.stdout.strip()
 
 
-@pytest.mark.parametrize("number", [pytest.param(signal.SIGTERM, marks=pytest.mark.slow), signal.SIGKILL])
+@pytest.mark.slow
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
 def test_the_process_that_jobs_are_forked_from_ends_with_its_scheduler(number: int) -> None:
     code = f"{WARM}import time\nprint(flush=True)\ntime.sleep(60)"
     with subprocess.Popen(

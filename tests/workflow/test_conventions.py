@@ -161,7 +161,8 @@ def test_a_link_to_itself_among_the_results_stops_nothing(done, tmp_path) -> Non
     assert study.tables() == done.tables()
 
 
-@pytest.mark.parametrize("number", [errno.ENOLCK, pytest.param(errno.ENOSYS, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("number", [errno.ENOLCK, errno.ENOSYS])
 def test_a_file_system_without_locks_is_a_warning(done, tmp_path, number) -> None:
     study = done.copy_to(tmp_path / "study")
     code = (

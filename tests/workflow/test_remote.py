@@ -96,6 +96,7 @@ def _compared(study: SmallStudy, machines: Machines) -> None:
     assert [name for name in local if local[name] != remote[name]] == []
 
 
+@pytest.mark.slow
 def test_jobs_that_share_no_folder_make_the_same_tables(start, tmp_path: Path) -> None:
     """Every file that a job reads is an input of its rule: those of the record, the list, a curve, the design level."""
     study = SmallStudy(start.copy_to(tmp_path / "study").folder, ROOT)

@@ -38,6 +38,7 @@ def test_every_described_file_stands_and_has_the_described_columns(finished) -> 
             assert next(csv.reader(stream)) == [field["name"] for field in fields], path
 
 
+@pytest.mark.slow
 def test_kernels_are_compiled_once_until_their_folder_is_edited(finished) -> None:
     """Beside them stands what was compiled. The file that is edited here holds none, so that this takes seconds."""
     folder = finished.tree / "rocking" / "motion"
@@ -119,6 +120,7 @@ def test_a_date_a_comment_or_line_ends_compute_nothing_and_a_number_everything(f
     assert study.planned() == ["integrate", "predict", "report", "summary"]
 
 
+@pytest.mark.slow
 def test_a_study_of_broken_records_only_has_failed(start, tmp_path: Path) -> None:
     study = start.copy_to(tmp_path / "study")
     study.write_catalogue([])

@@ -88,7 +88,8 @@ def test_a_request_to_stop_leaves_nothing_half_written_and_the_same_command_goes
     assert study.tables() == finished.tables()
 
 
-@pytest.mark.parametrize("number", [signal.SIGKILL, pytest.param(signal.SIGTERM, marks=ON_DEMAND)])
+@pytest.mark.slow
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
 def test_a_job_that_is_ended_is_named_with_its_cause_and_the_next_run_goes_on(
     finished, start, tmp_path: Path, number: int
 ) -> None:

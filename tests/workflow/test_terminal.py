@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 
+@pytest.mark.slow
 def test_a_record_that_failed_has_its_line_and_ends_in_status_1_after_the_table(finished, tmp_path) -> None:
     """To stderr goes a line for each record that was computed; the rest stands in the log."""
     study = finished.copy_to(tmp_path / "study")

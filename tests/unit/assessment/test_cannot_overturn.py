@@ -110,7 +110,7 @@ def test_it_has_no_fragility():
         rocking.fragility([record(4.0), record(5.0)], ALONE, stations=["a", "b"], levels=[0.2, 0.6])
 
 
-@pytest.mark.parametrize("crack", [None, "known"])
+@pytest.mark.parametrize("crack", [pytest.param(None, marks=pytest.mark.slow), "known"])
 def test_the_verdict_and_the_fragility_ask_the_same_cracks(crack):
     """A hinge that is typed below a tie: no record may stand as a word says where a curve says that none can fall."""
     wall = LoadedWall.of_size(3.2, 0.25, 20e3, 1.9, tie_heights=(3.0,), tie_stiffness=5e5, crack=crack)

@@ -137,7 +137,7 @@ def test_triangle_of_drawn_fronts_is_that_of_three_dimensions(fronts):
 
 
 @pytest.mark.process
-@pytest.mark.parametrize(("thickness", "load"), [(0.4, 5.0), (0.3, 12.0)])
+@pytest.mark.parametrize(("thickness", "load"), [(0.4, 5.0), pytest.param(0.3, 12.0, marks=pytest.mark.slow)])
 def test_triangle_is_on_the_safe_side_of_a_bonded_wall(thickness, load):
     """Units of 1 × .4 m, ties every 3 m that stand half a spacing from the free ends, λ between triangle and bulge."""
     wall = BondedWall(6.0, 3.2, thickness, (1.0, 0.4), 18.0, load, (1.5, 4.5))
@@ -206,7 +206,7 @@ def test_wall_whose_top_slips_falls_between_its_ties_as_without_them(friction, h
     assert replace(tied, held_between="floor").static_multiplier >= tied.static_multiplier
 
 
-@pytest.mark.parametrize("fronts", [8, pytest.param(200, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("fronts", [4, pytest.param(200, marks=pytest.mark.slow)])
 def test_closer_and_stronger_ties_are_never_worse(fronts):
     """The least λ of drawn fronts: a closer spacing, a stronger tie, more thickness."""
     draw = np.random.default_rng(67)

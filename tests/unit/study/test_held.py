@@ -47,7 +47,7 @@ def study(tmp_path):
     return folder
 
 
-@pytest.mark.process
+@pytest.mark.slow
 def test_what_holds_a_parapet_is_what_python_says_of_the_same_records(study, capsys):
     assert main(["strengthen", str(study), "parapet / low", "breadth_m", "0.2..1.6", "--target", "0.3"]) == 0
     told = capsys.readouterr().out

@@ -1,5 +1,9 @@
 """The exit status of a run, with what snakemake ends with set by hand."""
 
+import errno
+import fcntl
+import os
+
 import pytest
 
 from rocking.assessment.rows import FailureRow
@@ -54,3 +58,15 @@ def test_the_status_of_snakemake_is_handed_on(monkeypatch, ended):
 
     monkeypatch.setattr("snakemake.cli.main", main)
     assert module._snakemake([]) == (ended or 0)
+
+
+@pytest.mark.parametrize("number", [errno.ENOLCK, errno.ENOSYS])
+def test_a_file_system_without_locks_is_a_warning(study, monkeypatch, capsys, number):
+    def refuse(*_):
+        raise OSError(number, os.strerror(number))
+
+    monkeypatch.setattr(fcntl, "flock", refuse)
+    monkeypatch.setattr(module, "_snakemake", lambda arguments: 0)
+    keep(kept_of(study / "results", "summary"), Kept({FailureRow: []}))
+    assert module.run(study, []) == 0
+    assert f"not locked, {os.strerror(number)}" in capsys.readouterr().out
