@@ -37,8 +37,9 @@ from rocking.structures import Structure
 from rocking.structures.structure import Candidate
 
 DRAWS = 6
-"""Runs of contact dynamics at one factor: of one motion of many records, whose spread is larger than that of draws, or
-of all motions of the record of a reserve, of which one is more than 5 %."""
+"""Runs of contact dynamics at one factor on one motion of many records, whose spread is larger than that of draws."""
+RESERVE_DRAWS = 8
+"""Runs at one factor on all motions of the record of a reserve, of which one is more than 5 %."""
 RESERVE_APART = 1.1
 """Ratio of these factors, as near to each other as those of members scatter from sample to sample."""
 STONES_DRAWS = 3
@@ -228,7 +229,7 @@ def reserve(
             _Rising(draw.falls, 1 / draw.step)
             for draw in sorted(draws, key=lambda draw: draw.strength, reverse=True)
         ]
-        for draws in draws_of_parts(structure, motions, settings, DRAWS)
+        for draws in draws_of_parts(structure, motions, settings, RESERVE_DRAWS)
     ]
 
     def reaches(factor: float, number: int) -> bool:
@@ -244,7 +245,7 @@ def reserve(
         elif share < reached:
             least = max(least, 1.0)
         rungs = math.ceil(math.log(last / least) / math.log(RESERVE_APART))
-        number = math.ceil(reached * DRAWS)
+        number = math.ceil(reached * RESERVE_DRAWS)
         if rungs > 0 and reaches(last, number):
             tried = [last * RESERVE_APART ** (rung - rungs) for rung in range(rungs + 1)]
             # Where the one falls after which as many have fallen, and from there to where as many do.

@@ -13,6 +13,7 @@ from rocking.assessment.falls import (
     APART,
     DRAWS,
     RESERVE_APART,
+    RESERVE_DRAWS,
     STONES_DRAWS,
     Falls,
     Model,
@@ -175,6 +176,8 @@ def test_the_reserve_of_a_spire_is_where_its_stacks_fall():
     for share, factor in ((0.05, found.low), (0.5, found.median), (0.95, found.high)):
         falling = []
         for side in (1 / near, near):
-            runs = contact_share(SPIRE, motions.scaled(factor * side), SETTINGS, DRAWS, until_sure=False)
+            runs = contact_share(
+                SPIRE, motions.scaled(factor * side), SETTINGS, RESERVE_DRAWS, until_sure=False
+            )
             falling.append(runs.falls / runs.runs >= share)
         assert falling == [False, True]
