@@ -30,6 +30,13 @@ def miniseed_of(channels: Sequence[Accelerogram]) -> bytes:
     return buffer.getvalue()
 
 
+def look_for_readers() -> None:
+    """Let obspy look for what reads and writes miniSEED, once for this process and those that are forked from it."""
+    from obspy import read
+
+    read(io.BytesIO(miniseed_of([Accelerogram(np.zeros(2), 0.01)])), format="MSEED")
+
+
 def samples_in(path: Path) -> list[np.ndarray]:
     """Return the samples of each channel in a file that holds what `miniseed_of` gave."""
     from obspy import read

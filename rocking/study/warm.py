@@ -5,15 +5,12 @@ It is imported for what its import does: multiprocessing's fork server takes the
 
 import contextlib
 import gc
-import io
 import os
 import sys
 import time
 from pathlib import Path
 
-import numpy as np
 import yaml
-from obspy import read
 
 import rocking.reports.explore
 import rocking.reports.printing
@@ -22,8 +19,7 @@ import rocking.study.jobs  # noqa: F401
 from rocking.assessment.compilation import compile_all, load_all
 from rocking.assessment.store import computation_version
 from rocking.errors import RockingError
-from rocking.records.miniseed import miniseed_of
-from rocking.signal.accelerogram import Accelerogram
+from rocking.records.miniseed import look_for_readers
 from rocking.study.apart import PREPARED
 from rocking.study.job import prepare
 from rocking.study.products import PRODUCTS
@@ -33,8 +29,7 @@ from rocking.study.work import work_of
 _SCHEDULER = os.getppid()
 package_sha256()
 computation_version()
-# What obspy looks for as it reads and writes, which each step of a record does.
-read(io.BytesIO(miniseed_of([Accelerogram(np.zeros(2), 0.01)])), format="MSEED")
+look_for_readers()  # as each step of a record would
 with contextlib.suppress(RockingError):  # each job would compile by itself
     compile_all()
     load_all()

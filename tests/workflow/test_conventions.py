@@ -67,6 +67,7 @@ def test_no_flag_is_mandatory_and_a_second_run_makes_nothing_again(done) -> None
     assert done.planned() == [] and "profiles/default" in told
 
 
+@pytest.mark.slow
 def test_a_configfile_replaces_keys_of_the_settings_and_no_others(done, tmp_path) -> None:
     study = done.copy_to(tmp_path / "study")
     (tmp_path / "few.yaml").write_text("study: A town\n")

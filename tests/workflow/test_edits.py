@@ -208,7 +208,7 @@ def _order(study: SmallStudy) -> None:
 
 
 LEVEL = {"ag_g": 0.2, "f0": 2.4, "tc_star_s": 0.35}
-RUNS: dict[str, tuple[Callable[[SmallStudy], object], ...]] = {  # the first in every change, the others on demand
+RUNS: dict[str, tuple[Callable[[SmallStudy], object], ...]] = {
     "reports off and a breadth": (_both(_settings(reports=False), _file("structures.yaml", "_m: 0.5", "_m: 0.6")),),
     "title": (_settings(study="A town"),),
     "reports off and a breadth, then on without a design level": (
@@ -238,13 +238,8 @@ RUNS: dict[str, tuple[Callable[[SmallStudy], object], ...]] = {  # the first in 
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    "edits",
-    [
-        pytest.param(edits, id=name, marks=[pytest.mark.slow] if place else [])
-        for place, (name, edits) in enumerate(RUNS.items())
-    ],
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("edits", RUNS.values(), ids=RUNS)
 def test_the_runs_after_edits_leave_the_files_of_a_run_from_scratch(run, tmp_path: Path, edits) -> None:
     """Each file with its bytes; so no document of a former run stands beside tables that it does not fit."""
     study = run.copy_to(tmp_path / "study")
@@ -261,6 +256,7 @@ def test_the_runs_after_edits_leave_the_files_of_a_run_from_scratch(run, tmp_pat
     assert [name for name in anew if after[name] != anew[name]] == []
 
 
+@pytest.mark.slow
 def test_a_file_of_the_user_among_the_results_stays_and_what_goes_is_told(run, tmp_path: Path) -> None:
     study = run.copy_to(tmp_path / "study")
     mine = [study.results / name for name in ("mine.pdf", "good_1/notes.txt", "summary/mine.csv")]
@@ -289,6 +285,7 @@ def test_a_file_of_one_record_is_made_when_it_is_asked_for_by_its_name(finished,
     assert "records/catalogue.csv: it has no record good_9" in told
 
 
+@pytest.mark.slow
 def test_the_sums_are_those_of_the_pages_and_tables(run) -> None:
     sums = dict(reversed(line.split("  ")) for line in (run.results / "SHA256SUMS").read_text().splitlines())
     assert {

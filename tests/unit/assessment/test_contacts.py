@@ -420,7 +420,7 @@ def test_a_block_whose_corner_needs_more_friction_than_it_has_only_probably_stan
     assert case.decision(block).verdict is Verdict.PROBABLY_STANDS, "as every path to a word has it"
 
 
-@pytest.mark.process
+@pytest.mark.slow
 def test_an_arch_that_needs_more_friction_stands_as_its_voussoirs_do():
     """On 0.5 and more, where none fell that stands as a mechanism; with fill, or on less, nobody has shown it."""
     whole = rocking.read("records/20161113_110259_WTMC_20.V2A")[0]

@@ -93,7 +93,7 @@ def test_bulge_of_one_storey_by_hand():
     assert yields.mechanisms[0].onset_multiplier == pytest.approx((6.219 + 21.6) / 76.824, rel=BY_HAND)
 
 
-@pytest.mark.process
+@pytest.mark.slow
 def test_stronger_and_more_ductile_ties_never_lower_a_capacity():
     """The linear one of the weakest of the family; the nonlinear one of the same mechanism, about the foot.
 

@@ -303,7 +303,7 @@ def test_one_earthquake_shows_nothing_and_few_show_less_than_scattered_stations(
     assert one.tried[0].interval[1] > six.tried[0].interval[1] > thirty.tried[0].interval[1]
 
 
-@pytest.mark.process
+@pytest.mark.slow
 def test_a_value_that_cannot_hold_any_more_is_given_up_and_the_answer_is_the_same():
     records = _records(24)
     early, whole = (
