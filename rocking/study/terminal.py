@@ -54,6 +54,8 @@ def _in_words(worst: Sequence[Conclusion], most: int) -> str:
         if row.decision.verdict.stays_up:
             number = f" {row.rotation_ratio:.2g}" if rocks(row.rotation_ratio) else ""
         name = placed(row.structure, row.support_period_s)
+        if "," in name or ";" in name:
+            name = f'"{name}"'  # else one structure reads as two
         by_verdict.setdefault(row.decision.verdict, []).append(name + number)
     texts = [f"{verdict}: {', '.join(names)}" for verdict, names in by_verdict.items()]
     if (more := len(worst) - most) > 0:

@@ -16,6 +16,8 @@ def test_the_worst_component_counts() -> None:
     ]
     line = record_line(verdicts(stations), [])
     assert line == "uncertain: pier (one run); probably stands: wall (one run); stands: arch"
+    named = station(case("", 0.25, "nave, bay 7", falls=0)), station(case("", 0.2, "wall", falls=0))
+    assert record_line(verdicts(named), []) == 'stands: "nave, bay 7" 0.25, wall 0.2'
 
 
 def test_what_is_not_sure_is_ordered_by_share() -> None:
