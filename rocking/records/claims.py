@@ -427,7 +427,8 @@ _UNIT_WORD = r"[A-Za-zµ%][\w/^*²·⁻'%]*(?:\.s(?:ec)?)?(?:-2)?"
 _UNIT = re.compile(
     r"(?:\b(?:units?|unidad(?:es)?|unit[aà]|unités?|einheit(?:en)?|birim(?:i|ler)?)\b|単位|单位)[^:=：.]*[:=：]\s*[(\[]?\s*([^\s,;()\[\]]+)|"
     r"\b(?:acc|accel|acceleration|acel|aceleraci[oó]n)\s*[:=]\s*([a-z][\w/^*²]*)|"
-    rf"\bunits?(?: of| are| is)?\s+[(\[]?({_UNIT_WORD})|(?:\bin\s+(?!units?\b)|[(\[]\s*)({_UNIT_WORD})",
+    rf"(?:\bunits?(?: of| are| is)?\s+[(\[]?|(?:\bin\s+|[(\[]\s*)(?=[a-z]+/))({_UNIT_WORD})|"  # a network has no sign
+    rf"(?:\bin\s+(?!units?\b)|[(\[]\s*)({_UNIT_WORD})",
     re.I,
 )
 _SECONDS = r"(?:s|seg|secs?|segundos?|seconds?)"

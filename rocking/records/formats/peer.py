@@ -15,6 +15,7 @@ from rocking.records.claims import (
     of_another,
     other_quantity,
     point_apart,
+    warnings_of_claims,
 )
 from rocking.records.formats.format import Format, Layout, Options
 from rocking.records.formats.text import after_lines, count, lines, number, numbers, whole
@@ -70,9 +71,9 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     # What a line of its own says counts more than a title that speaks of an accelerogram.
     if quantity := next((other for line in head if (other := other_quantity(line))), None):
         raise of_another(quantity)
-    declarations = Declarations.of(head).of_numbers()
-    said = [*declarations, *options.said("unit")]
-    if any(claim.what == "unit" for claim in declarations):
+    declarations = Declarations.of(head)
+    said = [*declarations.claims, *options.said("unit")]
+    if any(claim.what == "unit" for claim in declarations.claims):
         said.append(Claim("unit", "g", Where.FORMAT, "an AT2 of PEER is in g"))
     unit = agreed("unit", said) or ""
     declared = count("NPTS", size["npts"])
@@ -101,7 +102,9 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
         facts |= {"station": parts[-2], "event": undated or parts[0]}
     facts["high_pass_frequency"] = float(corner) or None if is_number(corner) else None
     step = number("DT", size["dt"]) * (1e-3 if size.groupdict().get("milli") else 1.0)
-    return [_LAYOUT.channel(text, values, options, unit=unit, step=step, **facts)]
+    step = agreed("time_step", (*options.said("time_step", step), *declarations.claims)) or step
+    record = _LAYOUT.channel(text, values, options, unit=unit, step=step, **facts)
+    return [record.warned(*warnings_of_claims(record, declarations))]
 
 
 def _component(title: str) -> str:

@@ -102,6 +102,7 @@ CASES: dict[str, tuple[Callable[[Path], Path], dict, tuple[str, ...]]] = {
     # unit
     "unit: AT2, head and option": (of_peer(), {"unit": "gal"}, ("gal", "UNITS OF G")),
     "unit: AT2, two heads": (of_peer(unit="UNITS OF G, UNITS OF GAL"), {}, ("UNITS OF G", "unit=")) ,
+    "unit: AT2, brackets": (of_peer(first="RECORD (cm/s2)"), {}, ("RECORD (cm/s2)", "UNITS OF G", "unit=")),
     "unit: AT2, name and option": (of_peer("acc_m_s2.AT2", unit="HISTORY"), {"unit": "g"}, ("g", "m_s2")),
     "unit: table, head and column": (text("# units: mg\n"), {}, ("units: mg", "NS (m/s2)", "unit=")),
     "unit: table, column and option": (text(""), {"unit": "g"}, ("'g'", "NS (m/s2)")),
@@ -119,6 +120,8 @@ CASES: dict[str, tuple[Callable[[Path], Path], dict, tuple[str, ...]]] = {
     "unit: workbook, head and column": (book("units: mg"), {}, ("mg", "NS (m/s2)", "unit=")),
     # step
     "step: AT2, head and option": (of_peer(), {"time_step": 0.02}, ("0.02", "0.01")),
+    "step: AT2, two heads": (of_peer(first="RECORD, dt = 0.003 s"), {}, ("dt = 0.003 s", "0.01 s", "time_step=")),
+    "step: AT2, head and rate": (of_peer(first="RECORD. Sampling rate: 40 Hz"), {}, ("40 Hz", "0.01 s", "time_step=")),
     "step: table, head and times": (text("# dt = 0.005\n"), {}, ("0.005", "0.01 s", "time_step=")),
     "step: table, times and option": (text(""), {"time_step": 0.02}, ("0.02", "0.01")),
     "step: table, head and option": (series("# dt = 0.005\n# units: g\n"), {"time_step": 0.02}, ("0.02", "0.005")),
