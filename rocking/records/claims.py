@@ -7,7 +7,7 @@ vocabulary reads them all; `agreed` returns what holds, or asks, naming the two 
 import re
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
-from enum import IntEnum
+from enum import Enum
 from functools import cached_property, lru_cache
 from typing import Any, Literal, TypeVar
 
@@ -23,7 +23,7 @@ What = Literal["unit", "time_step", "rate", "samples", "peak", "direction"]
 """What a claim is about; rate: a step that is spoken of, which may be that of the recorder."""
 
 
-class Where(IntEnum):
+class Where(Enum):
     """The place of a claim and its words; of two that agree the higher one gives the value. The first two give none."""
 
     FILE_NAME = 0, "its name"
@@ -35,17 +35,9 @@ class Where(IntEnum):
     COLUMN = 6, "the name of the column"
     ANSWER = 7, "layouts.csv"
 
-    words: str
-
-    def __new__(cls, rank: int, words: str) -> "Where":
-        """Make a place of its rank and its words."""
-        place = int.__new__(cls, rank)
-        place._value_ = rank
-        place.words = words
-        return place
-
 
 _PERSONS = (Where.OPTION, Where.ANSWER)
+_WITHOUT_VALUE = (Where.FILE_NAME, Where.SPOKEN)
 
 
 @dataclass(frozen=True)
@@ -59,7 +51,7 @@ class Claim:
 
     def __str__(self) -> str:
         value = f"{self.value:g} s" if self.what == "time_step" else repr(self.value)
-        return f"{repr(self.text[:60]) if self.text else value} ({self.where.words})"
+        return f"{repr(self.text[:60]) if self.text else value} ({self.where.value[1]})"
 
 
 _SAME_STEP = 1e-3
@@ -89,13 +81,13 @@ def agreed(what: What, claims: Collection[Claim]) -> Any:
     RecordError where a person contradicts the file, UndeclaredError where it contradicts itself.
     """
     own = (claim for claim in claims if claim.what == what and claim.value)
-    spoken = sorted(own, key=lambda claim: -claim.where)
+    spoken = sorted(own, key=lambda claim: claim.where.value, reverse=True)
     by_person = [claim for claim in spoken if claim.where in _PERSONS]
-    inside = [claim for claim in spoken if claim.where not in _PERSONS and claim.where > Where.SPOKEN]
-    named = [claim for claim in spoken if claim.where <= Where.SPOKEN]
-    nearest = inside[:1]
-    if any(claim.where == Where.HEAD < nearest[0].where and _same(claim, nearest[0]) for claim in inside):
-        inside = [claim for claim in inside if claim.where > Where.HEAD]
+    named = [claim for claim in spoken if claim.where in _WITHOUT_VALUE]
+    inside = [claim for claim in spoken if claim.where not in (*_PERSONS, *_WITHOUT_VALUE)]
+    nearest = [claim for claim in inside if claim.where in (Where.COLUMN, Where.SAMPLES)]
+    if nearest and any(claim.where == Where.HEAD and _same(claim, nearest[0]) for claim in inside):
+        inside = nearest
     if by_person and not _same(by_person[0], by_person[-1]):
         one, other = by_person[0], by_person[-1]
         raise RecordError(f"{what} is {one}, but also {other}; omit one of the two.", **{what: other.value})

@@ -9,7 +9,7 @@ import math
 import re
 from collections.abc import Sequence
 from contextlib import suppress
-from typing import NamedTuple, NoReturn
+from typing import NoReturn
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -44,31 +44,22 @@ _NEIGHBOURS = 3
 next to a sample that it is compared with."""
 
 
-class StatedPeak(NamedTuple):
-    """The peak that a header states in `unit`, which may be half a digit off; None where it states none.
-
-    at: its time, s after the first sample.
-    """
-
-    peak: float | None
-    unit: str
-    half_digit: float = 0.0
-    at: float | None = None
-
-
 def agree_with_header(
     record: Accelerogram,
-    header: StatedPeak,
+    peak: float | None,
+    unit: str,
+    half_digit: float = 0.0,
+    at: float | None = None,
     samples: np.ndarray | None = None,
     times: np.ndarray | None = None,
 ) -> Accelerogram:
     """Return `record` after comparing its peak with the one that its header states, within 1 % or half a digit.
 
-    A peak that is more than 0.1 % off, or out of its place, is a warning; without a stated peak nothing is checked.
-    samples: (n,) m/s² as the file holds them, where the record's are resampled; times: (n,) s of those,
-    where they are not evenly spaced. Raises RecordError with the factor that would explain the difference.
+    A peak that is more than 0.1 % off, or out of its place, is a warning; without a stated peak nothing is checked. at:
+    its time, s after the first sample. samples: (n,) m/s² as the file holds them, where the record's are resampled;
+    times: (n,) s of those, where they are not evenly spaced. Raises RecordError with the factor that would explain the
+    difference.
     """
-    peak, unit, half_digit, at = header
     if not peak:
         return record
     magnitudes = np.abs(record.acceleration if samples is None else samples)

@@ -15,7 +15,6 @@ from rocking.records.formats.format import (
     Layout,
     Options,
     check_equal,
-    in_zone,
     key,
     keyed,
     optional,
@@ -79,8 +78,8 @@ def _unam_channel(
     facts["peak_digit"] = 10.0 ** -len(printed[0].partition(".")[2]) if printed else 0.0
     # Of bearing and sense, "N90E;" or "V;+", one may be blank.
     facts["component"] = next(directions, parts[-1])
-    origin = in_zone(optional(key("HORA EPICENTRO (GMT)"), head), "GMT")
-    facts["event_time"] = f"{_UNAM.text('event', head)} {origin}"
+    origin = optional(key("HORA EPICENTRO (GMT)"), head)
+    facts["event_time"] = f"{_UNAM.text('event', head)} {origin and f'{origin} GMT'}"
     return _UNAM.channel(head, values, options, step=step, **facts)
 
 

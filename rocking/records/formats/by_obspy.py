@@ -7,10 +7,12 @@ import io
 import re
 import struct
 import warnings
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
 from datetime import datetime
 from functools import partial
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -311,44 +313,37 @@ def may_be_counts(head: bytes) -> bool:
     return any(version in (6, 7) for version in versions)
 
 
-def _is_win(content: bytes) -> bool:
-    """Whether blocks of a second follow one another, each with its length and a time in packed decimals."""
+def _blocks_of_win(content: bytes) -> Iterator[tuple[int, datetime | None]]:
+    """Yield where each block of a second ends, and its time in packed decimals, None where it is none."""
     at = 0
-    for block in range(2):
-        if block and at + _WIN_HEAD > len(content):
-            return at == len(content) or len(content) == 1024  # the start of a file
-        if at + _WIN_HEAD > len(content):
-            return False
+    while at + _WIN_HEAD <= len(content):
         length = int.from_bytes(content[at : at + 4], "big")
-        time = content[at + 4 : at + _WIN_HEAD].hex()
-        if length <= _WIN_HEAD or not time.isdecimal():
-            return False
-        month, day, hour, minute, second = (int(time[place : place + 2]) for place in range(2, 12, 2))
-        if not (1 <= month <= 12 and 1 <= day <= 31 and hour < 24 and minute < 60 and second < 60):
-            return False
+        if length <= _WIN_HEAD:
+            return
+        time = None
+        with suppress(ValueError):
+            time = datetime.strptime(content[at + 4 : at + _WIN_HEAD].hex(), "%y%m%d%H%M%S")
         at += length
-    return True
+        yield at, time
+
+
+def _is_win(content: bytes) -> bool:
+    """Whether blocks of a second follow one another, each with its length and a time."""
+    blocks = list(islice(_blocks_of_win(content), 2))
+    ends = len(content) == 1024 or [end for end, _ in blocks] == [len(content)]  # 1024: the start of a file
+    is_alone = len(blocks) == 1 and blocks[0][0] + _WIN_HEAD > len(content)
+    return (len(blocks) == 2 or (is_alone and ends)) and all(time for _, time in blocks)
 
 
 def _seconds_of_win(content: bytes) -> int:
     """Return how many seconds a file holds. Raises RecordError where it leaves some out: obspy joins what is left."""
-    at = 0
-    times: list[float] = []
-    while (
-        at + _WIN_HEAD <= len(content) and (length := int.from_bytes(content[at : at + 4], "big")) > _WIN_HEAD
-    ):
-        time = content[at + 4 : at + _WIN_HEAD].hex()
-        try:
-            times.append(datetime.strptime(time, "%y%m%d%H%M%S").timestamp())
-        except ValueError:
-            raise RecordError(
-                f"the block at byte {at} has the time {time!r}, which is none; fetch the file again.",
-                time=time,
-            ) from None
-        at += length
-    if at > len(content) or content[at:].strip(b"\0") or (np.diff(times) != 1).any():
+    blocks = list(_blocks_of_win(content))
+    times = [time.timestamp() for _, time in blocks if time]
+    end = blocks[-1][0] if blocks else 0
+    is_whole = len(times) == len(blocks) and end <= len(content) and not content[end:].strip(b"\0")
+    if not is_whole or (np.diff(times) != 1).any():
         raise RecordError(
-            "the seconds of the file do not follow one another, or the last is cut; fetch it again.",
+            "the seconds of the file do not follow one another, have no time, or the last is cut; fetch it again.",
             seconds=len(times),
         )
     return len(times)

@@ -31,7 +31,6 @@ from rocking.records.formats.text import (
 )
 from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import (
-    StatedPeak,
     agree_with_header,
     agree_with_mean_square,
     is_down_hole,
@@ -343,7 +342,7 @@ class Layout:
             peak_digit = 0.5 * 10.0 ** (int(decimals[2] or 0) - len(decimals[1])) if decimals else 0.5
         at = self.number("peak_time", head) if peak_time is None else peak_time
         digit = self.half_digit if peak_digit is None else peak_digit
-        return agree_with_header(record, StatedPeak(peak, in_unit, digit, at), file_samples, file_times)
+        return agree_with_header(record, peak, in_unit, digit, at, file_samples, file_times)
 
     def channels(
         self,
@@ -486,11 +485,6 @@ def universal(text: str, ahead: float) -> str:
         return f"{(printed - timedelta(hours=ahead)).isoformat()}Z" if printed else ""
     except (ValueError, OverflowError):
         return ""
-
-
-def in_zone(time: str, zone: str) -> str:
-    """Return a time of a header with the zone that the format gives it, "" where the header gives no time."""
-    return f"{time} {zone}" if time else ""
 
 
 def distance(kilometres: float | None) -> float | None:

@@ -19,7 +19,7 @@ from rocking.records.direction import Direction
 
 _TIME = re.compile(
     r"(?i)t\d?|(time(stamp)?|date[ _]?time|zeit|tiempo|temp[os]|zaman|χρόνος|seconds?|secs?)(?![a-z]).*|"
-    r"[^()\[\]]*[(\[]\s*(s(ec|eg)?|sn|sek)\s*[)\]]"
+    r"t\d?\s*[(\[]\s*(min|minutes?|h|hours?)\s*[)\]]|[^()\[\]]*[(\[]\s*([mµu]?s(ec|eg)?|sn|sek)\s*[)\]]"
 )
 _COUNT = re.compile(
     r"(?i)(no|nr|n|i|id|#|index|count|counter|sample|samples|point|points|step|row|line)\b\.?.*"
@@ -29,6 +29,7 @@ _TIMES = {
     "seg": 1.0, "segundos": 1.0, "sek": 1.0, "sekunden": 1.0, "sn": 1.0, "saniye": 1.0, "secondi": 1.0, "secondes": 1.0,
     "milliseconds": 1e-3, "us": 1e-6, "µs": 1e-6, "microseconds": 1e-6, "min": 60.0, "minute": 60.0, "minutes": 60.0,
     "h": 3600.0, "hour": 3600.0, "hours": 3600.0, "utc": 1.0, "gmt": 1.0, "local": 1.0, "hh:mm:ss": 1.0,
+    "с": 1.0, "сек": 1.0, "мс": 1e-3, "秒": 1.0, "毫秒": 1e-3,
 }  # fmt: skip
 _TIME_UNIT = re.compile(r"[(\[]\s*([^)\]]*?)\s*[)\]]\s*$|[\s,_/]([A-Za-zµ]+)\s*$")
 """The unit of times, in brackets or as the last word."""
@@ -68,17 +69,12 @@ class ColumnLabel:
         return bool(_COUNT.fullmatch(self.text))
 
     @property
-    def seconds(self) -> float:
-        """The unit of a column of times, s. Raises RecordError where it is in brackets and unknown."""
+    def seconds(self) -> float | None:
+        """The unit of times, s, None where it says none. Raises RecordError where it is in brackets and unknown."""
         match = _TIME_UNIT.search(self.text)
-        if match is None:
-            return 1.0
-        if match[1] and match[1].lower() not in _TIMES:
-            raise RecordError(
-                f"the times are in {match[1][:20]!r}, but must be in s, ms or min; convert them.",
-                unit=match[1],
-            )
-        return _TIMES.get((match[1] or match[2] or "s").lower(), 1.0)
+        if match and match[1]:
+            return seconds_of(match[1])
+        return _TIMES.get(match[2].lower()) if match and match[2] else None
 
     @cached_property
     def unit(self) -> str | None:
@@ -143,6 +139,15 @@ class ColumnLabel:
             )
         is_named = any(not _NO_DIRECTION.fullmatch(word) for word in _PARTS.split(before) if word)
         return not is_named and Direction.of(brackets[1]).is_known
+
+
+def seconds_of(unit: str) -> float:
+    """Return a unit of times, s. Raises RecordError for a word that is none."""
+    if unit.lower() not in _TIMES:
+        raise RecordError(
+            f"the times are in {unit[:20]!r}, but must be in s, ms or min; convert them.", unit=unit
+        )
+    return _TIMES[unit.lower()]
 
 
 def with_units(names: Sequence[str], units: Sequence[str]) -> tuple[str, ...]:

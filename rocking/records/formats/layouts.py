@@ -13,6 +13,7 @@ from typing import Literal, get_args
 from rocking.errors import CatalogueError, RecordError, UndeclaredError
 from rocking.quantities import acceleration_unit, counted, is_number
 from rocking.records.claims import other_quantity
+from rocking.records.formats.labels import seconds_of
 from rocking.tables import edited_text, read_edited
 
 NAME = "layouts.csv"
@@ -29,7 +30,6 @@ Above = Literal["n", "dt", "hz", "-"]
 """A number above a series: the number of samples, the time step, the rate, or what does not matter."""
 
 _EXAMPLES = "'t, a g', 'NS, EW, UD g' or 'one series g, 5 a line, skip 2'"
-_TIMES = {"s": 1.0, "ms": 1e-3, "min": 60.0}
 _TIME_WORDS = "t", "time", "times"
 _NAME = re.compile(r"[^\W_][\w+/-]*|[+-]?\w+")
 _PLAIN = {"a", "acc", "acceleration"}
@@ -56,9 +56,10 @@ class Column:
             return "-"
         if self.role == "open":
             return f"{OPEN} {self.unit}" if self.unit else OPEN
-        unit = next((f" {name}" for name, seconds in _TIMES.items() if seconds == self.seconds != 1.0), "")
         if self.role == "time":
-            return f"t{unit}"
+            return "t" + next(
+                (f" {unit}" for unit in ("ms", "min", "h", "us") if seconds_of(unit) == self.seconds), ""
+            )
         return f"{self.name or 'a'} {self.unit or OPEN}"
 
 
@@ -94,18 +95,16 @@ class TableLayout:
         layout = cls((), is_series)
         for item in items:
             layout = _with_item(layout, item)
-        if not any(column.role == "acceleration" for column in layout.columns):
+        units = [column.unit for column in layout.columns if column.role == "acceleration"]
+        if not units:
             raise RecordError(
                 f"no column of {answer!r} is of acceleration; answer like {_EXAMPLES}.", answer=answer
             )
-        if unit := [column for column in layout.columns if column.role == "acceleration"][-1].unit:
-            is_bare = [column.role == "acceleration" and not column.unit for column in layout.columns]
-            named = (
-                replace(column, unit=unit) if bare else column
-                for column, bare in zip(layout.columns, is_bare, strict=True)
-            )
-            layout = replace(layout, columns=tuple(named))
-        return layout
+        columns = (
+            replace(column, unit=column.unit or units[-1]) if column.role == "acceleration" else column
+            for column in layout.columns
+        )
+        return replace(layout, columns=tuple(columns))
 
     def proposal(self, has_step: bool, steps: Sequence[float] = ()) -> str:
         """Return it as an answer that a person completes; has_step: whether something else says the time step.
@@ -159,9 +158,7 @@ def _with_item(layout: TableLayout, item: str) -> TableLayout:
     if item == "-":
         return replace(layout, columns=(*layout.columns, Column("other")))
     if word in _TIME_WORDS:
-        if (rest or "s") not in _TIMES:
-            raise RecordError(f"the times are in {rest!r}, but must be in s, ms or min.", answer=rest)
-        return replace(layout, columns=(*layout.columns, Column("time", seconds=_TIMES[rest or "s"])))
+        return replace(layout, columns=(*layout.columns, Column("time", seconds=seconds_of(rest or "s"))))
     if unit_alone := acceleration_unit(item):
         return replace(layout, columns=(*layout.columns, Column("acceleration", unit=unit_alone)))
     name, _, unit = item.partition(" ")

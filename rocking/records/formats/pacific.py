@@ -12,7 +12,6 @@ from rocking.records.formats.format import (
     Layout,
     Options,
     in_blocks,
-    in_zone,
     key,
     keyed,
     optional,
@@ -41,8 +40,8 @@ def _read_cwb(content: bytes, options: Options) -> list[Accelerogram]:
     lines = (optional(rf"^.*MAX.*\b{label}\s*:(.*)", head) for label in labels)
     extremes = (re.findall(NUMBER, line, re.I) for line in lines)  # the greatest and the least
     facts["peaks"] = [max((abs(float(number)) for number in two), default=None) for two in extremes]
-    facts["event_time"] = in_zone(_CWB.text("event_time", head), "+08:00")
-    facts["event"] = facts["event_time"]
+    time = _CWB.text("event_time", head)
+    facts["event"] = facts["event_time"] = time and f"{time} +08:00"
 
     table = text.table(rows[1:], len(labels) + 1, width=10)
     times = table[:, 0]

@@ -15,7 +15,6 @@ from rocking.records.claims import (
     of_another,
     other_quantity,
     point_apart,
-    warnings_of_claims,
 )
 from rocking.records.formats.format import Format, Layout, Options
 from rocking.records.formats.text import after_lines, count, lines, number, numbers, whole
@@ -85,15 +84,11 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     poles = _POLES.findall(text)
     points = _FILTER_POINTS.search(text)
     corner = points[1] if points else poles[1][1] if len(poles) > 1 and poles[1][0] != "0" else "0"
-    sensor = azimuth_of_sensor(head)
     named = _component(title)
-    if point_apart(sensor, named):
-        warnings += (RockingWarning.of(RecordKind.DIRECTION_SAID_TWICE, sensor, other=named),)
-    facts: dict[str, Any] = {
-        "component": sensor or named,
-        "processed": True,
-        "warnings": warnings,
-    }
+    component = azimuth_of_sensor(head) or named
+    if other := next((said for said in (named, declarations.component) if point_apart(said, component)), ""):
+        warnings += (RockingWarning.of(RecordKind.DIRECTION_SAID_TWICE, component, other=other),)
+    facts: dict[str, Any] = {"component": component, "processed": True, "warnings": warnings}
     if re.search(r"\bmatched\b", head[0], re.I):
         facts["warnings"] += (RockingWarning(RecordKind.MATCHED_TO_SPECTRUM),)
     facts["warnings"] += factor_warnings(head)
@@ -103,8 +98,7 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     facts["high_pass_frequency"] = float(corner) or None if is_number(corner) else None
     step = number("DT", size["dt"]) * (1e-3 if size.groupdict().get("milli") else 1.0)
     step = agreed("time_step", (*options.said("time_step", step), *declarations.claims)) or step
-    record = _LAYOUT.channel(text, values, options, unit=unit, step=step, **facts)
-    return [record.warned(*warnings_of_claims(record, declarations))]
+    return [_LAYOUT.channel(text, values, options, unit=unit, step=step, **facts)]
 
 
 def _component(title: str) -> str:

@@ -505,12 +505,12 @@ def _drawn(table: NumberTable, values: np.ndarray, is_parted: bool, declared: fl
 def _column(label: ColumnLabel, numbers: np.ndarray, said: Declarations) -> Column:
     """Return what a column holds by its name, or by numbers that rise all the way; open where neither says it."""
     if label.other or label.is_time:
-        return Column("other") if label.other else Column("time", seconds=label.seconds)
+        return Column("other") if label.other else Column("time", seconds=label.seconds or 1.0)
     says_where = Direction.of(label.component).is_known
     is_open = label.is_count or not label.text or (_climbs_evenly(numbers) and not says_where)
     if not label.unit and is_open and _is_clock(numbers[1:]):
         is_count = label.is_count or (numbers.size >= _FEWEST_ROWS and bool((np.diff(numbers) == 1).all()))
-        return Column("other" if is_count else "time")
+        return Column("other") if is_count else Column("time", seconds=label.seconds or 1.0)
     if _climbs_evenly(numbers):
         return Column("open", unit=label.unit or said.unit)  # its name and its numbers say two things
     if label.unit or label.is_direction or label.is_plain_acceleration:
@@ -623,6 +623,10 @@ def _fitted(answer: LayoutAnswer, layout: TableLayout, table: NumberTable, drawn
     )
     of_numbers = drawn.columns if len(drawn.columns) == len(layout.columns) else layout.columns
     for place, (column, label, theirs) in enumerate(zip(layout.columns, labels, of_numbers, strict=True), 1):
+        if column.role == theirs.role == "time" and label.seconds not in (None, column.seconds):
+            raise answer.wrong(
+                f"column {place} of this file is in another unit of time by its name, {label.text!r}."
+            )
         if column.role != "acceleration":
             continue
         if theirs.role == "time" and not layout.is_series:

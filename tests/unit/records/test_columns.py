@@ -72,7 +72,10 @@ def test_a_spectrum_is_no_record(tmp_path, head):
         read(written(tmp_path, np.transpose([TIMES, np.abs(WAVES[0])]), head, parted=","))
 
 
-@pytest.mark.parametrize(("label", "factor"), [("time (ms)", 1e-3), ("time (min)", 60.0), ("time [s]", 1.0)])
+@pytest.mark.parametrize(
+    ("label", "factor"),
+    [("time (ms)", 1e-3), ("time (min)", 60.0), ("time [s]", 1.0), ("t (ms)", 1e-3), ("X [msec]", 1e-3)],
+)
 def test_the_unit_of_times_is_read(tmp_path, label, factor):
     path = written(tmp_path, np.transpose([TIMES / factor, WAVES[0]]), f"{label},acc (%g)\n", ",", ".12g")
     (record,) = read(path)

@@ -123,6 +123,7 @@ CASES: dict[str, tuple[Callable[[Path], Path], dict, tuple[str, ...]]] = {
     "step: AT2, two heads": (of_peer(first="RECORD, dt = 0.003 s"), {}, ("dt = 0.003 s", "0.01 s", "time_step=")),
     "step: AT2, head and rate": (of_peer(first="RECORD. Sampling rate: 40 Hz"), {}, ("40 Hz", "0.01 s", "time_step=")),
     "step: table, head and times": (text("# dt = 0.005\n"), {}, ("0.005", "0.01 s", "time_step=")),
+    "step: table, column and answer": (answer(text("", "t (ms),Q1,"), "t, NS g"), {}, ("t (ms)", "t, NS g")),
     "step: table, times and option": (text(""), {"time_step": 0.02}, ("0.02", "0.01")),
     "step: table, head and option": (series("# dt = 0.005\n# units: g\n"), {"time_step": 0.02}, ("0.02", "0.005")),
     "step: table, rate and step": (series("# dt = 0.005\n# sampled at 100 Hz\n# units: g\n"), {}, ("time_step=",)),

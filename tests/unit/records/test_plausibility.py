@@ -10,7 +10,7 @@ from rocking.errors import RecordError
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram, Source
 from rocking.records.kinds import RecordKind
-from rocking.records.plausibility import StatedPeak, agree_with_header, pass_limits
+from rocking.records.plausibility import agree_with_header, pass_limits
 from rocking.signal.kinds import SignalKind
 from rocking.warnings import RockingWarning
 from tests.refusals import refused
@@ -23,13 +23,13 @@ def record(peak: float) -> Accelerogram:
 
 
 def test_the_header_is_believed_within_one_percent() -> None:
-    agree_with_header(record(1.0), StatedPeak(1.0099 / GRAVITY, "g"))
-    agree_with_header(record(1.0), StatedPeak(-99.1, "gal"))
-    agree_with_header(record(1.0), StatedPeak(None, "g"))
-    agree_with_header(record(1.0), StatedPeak(0.0, "g"))
-    agree_with_header(record(0.0014), StatedPeak(0.001, "m/s2", half_digit=5e-4))
+    agree_with_header(record(1.0), 1.0099 / GRAVITY, "g")
+    agree_with_header(record(1.0), -99.1, "gal")
+    agree_with_header(record(1.0), None, "g")
+    agree_with_header(record(1.0), 0.0, "g")
+    agree_with_header(record(0.0014), 0.001, "m/s2", half_digit=5e-4)
     with refused(RecordError, "peak", 1.02):
-        agree_with_header(record(1.0), StatedPeak(1.02, "m/s2"))
+        agree_with_header(record(1.0), 1.02, "m/s2")
 
 
 @pytest.mark.parametrize(("ratio", "named"), [
@@ -39,7 +39,7 @@ def test_the_header_is_believed_within_one_percent() -> None:
 ])  # fmt: skip
 def test_the_factor_is_explained(ratio: float, named: tuple) -> None:
     with refused(RecordError, *named):
-        agree_with_header(record(ratio), StatedPeak(1.0, "m/s2"))
+        agree_with_header(record(ratio), 1.0, "m/s2")
 
 
 def test_limits() -> None:
