@@ -346,13 +346,6 @@ def pulses_of(
     )
 
 
-def component_of(
-    accelerogram: Accelerogram, settings: PredictingPulse, vertical: Accelerogram | None = None
-) -> Component:
-    """Return a component that stands alone with its pulses."""
-    return pulses_of(accelerogram, settings, HorizontalMotion()).component_of(accelerogram, vertical)
-
-
 def horizontal_motions(accelerograms: Sequence[Accelerogram]) -> list[HorizontalMotion]:
     """Return the motion that each of the horizontal components of a record belongs to.
 

@@ -2,96 +2,77 @@
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 
 from rocking.assessment.conclusion import Conclusion
 from rocking.assessment.decide import Verdict, share_error
-from rocking.tables import Columns, RowOf, row
-
-
-@dataclass(frozen=True)
-class Variant:
-    """One of the variants of a structure; the first is the structure itself.
-
-    name: of the scene. conclusion: on it under its worst record; None where no record gave one. first: the structure
-    itself; None of that one.
-    """
-
-    structure: str
-    name: str
-    conclusion: Conclusion | None
-    first: "Variant | None" = None
-
-    @property
-    def variant_name(self) -> str:
-        """Its own name, behind that of the structure and a colon."""
-        return self.name.removeprefix(f"{self.structure}: ")
-
-    @property
-    def share(self) -> float:
-        """The share that overturns under its worst record; nan where none can be said."""
-        return self.conclusion.row.decision.share if self.conclusion else math.nan
-
-    @property
-    def reserve(self) -> float:
-        """Factor on the record at which 5 % of the members overturn; nan where none was found."""
-        reserve = self.conclusion.row.reserve if self.conclusion else None
-        return reserve.low if reserve else math.nan
-
-    @property
-    def share_difference(self) -> float:
-        """Its share minus that of the first; nan of the first itself."""
-        return self.share - self.first.share if self.first else math.nan
-
-    @property
-    def shows_difference(self) -> bool:
-        """Whether its share differs from that of the first by more than both err for their number of members."""
-        both = [variant.conclusion.row for variant in (self, self.first) if variant and variant.conclusion]
-        error = sum(share_error(falls=row.overturning_members, members=row.members) for row in both)
-        return abs(self.share_difference) > error
-
-    @property
-    def reserve_ratio(self) -> float:
-        """Its reserve over that of the first; nan of the first itself."""
-        return self.reserve / self.first.reserve if self.first else math.nan
-
-
-of_variant = Columns(Variant)
+from rocking.tables import Row, column, row
 
 
 @row("variants")
-class VariantRow(RowOf[Variant]):
-    """One row per variant of a structure, under its worst record; the first is the structure itself."""
+class VariantRow(Row):
+    """One row per variant of a structure, under its worst record; the first is the structure itself.
 
-    structure: str = of_variant("Name of the structure", lambda of: of.structure)
-    variant: str = of_variant(
-        "Name of the variant; that of the structure itself for the first", lambda of: of.variant_name
-    )
-    record: str = of_variant(
-        "Record that is worst for it", lambda of: of.conclusion.row.record if of.conclusion else ""
-    )
-    verdict: Verdict | None = of_variant(
-        "Verdict under it", lambda of: of.conclusion.row.verdict if of.conclusion else None
-    )
-    overturning_share: float = of_variant("Share that overturns under it", lambda of: of.share)
-    reserve_factor: float = of_variant(
-        "Factor on that record at which 5 % of the members overturn", lambda of: of.reserve
-    )
-    share_difference: float = of_variant("Its share minus that of the first", lambda of: of.share_difference)
-    reserve_ratio: float = of_variant("Its reserve over that of the first", lambda of: of.reserve_ratio)
+    name: of the scene. conclusion: on it under its worst record; None where no record gave one. shows_difference:
+    whether its share differs from that of the first by more than both err for their number of members.
+    """
+
+    name: str
+    conclusion: Conclusion | None
+    shows_difference: bool
+    structure: str = column("Name of the structure")
+    variant: str = column("Name of the variant; that of the structure itself for the first")
+    record: str = column("Record that is worst for it")
+    verdict: Verdict | None = column("Verdict under it")
+    overturning_share: float = column("Share that overturns under it")
+    reserve_factor: float = column("Factor on that record at which 5 % of the members overturn")
+    share_difference: float = column("Its share minus that of the first")
+    reserve_ratio: float = column("Its reserve over that of the first")
 
 
 def variants(
     groups: Mapping[str, Sequence[str]], concluded: Iterable[Conclusion]
-) -> dict[str, list[Variant]]:
+) -> dict[str, list[VariantRow]]:
     """Return the variants of each structure that has some, the structure itself first.
 
     groups: names of the scenes by the structure. concluded: on each scene, under its worst record.
     """
-    conclusion_of = {conclusion.row.structure: conclusion for conclusion in concluded}
-    made = {}
-    for structure, names in groups.items():
-        first = Variant(structure, structure, conclusion_of.get(structure))
-        others = (Variant(structure, name, conclusion_of.get(name), first) for name in names)
-        made[structure] = [first, *others]
-    return made
+    of = {conclusion.row.structure: conclusion for conclusion in concluded}
+    return {
+        structure: [
+            _variant(structure, name, of.get(name), of.get(structure)) for name in (structure, *names)
+        ]
+        for structure, names in groups.items()
+    }
+
+
+def _variant(
+    structure: str, name: str, conclusion: Conclusion | None, first: Conclusion | None
+) -> VariantRow:
+    """One of the variants. conclusion, first: on it, and on the structure itself."""
+    both = [one.row for one in (conclusion, first) if one]
+    error = sum(share_error(falls=row.overturning_members, members=row.members) for row in both)
+    own_row = conclusion.row if conclusion else None
+    (share, reserve), (first_share, first_reserve) = map(_share_and_reserve, (conclusion, first))
+    is_first = name == structure
+    difference = math.nan if is_first else share - first_share
+    return VariantRow(
+        name=name,
+        conclusion=conclusion,
+        shows_difference=abs(difference) > error,
+        structure=structure,
+        variant=name.removeprefix(f"{structure}: "),
+        record=own_row.record if own_row else "",
+        verdict=own_row.verdict if own_row else None,
+        overturning_share=share,
+        reserve_factor=reserve,
+        share_difference=difference,
+        reserve_ratio=math.nan if is_first else reserve / first_reserve,
+    )
+
+
+def _share_and_reserve(conclusion: Conclusion | None) -> tuple[float, float]:
+    """The share that overturns and the factor at which 5 % of the members do; nan where none is known."""
+    if conclusion is None:
+        return math.nan, math.nan
+    reserve = conclusion.row.reserve
+    return conclusion.row.decision.share, reserve.low if reserve else math.nan

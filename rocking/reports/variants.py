@@ -18,7 +18,7 @@ from rocking.reports.sentences import Sentences
 from rocking.warnings import RockingWarning
 
 if TYPE_CHECKING:
-    from rocking.assessment.variants import Variant
+    from rocking.assessment.variants import VariantRow
     from rocking.structures import Structure
 
 _WIDTH, _HEIGHT = 30.0, 24.0
@@ -28,7 +28,7 @@ _DRAWN = 0.5
 
 
 def strips(
-    made: Mapping[str, Sequence[Variant]],
+    made: Mapping[str, Sequence[VariantRow]],
     structures: Mapping[str, Structure],
     words: Sentences | None = None,
     notes: Mapping[str, Sequence[str]] = MappingProxyType({}),
@@ -48,7 +48,7 @@ def strips(
 
 
 def _cells(
-    row: Sequence[Variant],
+    row: Sequence[VariantRow],
     structures: Mapping[str, Structure],
     words: Sentences,
     notes: Mapping[str, Sequence[str]],
@@ -81,7 +81,7 @@ def _cells(
 
 
 def _cell(
-    variant: Variant,
+    variant: VariantRow,
     structure: Structure,
     rotation: float,
     scale: float,
@@ -109,7 +109,7 @@ def _cell(
             reserve = words.of(RockingWarning.of(kind, reserve=figures))
     return VariantCell(
         drawing=drawn_by_hand(shapes, _WIDTH, _HEIGHT, f"{variant.name}, turned, and at rest."),
-        name=variant.variant_name,
+        name=variant.variant,
         chip=verdict,
         reserve=reserve,
         notes=tuple(notes),
@@ -129,9 +129,9 @@ def _changes(first: Structure | None, own: Structure, words: Sentences) -> Itera
         yield ", ".join([*changed, *left])
 
 
-def _difference(variant: Variant, words: Sentences) -> str:
+def _difference(variant: VariantRow, words: Sentences) -> str:
     """By how much the share and the reserve differ from those of the first, where both are known."""
-    if variant.first is None:
+    if variant.name == variant.structure:
         return words.of(RockingWarning(ReportKind.THE_FIRST))
     differences = []
     if not math.isnan(variant.reserve_ratio):

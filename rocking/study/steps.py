@@ -24,7 +24,7 @@ from rocking.assessment.assessor import Assessor
 from rocking.assessment.case import Failure, Prediction, RecordResult
 from rocking.assessment.motions import Component
 from rocking.assessment.one_case import Clock
-from rocking.assessment.rows import PredictedCase, PredictionRow, identities_of
+from rocking.assessment.rows import PredictionRow, identities_of, prediction_row
 from rocking.assessment.store import LARGEST, RecordStore, decoded, encoded
 from rocking.catalogue import CatalogueRecord
 from rocking.errors import RockingError, fault_in_words
@@ -108,12 +108,12 @@ class Steps:
         components, _ = self._components(store)
         identities = identities_of(self._result(components), self.study.settings_sha256)
         predictions = self._assessor(store).predict(components, self.study.scenes)
-        cases = [
-            PredictedCase(identities[component], structure, found)
+        rows = [
+            prediction_row(identities[component], structure, found)
             for (structure, component), found in predictions.items()
             if isinstance(found, Prediction)
         ]
-        self._keep(store, {PredictionRow: [PredictionRow.of(case) for case in cases]})
+        self._keep(store, {PredictionRow: rows})
 
     def integrate(self) -> None:
         """Follow each structure, and its members, through the whole record."""

@@ -136,7 +136,7 @@ def _documents(
 
         compared = variants(groups, worst_of_each(conclusions(rows_of(VerdictRow, shown), [])))
         drawn = strips(compared, study.structures, notes=notes)
-        sheets[VariantRow] = [VariantRow.of(variant) for row in compared.values() for variant in row]
+        sheets[VariantRow] = [variant for row in compared.values() for variant in row]
     findings = [kept.conclusion for _, kept in made if kept.conclusion]
     title = study.settings.study or ""
     figures = study.settings.figures

@@ -1,12 +1,10 @@
 """Result tables: a row is a frozen dataclass whose fields say what its columns are; all else derives from it.
 
-    of_block = Columns(EquivalentBlock)
-
     @row("blocks", "One row per equivalent block")
-    class BlockRow(RowOf[EquivalentBlock]):
-        restitution: float = of_block("Ratio of angular velocities", lambda block: block.restitution, equation="Eq. 2")
+    class BlockRow(Row):
+        restitution: float = column("Ratio of angular velocities", equation="Eq. 2")
 
-    BlockRow.of(block)
+    BlockRow(restitution=block.restitution)
 
 A field is a float (nan: not known), int, bool, str, StrEnum, one of these or None, or a tuple of texts. From the class
 come the CSV (`write_rows`, `read_rows`), its description (`data_package`) and data frames (`frame`). The unit of a
@@ -25,9 +23,7 @@ from rocking.tables.files import regular_file as regular_file
 from rocking.tables.files import whole as whole
 from rocking.tables.files import write_whole as write_whole
 from rocking.tables.files import written_together as written_together
-from rocking.tables.rows import Columns as Columns
 from rocking.tables.rows import Row as Row
-from rocking.tables.rows import RowOf as RowOf
 from rocking.tables.rows import Table as Table
 from rocking.tables.rows import cell as cell
 from rocking.tables.rows import check_tables as check_tables

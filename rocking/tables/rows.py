@@ -9,14 +9,13 @@ import math
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from copy import copy
-from dataclasses import MISSING, dataclass, field, fields, replace
+from dataclasses import MISSING, dataclass, fields, replace
 from enum import Enum, StrEnum
 from io import TextIOWrapper
 from itertools import islice
 from pathlib import Path
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeVar, dataclass_transform, get_args
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, dataclass_transform
 
 from rocking.described import Described, described, described_values, number_hint
 from rocking.errors import RockingError
@@ -43,13 +42,13 @@ _UNITS = {
 class Table:
     """A CSV table: its file name without folder, what a row is, and its columns in order.
 
-    kept: the fields of its rows that no column prints, with what reads them of the subject one after another.
+    kept: the fields of its rows that no column prints; rows with such fields are not read back from CSV.
     """
 
     name: str
     description: str
     columns: tuple[Described, ...]
-    kept: Mapping[str, tuple[Callable[[Any], Any], ...]] = field(default_factory=dict)
+    kept: tuple[str, ...] = ()
 
     @property
     def file_name(self) -> str:
@@ -69,92 +68,7 @@ class Row:
     table: ClassVar[Table]
 
 
-def empty(column: Described) -> Any:
-    """Return what stands for no value."""
-    return None if column.optional else {float: math.nan, str: "", tuple: ()}.get(column.holds)
-
-
 R = TypeVar("R", bound=Row)
-S = TypeVar("S")
-T = TypeVar("T")
-
-
-class RowOf(Row, Generic[S]):
-    """Root of the rows about one kind of subject: each column says on its own line what it reads of the subject."""
-
-    __slots__ = ()
-
-    @classmethod
-    def of(cls, subject: S) -> Self:
-        """Return the row about `subject`; a column of a part that it lacks is empty."""
-        made: Any = cls
-        values = {name: _read_by(reads, subject) for name, reads in cls.table.kept.items()}
-        for column in cls.table.columns:
-            value = _read_by(column.more["reads"], subject)
-            values[column.name] = empty(column) if value is None else value
-        row: Self = made(**values)
-        return row
-
-
-def _read_by(reads: Iterable[Callable[[Any], Any]], subject: object) -> Any:
-    """What the functions read of a subject one after another; None from where one of them gives None."""
-    value: Any = subject
-    for read in reads:
-        value = None if value is None else read(value)
-    return value
-
-
-class Columns(Generic[S]):
-    """Declaration of the columns of rows about subjects of one class.
-
-    of_case = Columns(Case)
-
-    @row("cases")
-    class CaseRow(RowOf[Case]):
-        members: int = of_case("Number of members", lambda case: case.members)
-
-    mypy holds what the function takes to the class, and what it returns to the type of the field.
-    """
-
-    def __init__(self, subject: type[S]) -> None:
-        self.subject = subject
-        self._reads: tuple[Callable[[Any], Any], ...] = ()
-        self._may_lack = False
-
-    def __call__(
-        self, meaning: str, of: Callable[[S], T], *, equation: str = "", unit: str = "", last: bool = False
-    ) -> T:
-        """Declare a column that holds what `of` says of a subject; the rest as of `column`."""
-        more: dict[str, Any] = {
-            "reads": (*self._reads, of),
-            "subject": self.subject,
-            "may_lack": self._may_lack,
-        }
-        value: T = described(MISSING, meaning, unit, equation=equation, last=last, **more)
-        return value
-
-    def kept(self, of: Callable[[S], T]) -> T:
-        """Declare a field that the row carries and no column prints; rows are then not read back from CSV."""
-        value: Any = field(metadata={"kept": (*self._reads, of)})
-        declared: T = value
-        return declared
-
-    def part(self, read: Callable[[S], T]) -> "Columns[T]":
-        """Return the declaration of columns about a part of the subject.
-
-        of_decision = of_case.part(lambda case: case.decision)
-        """
-        made: Any = copy(self)
-        made._reads = (*self._reads, read)
-        of_part: Columns[T] = made
-        return of_part
-
-    def optional(self, read: Callable[[S], T | None]) -> "Columns[T]":
-        """Return the declaration of columns about a part that may be missing; they are empty where it is None."""
-        made: Any = self.part(read)
-        made._may_lack = True
-        of_part: Columns[T] = made
-        return of_part
 
 
 def column(
@@ -185,32 +99,13 @@ def row(name: str = "", description: str = "", first: Sequence[str] = ()) -> Cal
             ends = (unit for end, unit in _UNITS.items() if column.name.endswith(f"_{end}"))
             columns.append(replace(column, unit=column.unit or next(ends, "")))
         summary = description or (cls.__doc__ or "").partition("\n")[0].rstrip(".")
-        kept = {part.name: part.metadata["kept"] for part in fields(row_class) if "kept" in part.metadata}
+        described = {column.name for column in columns}
+        kept = tuple(part.name for part in fields(row_class) if part.name not in described)
         row_class.table = Table(name, summary, tuple(columns), kept)
-        _check_subjects(row_class)
         result: type[R] = row_class
         return result
 
     return made
-
-
-def _check_subjects(row_class: type[Row]) -> None:
-    """Raise TypeError where a column of a row about one kind of subject reads another kind, or none."""
-    if not issubclass(row_class, RowOf):
-        return
-    for base in getattr(row_class, "__orig_bases__", ()):
-        for subject in get_args(base):
-            subject = getattr(subject, "__bound__", subject)
-            for column in row_class.table.columns:
-                own = column.more.get("subject")
-                if own is None or not issubclass(subject, own):
-                    raise TypeError(
-                        f"{row_class.__name__}.{column.name} is not read from a {subject.__name__}."
-                    )
-                if column.more["may_lack"] and not column.optional and empty(column) is None:
-                    raise TypeError(
-                        f"{row_class.__name__}.{column.name} has no value where its part is missing."
-                    )
 
 
 _FORMULA = re.compile(r"'*[=+\-@\t\r]")

@@ -6,7 +6,6 @@ import io
 import json
 import math
 import os
-from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 
@@ -18,7 +17,7 @@ from hypothesis import strategies as st
 
 from rocking import tables
 from rocking.errors import RockingError
-from rocking.tables import Columns, Row, RowOf, cell, column, frame, read_rows, row, write_rows, write_whole
+from rocking.tables import Row, cell, column, frame, read_rows, row, write_rows, write_whole
 from tests.refusals import refused
 from tests.unit.assessment.made_rows import filled
 
@@ -231,66 +230,23 @@ def test_a_disk_that_fails_after_the_renaming_is_told_in_words(tmp_path: Path, m
     assert not list(tmp_path.glob(".*"))
 
 
-@dataclass(frozen=True)
-class Thing:
-    name: str
-    count: int
-
-
-of_thing, of_text = Columns(Thing), Columns(str)
-
-
-def test_a_row_reads_each_column_from_its_subject() -> None:
-    @row("things")
-    class ThingRow(RowOf[Thing]):
-        last: str = of_thing("Name of the thing", lambda thing: thing.name, last=True)
-        count: int = of_thing("Twice its number", lambda thing: 2 * thing.count)
-
-    read = ThingRow.of(Thing("one", 3))
-    assert (read.last, read.count) == ("one", 6)
-    assert ThingRow.table.column_names == ("count", "last")
-
-
-@pytest.mark.parametrize("declared", [of_text("Its length", len), column("Its length")])
-def test_a_column_that_does_not_read_the_subject_of_its_row_is_refused(declared) -> None:
-    with pytest.raises(TypeError, match=r"Wrong\.length is not read from a Thing"):
-
-        @row("wrong")
-        class Wrong(RowOf[Thing]):
-            length: int = declared
-
-
 MISTAKEN = """
-from dataclasses import dataclass
-from rocking.tables import Columns, RowOf, row
-
-@dataclass(frozen=True)
-class Thing:
-    name: str
-    count: int
-
-of_thing = Columns(Thing)
+from rocking.tables import Row, column, row
 
 @row("made")
-class Made(RowOf[Thing]):
-    right: float = of_thing("Number", lambda thing: thing.count)
-    typed: int = of_thing("Number", lambda thing: thing.name)
-    named: int = of_thing("Number", lambda thing: thing.number)
+class Made(Row):
+    number: int = column("Number")
 
-Made.of("one")
+Made(number=3)
+Made(number="one")
 """
 
 
 @pytest.mark.process
-def test_mypy_refuses_a_column_of_another_type_and_a_row_of_another_subject(tmp_path: Path) -> None:
+def test_mypy_refuses_a_cell_of_another_type(tmp_path: Path) -> None:
     from mypy import api
 
     (tmp_path / "made.py").write_text(MISTAKEN, encoding="utf-8")
     said, _, status = api.run([str(tmp_path / "made.py")])  # with the cache of `make check`
-    assert status == 1 and said.count("error:") == 3, said
-    for error in (
-        '15: error: Incompatible types in assignment (expression has type "str", variable has type "int")',
-        '16: error: "Thing" has no attribute "number"',
-        '18: error: Argument 1 to "of" of "RowOf" has incompatible type "str"; expected "Thing"',
-    ):
-        assert error in said
+    assert status == 1 and said.count("error:") == 1, said
+    assert '9: error: Argument "number" to "Made" has incompatible type "str"; expected "int"' in said

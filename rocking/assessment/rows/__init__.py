@@ -1,4 +1,4 @@
-"""The rows of the result tables: each column says on its own line what it means and what it reads.
+"""The rows of the result tables: each column says what it means, and is filled by name.
 
 Rows about a record and about a study are imported from here; those of a product over all records stand in its folder.
 """
@@ -8,21 +8,18 @@ from rocking.assessment.rows.of_inputs import CapacityRow as CapacityRow
 from rocking.assessment.rows.of_inputs import Identity as Identity
 from rocking.assessment.rows.of_inputs import PlacedRow as PlacedRow
 from rocking.assessment.rows.of_inputs import PulseRow as PulseRow
-from rocking.assessment.rows.of_inputs import ReadComponent as ReadComponent
 from rocking.assessment.rows.of_inputs import RecordRow as RecordRow
 from rocking.assessment.rows.of_inputs import StructureRow as StructureRow
 from rocking.assessment.rows.of_inputs import capacity_rows as capacity_rows
-from rocking.assessment.rows.of_inputs import pulses_found as pulses_found
+from rocking.assessment.rows.of_inputs import pulse_rows as pulse_rows
+from rocking.assessment.rows.of_inputs import record_row as record_row
 from rocking.assessment.rows.of_inputs import structure_rows as structure_rows
 from rocking.assessment.rows.of_record import RATIO_COLUMNS as RATIO_COLUMNS
 from rocking.assessment.rows.of_record import RECORD_TABLES as RECORD_TABLES
-from rocking.assessment.rows.of_record import ComparedCase as ComparedCase
 from rocking.assessment.rows.of_record import ComparisonRow as ComparisonRow
 from rocking.assessment.rows.of_record import FailureRow as FailureRow
 from rocking.assessment.rows.of_record import HistoryRow as HistoryRow
 from rocking.assessment.rows.of_record import MechanismRow as MechanismRow
-from rocking.assessment.rows.of_record import OfStructure as OfStructure
-from rocking.assessment.rows.of_record import PredictedCase as PredictedCase
 from rocking.assessment.rows.of_record import PredictionRow as PredictionRow
 from rocking.assessment.rows.of_record import RecordRows as RecordRows
 from rocking.assessment.rows.of_record import SupportRow as SupportRow
@@ -30,10 +27,13 @@ from rocking.assessment.rows.of_record import TimingRow as TimingRow
 from rocking.assessment.rows.of_record import VariationRow as VariationRow
 from rocking.assessment.rows.of_record import VerdictRow as VerdictRow
 from rocking.assessment.rows.of_record import WarningRow as WarningRow
+from rocking.assessment.rows.of_record import comparison_row as comparison_row
 from rocking.assessment.rows.of_record import counted_cases as counted_cases
 from rocking.assessment.rows.of_record import history_rows as history_rows
 from rocking.assessment.rows.of_record import identities_of as identities_of
+from rocking.assessment.rows.of_record import prediction_row as prediction_row
 from rocking.assessment.rows.of_record import rows_of_record as rows_of_record
+from rocking.assessment.rows.of_record import verdict_row as verdict_row
 from rocking.assessment.rows.of_record import worst_period_each as worst_period_each
 from rocking.assessment.rows.of_study import SUMMARY_TABLES as SUMMARY_TABLES
 from rocking.assessment.rows.of_study import AgreementRow as AgreementRow

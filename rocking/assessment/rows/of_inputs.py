@@ -4,21 +4,19 @@ import contextlib
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rocking.catalogue.place import Coordinates
 from rocking.errors import StructureError
-from rocking.pulses import Pulse, PulseEvidence, VelocityPulse
-from rocking.pulses.pulse import PulseAnalysis
-from rocking.signal.measures import RecordMeasures, record_measures
+from rocking.pulses import Pulse, PulseEvidence
+from rocking.signal.measures import record_measures
 from rocking.structures import Mechanism, Structure
 from rocking.structures.crackable import Crackable, crushing
 from rocking.structures.equivalent_block import EquivalentBlock, Scale
 from rocking.structures.mechanism import PRINTED_SCALE
-from rocking.tables import Columns, Row, RowOf, column, row
+from rocking.tables import Row, column, row
 from rocking.warnings import Kind
 
 if TYPE_CHECKING:  # else who reads a table would load numba
@@ -52,228 +50,126 @@ class Identity:
     settings_sha256: str
 
 
-@dataclass(frozen=True)
-class Identified:
-    """Anything about one component of one record."""
-
-    identity: Identity
-
-
-I = TypeVar("I", bound=Identified)
-of_identified = Columns(Identified)
-
-
 @row()
-class ComponentRow(RowOf[I]):
+class ComponentRow(Row):
     """A row about one component of one record."""
 
-    record: str = of_identified(RECORD, lambda of: of.identity.record)
-    component: str = of_identified(COMPONENT, lambda of: of.identity.component)
-    record_sha256: str = of_identified(RECORD_SHA256, lambda of: of.identity.record_sha256, last=True)
-    settings_sha256: str = of_identified(
-        "SHA-256 of settings, structures and package behind the row",
-        lambda of: of.identity.settings_sha256,
-        last=True,
-    )
-
-
-@dataclass(frozen=True)
-class ReadComponent(Identified):
-    """One component as it was read, with the licence and the epicentre that the catalogue declares."""
-
-    component: "Component"
-    licence: str
-    epicentre: Coordinates | None = None
-
-    @cached_property
-    def measures(self) -> RecordMeasures:
-        """Its measures of intensity."""
-        return record_measures(self.component.accelerogram)
-
-    @property
-    def both_pulses(self) -> tuple[Pulse, VelocityPulse] | None:
-        """The sine that explains most of its energy, and the velocity pulse of the pair; None without one of them."""
-        analysis = self.component.analysis
-        velocity_pulse = self.component.motion.velocity_pulse
-        return (analysis.dominant, velocity_pulse) if analysis and velocity_pulse else None
-
-
-of_component = Columns(ReadComponent)
-of_accelerogram = of_component.part(lambda read: read.component.accelerogram)
-of_vertical = of_component.optional(lambda read: read.component.vertical)
-of_measures = of_component.part(lambda read: read.measures)
-of_directions = of_component.optional(lambda read: read.component.motion.rotd)
-of_velocity_pulse = of_component.optional(lambda read: read.component.motion.velocity_pulse)
-of_epicentre = of_component.optional(lambda read: read.epicentre)
-of_both_pulses = of_component.optional(lambda read: read.both_pulses)
+    record: str = column(RECORD)
+    component: str = column(COMPONENT)
+    record_sha256: str = column(RECORD_SHA256, last=True)
+    settings_sha256: str = column("SHA-256 of settings, structures and package behind the row", last=True)
 
 
 @row("record")
-class RecordRow(ComponentRow[ReadComponent]):
+class RecordRow(ComponentRow):
     """One row per component: what was read and what was done to it before use."""
 
-    event: str = of_accelerogram("Earthquake", lambda read: read.event)
-    magnitude: float | None = of_accelerogram(
-        "Magnitude of the earthquake; empty where nothing states it", lambda read: read.magnitude
+    event: str = column("Earthquake")
+    magnitude: float | None = column("Magnitude of the earthquake; empty where nothing states it")
+    epicentral_distance_m: float | None = column("Distance to the epicentre; empty where nothing states it")
+    magnitude_type: str = column("Scale of the magnitude; empty where nothing states it")
+    event_time: str = column(
+        "Date of the earthquake, and its time as far as the file states it, ISO 8601 in the zone of the file"
     )
-    epicentral_distance_m: float | None = of_accelerogram(
-        "Distance to the epicentre; empty where nothing states it", lambda read: read.epicentral_distance
-    )
-    magnitude_type: str = of_accelerogram(
-        "Scale of the magnitude; empty where nothing states it", lambda read: read.magnitude_type
-    )
-    event_time: str = of_accelerogram(
-        "Date of the earthquake, and its time as far as the file states it, ISO 8601 in the zone of the file",
-        lambda read: read.event_time,
-    )
-    station: str = of_accelerogram("Recording station", lambda read: read.station)
-    station_latitude_deg: float | None = of_accelerogram(
-        "Latitude of the station, north", lambda read: read.latitude
-    )
-    station_longitude_deg: float | None = of_accelerogram(
-        "Longitude of the station, east", lambda read: read.longitude
-    )
-    epicentre_latitude_deg: float = of_epicentre(
-        "Latitude of the epicentre, north, as the catalogue declares it", lambda epicentre: epicentre.latitude
-    )
-    epicentre_longitude_deg: float = of_epicentre(
-        "Longitude of the epicentre, east, as the catalogue declares it",
-        lambda epicentre: epicentre.longitude,
-    )
-    start_time: str = of_accelerogram(
-        "Time of the first sample, as the file states it", lambda read: read.start_time
-    )
-    file: str = of_accelerogram("File of the record", lambda read: read.source.path)
-    format: str = of_accelerogram("Format of the file", lambda read: read.source.format)
-    unit: str = of_accelerogram("Unit of the numbers in the file", lambda read: read.source.unit)
-    scale_factor: float = of_accelerogram(SCALE_FACTOR, lambda read: read.scale_factor)
-    licence: str = of_component(
-        "Licence of the record, as the catalogue declares it", lambda read: read.licence
-    )
-    vertical_component: str = of_vertical(
-        "Vertical component that acts as well; empty where none acts",
-        lambda vertical: vertical.component or "not named",
-    )
-    vertical_peak_acceleration_m_s2: float = of_vertical(
-        "Largest magnitude of the vertical acceleration", lambda vertical: vertical.peak_acceleration
-    )
-    samples: int = of_accelerogram("Number of samples", lambda read: read.acceleration.size)
-    time_step_s: float = of_accelerogram("Time step", lambda read: read.time_step)
-    duration_s: float = of_accelerogram("Time from the first to the last sample", lambda read: read.duration)
-    peak_acceleration_m_s2: float = of_measures(
-        "Largest magnitude of the acceleration", lambda measures: measures.peak_acceleration
-    )
-    peak_velocity_m_s: float = of_measures(
-        "Largest magnitude of the velocity, by the trapezoidal rule", lambda measures: measures.peak_velocity
-    )
-    peak_displacement_m: float = of_measures(
-        "Largest magnitude of the displacement, by the same rule", lambda measures: measures.peak_displacement
-    )
-    arias_intensity_m_s: float = of_measures(
-        "Arias intensity", lambda measures: measures.arias_intensity, equation="π/(2g) ∫a² dt"
-    )
-    significant_duration_s: float = of_measures(
-        "Time between 5 and 95 % of the Arias intensity (D5–95)",
-        lambda measures: measures.significant_duration,
-    )
-    rotd50_peak_acceleration_m_s2: float = of_directions(
-        "Peak acceleration of the pair, median over directions", lambda pair: pair.rotd50
-    )
-    rotd100_peak_acceleration_m_s2: float = of_directions(
-        "Peak acceleration of the pair, largest over directions", lambda pair: pair.rotd100
-    )
-    velocity_pulse_period_s: float = of_velocity_pulse(
-        "Period T_p of the velocity pulse (Shahi & Baker 2014)", lambda pulse: pulse.period
-    )
-    velocity_pulse_peak_velocity_m_s: float = of_velocity_pulse(
-        "Peak velocity along the axis of the velocity pulse", lambda pulse: pulse.peak_velocity
-    )
-    velocity_pulse_azimuth_deg: float | None = of_component(
-        "Axis of the velocity pulse, clockwise from north",
-        lambda read: read.component.motion.velocity_pulse_azimuth,
-    )
-    velocity_pulse_like: bool | None = of_velocity_pulse(
-        "Whether Shahi & Baker call the motion pulse-like", lambda pulse: pulse.pulse_like
-    )
-    pulse_periods_unlike: bool | None = of_both_pulses(
-        "Whether these periods differ by more than a factor of 2", lambda both: both[1].is_unlike(both[0])
-    )
-    high_pass_frequency_hz: float | None = of_accelerogram(
-        "Corner of the high-pass that the file or catalogue states", lambda read: read.high_pass_frequency
-    )
-    processing: tuple[str, ...] = of_accelerogram(
-        "Steps applied to the numbers of the file, in order", lambda read: read.processing
-    )
+    station: str = column("Recording station")
+    station_latitude_deg: float | None = column("Latitude of the station, north")
+    station_longitude_deg: float | None = column("Longitude of the station, east")
+    epicentre_latitude_deg: float = column("Latitude of the epicentre, north, as the catalogue declares it")
+    epicentre_longitude_deg: float = column("Longitude of the epicentre, east, as the catalogue declares it")
+    start_time: str = column("Time of the first sample, as the file states it")
+    file: str = column("File of the record")
+    format: str = column("Format of the file")
+    unit: str = column("Unit of the numbers in the file")
+    scale_factor: float = column(SCALE_FACTOR)
+    licence: str = column("Licence of the record, as the catalogue declares it")
+    vertical_component: str = column("Vertical component that acts as well; empty where none acts")
+    vertical_peak_acceleration_m_s2: float = column("Largest magnitude of the vertical acceleration")
+    samples: int = column("Number of samples")
+    time_step_s: float = column("Time step")
+    duration_s: float = column("Time from the first to the last sample")
+    peak_acceleration_m_s2: float = column("Largest magnitude of the acceleration")
+    peak_velocity_m_s: float = column("Largest magnitude of the velocity, by the trapezoidal rule")
+    peak_displacement_m: float = column("Largest magnitude of the displacement, by the same rule")
+    arias_intensity_m_s: float = column("Arias intensity", equation="π/(2g) ∫a² dt")
+    significant_duration_s: float = column("Time between 5 and 95 % of the Arias intensity (D5–95)")
+    rotd50_peak_acceleration_m_s2: float = column("Peak acceleration of the pair, median over directions")
+    rotd100_peak_acceleration_m_s2: float = column("Peak acceleration of the pair, largest over directions")
+    velocity_pulse_period_s: float = column("Period T_p of the velocity pulse (Shahi & Baker 2014)")
+    velocity_pulse_peak_velocity_m_s: float = column("Peak velocity along the axis of the velocity pulse")
+    velocity_pulse_azimuth_deg: float | None = column("Axis of the velocity pulse, clockwise from north")
+    velocity_pulse_like: bool | None = column("Whether Shahi & Baker call the motion pulse-like")
+    pulse_periods_unlike: bool | None = column("Whether these periods differ by more than a factor of 2")
+    high_pass_frequency_hz: float | None = column("Corner of the high-pass that the file or catalogue states")
+    processing: tuple[str, ...] = column("Steps applied to the numbers of the file, in order")
 
 
-@dataclass(frozen=True)
-class FoundPulse(Identified):
-    """One pulse of the analysis of a component, by its kind and its rank among those of its kind."""
-
-    analysis: PulseAnalysis
-    kind: str
-    rank: int
-    evidence: PulseEvidence
-
-
-def pulses_found(identity: Identity, component: "Component") -> Iterator[FoundPulse]:
-    """Yield the ranked alternatives, the dominant pulse first, then the pursuit sequence.
-
-    Pulses that predict, but are not among the alternatives, follow.
-    """
-    analysis = component.analysis
-    if analysis is None:
-        return
-    kinds: dict[str, Sequence[PulseEvidence]] = {
-        "alternative": analysis.ranked,
-        "sequence": analysis.sequence,
-        "predicting": [evidence for evidence in component.candidates if evidence not in analysis.ranked],
-    }
-    for kind, pulses in kinds.items():
-        for rank, evidence in enumerate(pulses, start=1):
-            yield FoundPulse(identity, analysis, kind, rank, evidence)
-
-
-of_pulse = Columns(FoundPulse)
+def record_row(
+    identity: Identity, component: "Component", licence: str = "", epicentre: Coordinates | None = None
+) -> RecordRow:
+    """Return the row of one component as it was read. licence, epicentre: as the catalogue declares them."""
+    read = component.accelerogram
+    vertical = component.vertical
+    measures = record_measures(read)
+    pair = component.motion.rotd
+    pulse = component.motion.velocity_pulse
+    dominant = component.analysis.dominant if component.analysis else None
+    return RecordRow(
+        **vars(identity),
+        event=read.event,
+        magnitude=read.magnitude,
+        epicentral_distance_m=read.epicentral_distance,
+        magnitude_type=read.magnitude_type,
+        event_time=read.event_time,
+        station=read.station,
+        station_latitude_deg=read.latitude,
+        station_longitude_deg=read.longitude,
+        epicentre_latitude_deg=epicentre.latitude if epicentre else math.nan,
+        epicentre_longitude_deg=epicentre.longitude if epicentre else math.nan,
+        start_time=read.start_time,
+        file=read.source.path,
+        format=read.source.format,
+        unit=read.source.unit,
+        scale_factor=read.scale_factor,
+        licence=licence,
+        vertical_component="" if vertical is None else vertical.component or "not named",
+        vertical_peak_acceleration_m_s2=math.nan if vertical is None else vertical.peak_acceleration,
+        samples=read.acceleration.size,
+        time_step_s=read.time_step,
+        duration_s=read.duration,
+        peak_acceleration_m_s2=measures.peak_acceleration,
+        peak_velocity_m_s=measures.peak_velocity,
+        peak_displacement_m=measures.peak_displacement,
+        arias_intensity_m_s=measures.arias_intensity,
+        significant_duration_s=measures.significant_duration,
+        rotd50_peak_acceleration_m_s2=pair.rotd50 if pair else math.nan,
+        rotd100_peak_acceleration_m_s2=pair.rotd100 if pair else math.nan,
+        velocity_pulse_period_s=pulse.period if pulse else math.nan,
+        velocity_pulse_peak_velocity_m_s=pulse.peak_velocity if pulse else math.nan,
+        velocity_pulse_azimuth_deg=component.motion.velocity_pulse_azimuth,
+        velocity_pulse_like=pulse.pulse_like if pulse else None,
+        pulse_periods_unlike=pulse.is_unlike(dominant) if pulse and dominant else None,
+        high_pass_frequency_hz=read.high_pass_frequency,
+        processing=read.processing,
+    )
 
 
 @row("pulses")
-class PulseRow(ComponentRow[FoundPulse]):
+class PulseRow(ComponentRow):
     """One row per sine pulse of acceleration; rank 1 of kind alternative is the dominant pulse."""
 
-    kind: str = of_pulse(
+    kind: str = column(
         "alternative: ranked on the record; sequence: pursued on the residual of the pulses before it; "
-        "predicting: the pulse that predicts, where it is not an alternative",
-        lambda found: found.kind,
+        "predicting: the pulse that predicts, where it is not an alternative"
     )
-    rank: int = of_pulse("Rank among the pulses of its kind, from 1", lambda found: found.rank)
-    amplitude_m_s2: float = of_pulse(
-        "Signed amplitude a_g of the pulse", lambda found: found.evidence.pulse.amplitude
-    )
-    circular_frequency_rad_s: float = of_pulse(
-        "Circular frequency of the pulse", lambda found: found.evidence.pulse.circular_frequency
-    )
-    period_s: float = of_pulse("Period of the pulse", lambda found: found.evidence.pulse.period)
-    start_time_s: float = of_pulse(
-        "Start of the pulse after the first sample", lambda found: found.evidence.pulse.start_time
-    )
-    gain_m2_s3: float = of_pulse("Energy gain of the matched filter", lambda found: found.evidence.gain)
-    gain_ratio: float = of_pulse(
-        "Energy gain over that of the dominant pulse",
-        lambda found: found.evidence.gain / found.analysis.evidence.gain,
-    )
-    explained_energy: float = of_pulse(
-        "Share of the acceleration energy that the pulse explains (EVa)",
-        lambda found: found.evidence.explained_energy,
-    )
-    flags: tuple[Kind, ...] = of_pulse(
-        "Kinds of reason to doubt the pulse",
-        lambda found: (
-            tuple(flag.kind for flag in found.analysis.flags)
-            if found.kind == "alternative" and found.rank == 1
-            else ()
-        ),
-    )
+    rank: int = column("Rank among the pulses of its kind, from 1")
+    amplitude_m_s2: float = column("Signed amplitude a_g of the pulse")
+    circular_frequency_rad_s: float = column("Circular frequency of the pulse")
+    period_s: float = column("Period of the pulse")
+    start_time_s: float = column("Start of the pulse after the first sample")
+    gain_m2_s3: float = column("Energy gain of the matched filter")
+    gain_ratio: float = column("Energy gain over that of the dominant pulse")
+    explained_energy: float = column("Share of the acceleration energy that the pulse explains (EVa)")
+    flags: tuple[Kind, ...] = column("Kinds of reason to doubt the pulse")
 
     @property
     def ranked(self) -> bool:
@@ -293,6 +189,37 @@ class PulseRow(ComponentRow[FoundPulse]):
             circular_frequency=self.circular_frequency_rad_s,
             start_time=self.start_time_s,
         )
+
+
+def pulse_rows(identity: Identity, component: "Component") -> Iterator[PulseRow]:
+    """Yield the ranked alternatives, the dominant pulse first, then the pursuit sequence.
+
+    Pulses that predict, but are not among the alternatives, follow.
+    """
+    analysis = component.analysis
+    if analysis is None:
+        return
+    kinds: dict[str, Sequence[PulseEvidence]] = {
+        "alternative": analysis.ranked,
+        "sequence": analysis.sequence,
+        "predicting": [evidence for evidence in component.candidates if evidence not in analysis.ranked],
+    }
+    for kind, pulses in kinds.items():
+        for rank, evidence in enumerate(pulses, start=1):
+            is_dominant = kind == "alternative" and rank == 1
+            yield PulseRow(
+                **vars(identity),
+                kind=kind,
+                rank=rank,
+                amplitude_m_s2=evidence.pulse.amplitude,
+                circular_frequency_rad_s=evidence.pulse.circular_frequency,
+                period_s=evidence.pulse.period,
+                start_time_s=evidence.pulse.start_time,
+                gain_m2_s3=evidence.gain,
+                gain_ratio=evidence.gain / analysis.evidence.gain,
+                explained_energy=evidence.explained_energy,
+                flags=tuple(flag.kind for flag in analysis.flags) if is_dominant else (),
+            )
 
 
 # What stands ----------------------------------------------------------------------------------------------

@@ -4,8 +4,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, fields, replace
-from functools import cached_property
-from typing import TYPE_CHECKING, TypeVar, get_args
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 
@@ -28,20 +27,16 @@ from rocking.assessment.rows.of_inputs import (
     STRUCTURE,
     SUPPORT_PERIOD,
     ComponentRow,
-    Identified,
     Identity,
     PulseRow,
-    ReadComponent,
     RecordRow,
-    pulses_found,
+    pulse_rows,
+    record_row,
 )
 from rocking.catalogue.place import Coordinates
 from rocking.errors import RockingError, one_structure
-from rocking.floors.place import FloorMeasures
 from rocking.sine_pulse import Regime
-from rocking.structures.linkage import Reaction
-from rocking.structures.structure import Candidate
-from rocking.tables import Columns, Row, column, row
+from rocking.tables import Row, column, row
 from rocking.warnings import Kind, RockingWarning
 
 if TYPE_CHECKING:  # else who reads a table would load numba
@@ -50,35 +45,19 @@ if TYPE_CHECKING:  # else who reads a table would load numba
         PeriodResult,
         Prediction,
         RecordResult,
-        Variation,
     )
-    from rocking.assessment.cracks import FollowedCrack
-    from rocking.assessment.motions import Component
-    from rocking.motion.response import ModelCheck, Response
-    from rocking.structures.mechanism import Side
+    from rocking.motion.response import Response
+    from rocking.structures import Structure
 
 PEAK_SIDE = "Side of the largest rotation or of the overturning: 1, -1, or 0 without uplift"
 
 
-@dataclass(frozen=True)
-class OfStructure(Identified):
-    """Anything about one structure under one component of one record. period_result: its result over all components."""
-
-    period_result: "PeriodResult"
-
-
-C = TypeVar("C", bound=OfStructure)
-of_structure = Columns(OfStructure)
-
-
 @row()
-class CaseRow(ComponentRow[C]):
+class CaseRow(ComponentRow):
     """A row about one structure under one component of one record."""
 
-    structure: str = of_structure(STRUCTURE, lambda of: of.period_result.structure)
-    support_period_s: float | None = of_structure(
-        SUPPORT_PERIOD, lambda of: of.period_result.support_period_s
-    )
+    structure: str = column(STRUCTURE)
+    support_period_s: float | None = column(SUPPORT_PERIOD)
 
     @property
     def case(self) -> tuple[str, str, float | None]:
@@ -87,107 +66,54 @@ class CaseRow(ComponentRow[C]):
 
 
 @row()
-class DecidedRow(CaseRow[C]):
+class DecidedRow(CaseRow):
     """A row about a case that says what becomes of the structure over all components."""
 
-    verdict: Verdict = of_structure(f"The verdict: {', '.join(Verdict)}", lambda of: of.period_result.verdict)
-    overturning_share: float = of_structure(
+    verdict: Verdict = column(f"The verdict: {', '.join(Verdict)}")
+    overturning_share: float = column(
         "Largest share that overturns, of the members of each crack and the stacks that make the verdict; 0 or 1 of a "
-        "single run; empty where unknown",
-        lambda of: of.period_result.decision.share,
+        "single run; empty where unknown"
     )
 
 
-@dataclass(frozen=True)
-class PredictedCase(Identified):
-    """The closed form of one structure under one component."""
-
-    structure: str
-    prediction: "Prediction"
+def _of_structure(identity: Identity, period_result: "PeriodResult") -> dict[str, Any]:
+    """The cells of a `CaseRow`, by name."""
+    place = {"structure": period_result.structure, "support_period_s": period_result.support_period_s}
+    return {**vars(identity), **place}
 
 
-of_predicted_case = Columns(PredictedCase)
-of_predicted = of_predicted_case.part(lambda of: of.prediction)
+def _of_decided(identity: Identity, period_result: "PeriodResult") -> dict[str, Any]:
+    """The cells of a `DecidedRow`, by name."""
+    decided = {"verdict": period_result.verdict, "overturning_share": period_result.decision.share}
+    return {**_of_structure(identity, period_result), **decided}
 
 
 @row("predictions")
-class PredictionRow(ComponentRow[PredictedCase]):
+class PredictionRow(ComponentRow):
     """One row per structure and component: the closed form of its equivalent block, before anything is integrated."""
 
-    structure: str = of_predicted_case(STRUCTURE, lambda of: of.structure)
-    predicted_rotation_ratio: float = of_predicted(
-        "Rotation ratio of the equivalent block under the pulse",
-        lambda predicted: predicted.maximum.rotation_ratio,
-    )
-    regime: Regime = of_predicted("Regime of the closed form", lambda predicted: predicted.maximum.regime)
-    pulse_rank: int = of_predicted(
-        "Rank of the pulse that predicts among those of its method", lambda predicted: predicted.pulse_rank
-    )
-    amplitude_ratio: float = of_predicted(
-        "Amplitude ratio a = a_g/(gλ) of the pulse",
-        lambda predicted: predicted.amplitude_ratio,
-        equation="Eq. 16",
-    )
-    frequency_ratio: float = of_predicted(
-        "Circular frequency of the pulse over p",
-        lambda predicted: predicted.frequency_ratio,
-        equation="Eq. 16",
+    structure: str = column(STRUCTURE)
+    predicted_rotation_ratio: float = column("Rotation ratio of the equivalent block under the pulse")
+    regime: Regime = column("Regime of the closed form")
+    pulse_rank: int = column("Rank of the pulse that predicts among those of its method")
+    amplitude_ratio: float = column("Amplitude ratio a = a_g/(gλ) of the pulse", equation="Eq. 16")
+    frequency_ratio: float = column("Circular frequency of the pulse over p", equation="Eq. 16")
+
+
+def prediction_row(identity: Identity, structure: str, prediction: "Prediction") -> PredictionRow:
+    """Return the row of the closed form of one structure under one component."""
+    return PredictionRow(
+        **vars(identity),
+        structure=structure,
+        predicted_rotation_ratio=prediction.maximum.rotation_ratio,
+        regime=prediction.maximum.regime,
+        pulse_rank=prediction.pulse_rank,
+        amplitude_ratio=prediction.amplitude_ratio,
+        frequency_ratio=prediction.frequency_ratio,
     )
 
 
 # What became of it ----------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class ComparedCase(OfStructure):
-    """One case that gave a result."""
-
-    case: "CaseResult"
-
-    @cached_property
-    def side(self) -> "Side":
-        """The side of the mechanism of the row's crack that the pulse lifts first; without a pulse the positive one."""
-        from rocking.assessment.cracks import cracked  # as above: it loads what integrates
-
-        sides = cracked(self.period_result.scene.structure, self.case.crack).mechanism().sides
-        prediction = self.case.prediction
-        return sides[-1 if prediction is not None and prediction.pulse.amplitude > 0 else 0]
-
-    @property
-    def bearing_displacement(self) -> float:
-        """How far it moves below a floor, beam or vault under the record, m; nan where it overturns or is not known."""
-        from rocking.assessment.cracks import cracked  # as above: it loads what integrates
-
-        response = self.case.response
-        if response is None or not math.isfinite(response.rotation_ratio):
-            return math.nan
-        body = cracked(self.period_result.scene.structure, self.case.crack)
-        place = -1 if response.peak_side < 0 else 0
-        reached = response.rotation_ratio * body.mechanism().sides[place].critical_rotation
-        return float(body.linkages[place].moved_from_bearings(reached))
-
-    @property
-    def acts(self) -> Acts | None:
-        """When the pulse acts beside the fall of the integration."""
-        prediction, response = self.case.prediction, self.case.response
-        if prediction is None or response is None:
-            return None
-        pulse = prediction.pulse
-        p = prediction.block.frequency_parameter
-        return acts(
-            start=pulse.start_time, end=pulse.end_time, fall=response.fall_time, frequency_parameter=p
-        )
-
-
-of_case = Columns(ComparedCase)
-of_row_side = of_case.part(lambda of: of.side)
-of_printed = of_case.optional(lambda of: of.case.prediction.printed if of.case.prediction else None)
-of_prediction = of_case.optional(lambda of: of.case.prediction)
-of_response = of_case.optional(lambda of: of.case.response)
-of_block_response = of_case.optional(lambda of: of.case.responses.get(Method.BLOCK_ON_RECORD))
-of_pulse_response = of_case.optional(lambda of: of.case.responses.get(Method.MECHANISM_ON_PULSE))
-of_own_crack = of_case.optional(lambda of: of.case.statics)
-of_check = of_case.part(lambda of: of.case.check)
 
 
 _FIRST = (
@@ -205,137 +131,145 @@ _FIRST = (
 
 
 @row("comparison", first=_FIRST)
-class ComparisonRow(DecidedRow[ComparedCase]):
+class ComparisonRow(DecidedRow):
     """One row per structure: the closed form under the dominant pulse and the integration of the whole record.
 
     The columns from the impacts on are those of the integration.
     """
 
-    predicted_rotation_ratio: float = of_case(
-        "Rotation ratio of the equivalent block under the pulse", lambda of: of.case.predicted_rotation_ratio
-    )
-    integrated_rotation_ratio: float = of_case(
-        "Rotation ratio of the mechanism under the record", lambda of: of.case.integrated_rotation_ratio
-    )
-    within_factor_two: bool | None = of_case(
-        "Whether their ratio lies between 1/2 and 2",
-        lambda of: within_factor_two(
-            predicted=of.case.predicted_rotation_ratio, integrated=of.case.integrated_rotation_ratio
-        ),
-    )
-    agreement: Agreement = of_case(
-        "Closed form against integration: same outcome, too low or too high",
-        lambda of: agreement(
-            predicted=of.case.predicted_rotation_ratio, integrated=of.case.integrated_rotation_ratio
-        ),
-    )
-    printed_rotation_ratio: float = of_printed(
+    predicted_rotation_ratio: float = column("Rotation ratio of the equivalent block under the pulse")
+    integrated_rotation_ratio: float = column("Rotation ratio of the mechanism under the record")
+    within_factor_two: bool | None = column("Whether their ratio lies between 1/2 and 2")
+    agreement: Agreement = column("Closed form against integration: same outcome, too low or too high")
+    printed_rotation_ratio: float = column(
         "Rotation ratio of the paper's block under the pulse, as printed; INF where the radicand is negative, which is "
         "the paper's overturning; it may be negative, and holds in its regime alone",
-        lambda printed: printed.rotation_ratio,
         equation="Eq. 15",
     )
-    printed_holds: bool | None = of_printed(
+    printed_holds: bool | None = column(
         "Whether Eq. 15 holds there: no contact before the pulse ends, and largest, or overturning, after the first "
-        "impact; or nothing lifts it",
-        lambda printed: printed.holds,
+        "impact; or nothing lifts it"
     )
-    regime: Regime | None = of_prediction(
-        "Regime of the closed form", lambda closed_form: closed_form.maximum.regime
+    regime: Regime | None = column("Regime of the closed form")
+    uplift_multiplier: float = column(
+        "Uplift acceleration in g of the mechanism of the row", equation="Eq. 7"
     )
-    uplift_multiplier: float = of_row_side(
-        "Uplift acceleration in g of the mechanism of the row",
-        lambda side: side.uplift_multiplier,
-        equation="Eq. 7",
-    )
-    frequency_parameter_rad_s: float = of_row_side(
+    frequency_parameter_rad_s: float = column(
         "p of that mechanism, linearised about its critical rotation: that of the paper's block",
-        lambda side: side.frequency_parameter,
         equation="Eq. 11",
     )
-    critical_rotation_rad: float = of_row_side(
-        "Critical rotation of that mechanism", lambda side: side.critical_rotation
+    critical_rotation_rad: float = column("Critical rotation of that mechanism")
+    restitution: float = column("Its ratio of angular velocities after and before an impact")
+    block_on_record_rotation_ratio: float = column("Rotation ratio of the block under the record")
+    mechanism_on_pulse_rotation_ratio: float = column("Rotation ratio of the mechanism under the pulse")
+    pulse_rank: int | None = column("Rank of the pulse that predicts among those of its method")
+    amplitude_ratio: float = column("Amplitude ratio a = a_g/(gλ) of the pulse", equation="Eq. 16")
+    frequency_ratio: float = column("Circular frequency of the pulse over p", equation="Eq. 16")
+    impacts: int | None = column("Number of impacts in the integration")
+    crack: str = column(
+        "Crack to which the row belongs, where it is not the structure's own but the one that governs"
     )
-    restitution: float = of_row_side(
-        "Its ratio of angular velocities after and before an impact", lambda side: side.restitution
+    statics_predicted_rotation_ratio: float = column(
+        "In such a row, the closed form with the structure's own crack"
     )
-    block_on_record_rotation_ratio: float = of_block_response(
-        "Rotation ratio of the block under the record", lambda response: response.rotation_ratio
-    )
-    mechanism_on_pulse_rotation_ratio: float = of_pulse_response(
-        "Rotation ratio of the mechanism under the pulse", lambda response: response.rotation_ratio
-    )
-    pulse_rank: int | None = of_prediction(
-        "Rank of the pulse that predicts among those of its method",
-        lambda closed_form: closed_form.pulse_rank,
-    )
-    amplitude_ratio: float = of_prediction(
-        "Amplitude ratio a = a_g/(gλ) of the pulse",
-        lambda closed_form: closed_form.amplitude_ratio,
-        equation="Eq. 16",
-    )
-    frequency_ratio: float = of_prediction(
-        "Circular frequency of the pulse over p",
-        lambda closed_form: closed_form.frequency_ratio,
-        equation="Eq. 16",
-    )
-    impacts: int | None = of_response(
-        "Number of impacts in the integration", lambda response: response.impacts
-    )
-    crack: str = of_case(
-        "Crack to which the row belongs, where it is not the structure's own but the one that governs",
-        lambda of: of.case.crack,
-    )
-    statics_predicted_rotation_ratio: float = of_own_crack(
-        "In such a row, the closed form with the structure's own crack",
-        lambda case: case.predicted_rotation_ratio,
-    )
-    statics_integrated_rotation_ratio: float = of_own_crack(
-        "Likewise the mechanism under the record", lambda case: case.integrated_rotation_ratio
-    )
-    bearing_displacement_m: float = of_case(
+    statics_integrated_rotation_ratio: float = column("Likewise the mechanism under the record")
+    bearing_displacement_m: float = column(
         "Largest distance that it moves sideways below a floor, beam or vault under the record, from the bearing of "
-        "this; empty where it overturns",
-        lambda of: of.bearing_displacement,
+        "this; empty where it overturns"
     )
-    peak_time_s: float = of_response(
-        "Time of the largest rotation after the first sample", lambda response: response.peak_time
+    peak_time_s: float = column("Time of the largest rotation after the first sample")
+    fall_time_s: float = column("Time at which it passes its critical rotation where it overturns")
+    pulse_acts: Acts | None = column(
+        "Whether the pulse acts before, during or after that fall; empty without one. After it predicted none"
     )
-    fall_time_s: float = of_response(
-        "Time at which it passes its critical rotation where it overturns",
-        lambda response: response.fall_time,
+    fragile: bool | None = column(
+        "Whether a change of 1 % in the ground motion, or chaotic motion, decides the outcome"
     )
-    pulse_acts: Acts | None = of_case(
-        "Whether the pulse acts before, during or after that fall; empty without one. After it predicted none",
-        lambda of: of.acts,
+    lifting_friction: float = column("Friction that a contact needs as the structure lifts")
+    required_friction: float = column(
+        "Largest friction that a contact needs; INF where it carries no pressure"
     )
-    fragile: bool | None = of_response(
-        "Whether a change of 1 % in the ground motion, or chaotic motion, decides the outcome",
-        lambda response: response.fragile,
-    )
-    lifting_friction: float = of_check(
-        "Friction that a contact needs as the structure lifts", lambda check: check.lifting_friction
-    )
-    required_friction: float = of_check(
-        "Largest friction that a contact needs; INF where it carries no pressure",
-        lambda check: check.required_friction,
-    )
-    slides: bool | None = of_case(
-        "Whether a contact needs more friction than it has while it rocks",
-        lambda of: of.case.check.slides(of.period_result.scene.structure.joints.friction),
-    )
-    bounces: bool | None = of_check(
-        "Whether a contact lifts off, so that the model fails", lambda check: check.bounces
-    )
-    ties: str = of_check(
-        "Which ties yield or break on the way to the largest rotation", lambda check: check.ties
-    )
+    slides: bool | None = column("Whether a contact needs more friction than it has while it rocks")
+    bounces: bool | None = column("Whether a contact lifts off, so that the model fails")
+    ties: str = column("Which ties yield or break on the way to the largest rotation")
 
     @property
     def sees_fall(self) -> bool:
         """Whether the closed form falls with the integration, by a pulse that begins before the fall."""
         both_fall = self.predicted_rotation_ratio == self.integrated_rotation_ratio == math.inf
         return both_fall and self.pulse_acts is not Acts.AFTER
+
+
+def comparison_row(identity: Identity, period_result: "PeriodResult", case: "CaseResult") -> ComparisonRow:
+    """Return the row of one case that gave a result."""
+    from rocking.assessment.cracks import cracked  # as above: it loads what integrates
+
+    body = cracked(period_result.scene.structure, case.crack)
+    response, prediction, check = case.response, case.prediction, case.check
+    assert response is not None
+    # The side that the pulse lifts first; without a pulse the positive one.
+    side = body.mechanism().sides[-1 if prediction and prediction.pulse.amplitude > 0 else 0]
+    printed = prediction.printed if prediction else None
+    block = case.responses.get(Method.BLOCK_ON_RECORD)
+    under_pulse = case.responses.get(Method.MECHANISM_ON_PULSE)
+    both = {"predicted": case.predicted_rotation_ratio, "integrated": case.integrated_rotation_ratio}
+    return ComparisonRow(
+        **_of_decided(identity, period_result),
+        predicted_rotation_ratio=case.predicted_rotation_ratio,
+        integrated_rotation_ratio=case.integrated_rotation_ratio,
+        within_factor_two=within_factor_two(**both),
+        agreement=agreement(**both),
+        printed_rotation_ratio=printed.rotation_ratio if printed else math.nan,
+        printed_holds=printed.holds if printed else None,
+        regime=prediction.maximum.regime if prediction else None,
+        uplift_multiplier=side.uplift_multiplier,
+        frequency_parameter_rad_s=side.frequency_parameter,
+        critical_rotation_rad=side.critical_rotation,
+        restitution=side.restitution,
+        block_on_record_rotation_ratio=block.rotation_ratio if block else math.nan,
+        mechanism_on_pulse_rotation_ratio=under_pulse.rotation_ratio if under_pulse else math.nan,
+        pulse_rank=prediction.pulse_rank if prediction else None,
+        amplitude_ratio=prediction.amplitude_ratio if prediction else math.nan,
+        frequency_ratio=prediction.frequency_ratio if prediction else math.nan,
+        impacts=response.impacts,
+        crack=case.crack,
+        statics_predicted_rotation_ratio=case.statics.predicted_rotation_ratio if case.statics else math.nan,
+        statics_integrated_rotation_ratio=case.statics.integrated_rotation_ratio
+        if case.statics
+        else math.nan,
+        bearing_displacement_m=_moved_from_bearing(body, response),
+        peak_time_s=response.peak_time,
+        fall_time_s=response.fall_time,
+        pulse_acts=_acts(prediction, response.fall_time),
+        fragile=response.fragile,
+        lifting_friction=check.lifting_friction,
+        required_friction=check.required_friction,
+        slides=check.slides(period_result.scene.structure.joints.friction),
+        bounces=check.bounces,
+        ties=check.ties,
+    )
+
+
+def _moved_from_bearing(body: "Structure", response: "Response") -> float:
+    """How far it moves below a floor, beam or vault under the record, m; nan where it overturns."""
+    if not math.isfinite(response.rotation_ratio):
+        return math.nan
+    place = -1 if response.peak_side < 0 else 0
+    reached = response.rotation_ratio * body.mechanism().sides[place].critical_rotation
+    return float(body.linkages[place].moved_from_bearings(reached))
+
+
+def _acts(prediction: "Prediction | None", fall_time: float) -> Acts | None:
+    """When the pulse of a prediction acts beside the fall of the integration."""
+    if prediction is None:
+        return None
+    pulse = prediction.pulse
+    return acts(
+        start=pulse.start_time,
+        end=pulse.end_time,
+        fall=fall_time,
+        frequency_parameter=prediction.block.frequency_parameter,
+    )
 
 
 RATIO_COLUMNS = {
@@ -347,127 +281,56 @@ RATIO_COLUMNS = {
 """The columns of the comparison with the largest rotation by method, over the critical one; INF if it overturns."""
 
 
-of_decision = of_structure.part(lambda of: of.period_result.decision)
-of_ensemble = of_structure.part(lambda of: of.period_result.ensemble)
-of_statics = of_structure.optional(
-    lambda of: of.period_result.ensembles.reported_statics if of.period_result.ensembles else None
-)
-of_reserve = of_structure.optional(lambda of: of.period_result.reserve)
-of_stacks = of_structure.optional(lambda of: of.period_result.stacks)
-
-
 @row("verdicts")
-class VerdictRow(DecidedRow[OfStructure]):
+class VerdictRow(DecidedRow):
     """One row per record and structure: the decision over all components, and the numbers of the crack that governs.
 
     The component is that of the governing case. decision, reserve: what the row prints; the reserve is None where it
     was not computed.
     """
 
-    decision: Decision = of_structure.kept(lambda of: of.period_result.decision)
-    reserve: Reserve | None = of_structure.kept(lambda of: of.period_result.reserve)
-    share_low: float = of_decision(
-        "Least share that overturns, over the cracks and what failed or is not known",
-        lambda decision: decision.interval[0],
+    decision: Decision
+    reserve: Reserve | None
+    share_low: float = column("Least share that overturns, over the cracks and what failed or is not known")
+    share_high: float = column("Largest share that overturns, likewise")
+    why: str = column("Reason for the verdict")
+    warnings: tuple[Kind, ...] = column("Kinds of warning: what may make it worse")
+    would_settle: tuple[Kind, ...] = column("What would settle it, by kind")
+    overturning_members: int = column("Number of members that overturn")
+    members: int = column("Number of members that were followed; 0 without an ensemble")
+    failed_members: int = column("Number of members whose integration failed")
+    crack: str = column("Crack that governs, to which the numbers belong; empty where only one may form")
+    statics_crack: str = column("Crack of statics where another governs; of a known crack, the worst other")
+    statics_overturning_members: int | None = column("Members that overturn with that crack")
+    statics_members: int | None = column("Number of members with that crack")
+    rotation_ratio_low: float = column("5 % quantile of largest rotation over critical rotation")
+    rotation_ratio_median: float = column("Median of largest rotation over critical rotation")
+    rotation_ratio_high: float = column("95 % quantile of the same ratio; INF if it overturns")
+    rotation_ratio: float = column("Largest rotation over critical rotation as recorded; INF if it overturns")
+    friction_needed: float = column(
+        "Friction coefficient that a contact needs while it rocks, where it has less, of what (probably) stands"
     )
-    share_high: float = of_decision(
-        "Largest share that overturns, likewise", lambda decision: decision.interval[1]
+    direction: str = column("Direction of the largest rotation; empty where there is only one")
+    polarity: str = column("Sign of the motion of the largest rotation: as recorded, reversed; or empty")
+    peak_side: int | None = column(PEAK_SIDE)
+    reserve_low: float = column(
+        "Factor on the record at which 5 % of the members or of the runs of contact dynamics fall; empty: not reached"
     )
-    why: str = of_decision("Reason for the verdict", lambda decision: decision.why)
-    warnings: tuple[Kind, ...] = of_decision(
-        "Kinds of warning: what may make it worse",
-        lambda decision: tuple(warning.kind for warning in decision.warnings),
-    )
-    would_settle: tuple[Kind, ...] = of_decision(
-        "What would settle it, by kind",
-        lambda decision: tuple(warning.kind for warning in decision.would_settle),
-    )
-    overturning_members: int = of_ensemble(
-        "Number of members that overturn", lambda ensemble: ensemble.overturning_members
-    )
-    members: int = of_ensemble(
-        "Number of members that were followed; 0 without an ensemble", lambda ensemble: ensemble.members
-    )
-    failed_members: int = of_ensemble(
-        "Number of members whose integration failed", lambda ensemble: ensemble.failed_members
-    )
-    crack: str = of_structure(
-        "Crack that governs, to which the numbers belong; empty where only one may form",
-        lambda of: of.period_result.crack,
-    )
-    statics_crack: str = of_statics(
-        "Crack of statics where another governs; of a known crack, the worst other",
-        lambda crack: crack.description,
-    )
-    statics_overturning_members: int | None = of_statics(
-        "Members that overturn with that crack", lambda crack: crack.ensemble.overturning_members
-    )
-    statics_members: int | None = of_statics(
-        "Number of members with that crack", lambda crack: crack.ensemble.members
-    )
-    rotation_ratio_low: float = of_ensemble(
-        "5 % quantile of largest rotation over critical rotation",
-        lambda ensemble: ensemble.rotation_ratio_low,
-    )
-    rotation_ratio_median: float = of_ensemble(
-        "Median of largest rotation over critical rotation", lambda ensemble: ensemble.rotation_ratio_median
-    )
-    rotation_ratio_high: float = of_ensemble(
-        "95 % quantile of the same ratio; INF if it overturns", lambda ensemble: ensemble.rotation_ratio_high
-    )
-    rotation_ratio: float = of_structure(
-        "Largest rotation over critical rotation as recorded; INF if it overturns",
-        lambda of: of.period_result.rotation_ratio,
-    )
-    friction_needed: float = of_structure(
-        "Friction coefficient that a contact needs while it rocks, where it has less, of what (probably) stands",
-        lambda of: of.period_result.friction_needed,
-    )
-    direction: str = of_structure(
-        "Direction of the largest rotation; empty where there is only one",
-        lambda of: of.period_result.direction,
-    )
-    polarity: str = of_ensemble(
-        "Sign of the motion of the largest rotation: as recorded, reversed; or empty",
-        lambda ensemble: POLARITIES.get(ensemble.worst("polarity"), ""),
-    )
-    peak_side: int | None = of_structure(PEAK_SIDE, lambda of: of.period_result.peak_side)
-    reserve_low: float = of_reserve(
-        "Factor on the record at which 5 % of the members or of the runs of contact dynamics fall; empty: not reached",
-        lambda reserve: reserve.low,
-    )
-    reserve_median: float = of_reserve(
-        "Factor on the record at which half of these fall; empty: not reached",
-        lambda reserve: reserve.median,
-    )
-    reserve_high: float = of_reserve(
-        "Factor on the record at which 95 % of these fall; empty: not reached",
-        lambda reserve: reserve.high,
-    )
-    reserve_limit: float = of_reserve(
+    reserve_median: float = column("Factor on the record at which half of these fall; empty: not reached")
+    reserve_high: float = column("Factor on the record at which 95 % of these fall; empty: not reached")
+    reserve_limit: float = column(
         "Largest factor on the record that was tried; empty without a reserve (on a support it is searched for on the "
-        "ground and at the worst period)",
-        lambda reserve: reserve.limit,
+        "ground and at the worst period)"
     )
-    reserve_warnings: tuple[Kind, ...] = of_structure(
-        "Kinds of warning for which the reserve may be too high: what neither members nor runs follow",
-        lambda of: (
-            tuple(warning.kind for warning in of.period_result.reserve_warnings)
-            if of.period_result.reserve
-            else ()
-        ),
+    reserve_warnings: tuple[Kind, ...] = column(
+        "Kinds of warning for which the reserve may be too high: what neither members nor runs follow"
     )
-    decided_by: str = of_structure(
-        "What decides where the members disagree, with its share of the variance",
-        lambda of: of.period_result.decided_by,
+    decided_by: str = column("What decides where the members disagree, with its share of the variance")
+    stack_falls: int | None = column(
+        "Stacks of courses, or chains of stones, that fall in contact dynamics; empty: not run"
     )
-    stack_falls: int | None = of_stacks(
-        "Stacks of courses, or chains of stones, that fall in contact dynamics; empty: not run",
-        lambda stacks: stacks.falls,
-    )
-    stack_runs: int | None = of_stacks(
-        "Stacks or chains that were followed, over amplitudes, time steps and directions",
-        lambda stacks: stacks.runs,
+    stack_runs: int | None = column(
+        "Stacks or chains that were followed, over amplitudes, time steps and directions"
     )
 
     @property
@@ -475,6 +338,47 @@ class VerdictRow(DecidedRow[OfStructure]):
         """Key by which the worst of several comes last."""
         factor = self.reserve.low if self.reserve else math.nan
         return severity(self.decision, factor=factor, rotation_ratio=self.rotation_ratio)
+
+
+def verdict_row(identity: Identity, period_result: "PeriodResult") -> VerdictRow:
+    """Return the row of the decision over all components."""
+    decision, ensemble, reserve = period_result.decision, period_result.ensemble, period_result.reserve
+    ensembles, stacks = period_result.ensembles, period_result.stacks
+    statics = ensembles.reported_statics if ensembles else None
+    warnings = period_result.reserve_warnings if reserve else ()
+    return VerdictRow(
+        **_of_decided(identity, period_result),
+        decision=decision,
+        reserve=reserve,
+        share_low=decision.interval[0],
+        share_high=decision.interval[1],
+        why=decision.why,
+        warnings=tuple(warning.kind for warning in decision.warnings),
+        would_settle=tuple(warning.kind for warning in decision.would_settle),
+        overturning_members=ensemble.overturning_members,
+        members=ensemble.members,
+        failed_members=ensemble.failed_members,
+        crack=period_result.crack,
+        statics_crack=statics.description if statics else "",
+        statics_overturning_members=statics.ensemble.overturning_members if statics else None,
+        statics_members=statics.ensemble.members if statics else None,
+        rotation_ratio_low=ensemble.rotation_ratio_low,
+        rotation_ratio_median=ensemble.rotation_ratio_median,
+        rotation_ratio_high=ensemble.rotation_ratio_high,
+        rotation_ratio=period_result.rotation_ratio,
+        friction_needed=period_result.friction_needed,
+        direction=period_result.direction,
+        polarity=POLARITIES.get(ensemble.worst("polarity"), ""),
+        peak_side=period_result.peak_side,
+        reserve_low=reserve.low if reserve else math.nan,
+        reserve_median=reserve.median if reserve else math.nan,
+        reserve_high=reserve.high if reserve else math.nan,
+        reserve_limit=reserve.limit if reserve else math.nan,
+        reserve_warnings=tuple(warning.kind for warning in warnings),
+        decided_by=period_result.decided_by,
+        stack_falls=stacks.falls if stacks else None,
+        stack_runs=stacks.runs if stacks else None,
+    )
 
 
 def worst_period_each(verdicts: Iterable[VerdictRow]) -> list[VerdictRow]:
@@ -503,191 +407,131 @@ def counted_cases(
             yield case
 
 
-@dataclass(frozen=True)
-class CarriedStructure(OfStructure):
-    """One structure on a support of the list, under one component: where it stands and the motion there."""
-
-    floor: "Component"
-
-    @cached_property
-    def measures(self) -> FloorMeasures:
-        """The motion on the support over that of the ground."""
-        ground = (self.floor.ground or self.floor).accelerogram
-        period = self.period_result.support_period_s or 0.0
-        return self.period_result.scene.place.measures(period, ground=ground, there=self.floor.accelerogram)
-
-
-of_support = Columns(CarriedStructure)
-of_floor_measures = of_support.part(lambda of: of.measures)
-
-
 @row("supports")
-class SupportRow(DecidedRow[CarriedStructure]):
+class SupportRow(DecidedRow):
     """One row per component and structure on a support: the motion there, and the verdict over all components."""
 
-    support: str = of_support("Name of the support in the list", lambda of: of.period_result.scene.place.name)
-    floor_peak_acceleration_m_s2: float = of_floor_measures(
-        "Largest magnitude of the acceleration on the support", lambda measures: measures.peak_acceleration
-    )
-    amplification: float = of_floor_measures(
-        "Peak acceleration on the support over that of the ground", lambda measures: measures.amplification
-    )
-    floor_spectral_acceleration_m_s2: float = of_floor_measures(
-        "5 % floor spectrum at the period of the support", lambda measures: measures.spectral_acceleration
-    )
-    code_spectral_acceleration_m_s2: float = of_floor_measures(
-        "The same by the code's formula from the ground's spectrum",
-        lambda measures: measures.code_spectral_acceleration,
-        equation="C7.2.5",
+    support: str = column("Name of the support in the list")
+    floor_peak_acceleration_m_s2: float = column("Largest magnitude of the acceleration on the support")
+    amplification: float = column("Peak acceleration on the support over that of the ground")
+    floor_spectral_acceleration_m_s2: float = column("5 % floor spectrum at the period of the support")
+    code_spectral_acceleration_m_s2: float = column(
+        "The same by the code's formula from the ground's spectrum", equation="C7.2.5"
     )
 
 
-def structures_carried(
-    result: "RecordResult", identities: Mapping[str, Identity]
-) -> Iterator[CarriedStructure]:
-    """Yield every structure on a support under each component. identities: of the components, by name."""
+def support_rows(result: "RecordResult", identities: Mapping[str, Identity]) -> Iterator[SupportRow]:
+    """Yield the row of every structure on a support under each component. identities: of the components, by name."""
     for period_result in (period_result for scene in result.carried for period_result in scene.periods):
         if period_result.support is not None and period_result.support not in result.floors:
             continue  # the record could not be taken there, as the table of failures says
+        place = period_result.scene.place
         for component, floor in result.components_under(period_result).items():
-            yield CarriedStructure(identities[component], period_result, floor)
-
-
-@dataclass(frozen=True)
-class VariedCase(OfStructure):
-    """One case with another crack or another processing."""
-
-    variation: "Variation"
-
-
-of_variation = Columns(VariedCase)
+            ground = (floor.ground or floor).accelerogram
+            period = period_result.support_period_s or 0.0
+            measures = place.measures(period, ground=ground, there=floor.accelerogram)
+            yield SupportRow(
+                **_of_decided(identities[component], period_result),
+                support=place.name,
+                floor_peak_acceleration_m_s2=measures.peak_acceleration,
+                amplification=measures.amplification,
+                floor_spectral_acceleration_m_s2=measures.spectral_acceleration,
+                code_spectral_acceleration_m_s2=measures.code_spectral_acceleration,
+            )
 
 
 @row("variations")
-class VariationRow(CaseRow[VariedCase]):
+class VariationRow(CaseRow):
     """One row per crack that may form, and one per processing of the record: the case with this changed alone."""
 
-    crack: str = of_variation(
-        "Crack and its place; empty for the crack of the list", lambda of: of.variation.crack
-    )
-    position_m: float = of_variation(
-        "Height of the crack above the base; empty where it has none", lambda of: of.variation.position
-    )
-    processing: str = of_variation(
-        "Processing of the record; empty for that of the settings", lambda of: of.variation.processing
-    )
-    predicted_rotation_ratio: float = of_variation(
-        "Rotation ratio of its equivalent block under the pulse",
-        lambda of: of.variation.predicted_rotation_ratio,
-    )
-    integrated_rotation_ratio: float = of_variation(
-        "Rotation ratio of its mechanism under the record", lambda of: of.variation.integrated_rotation_ratio
-    )
+    crack: str = column("Crack and its place; empty for the crack of the list")
+    position_m: float = column("Height of the crack above the base; empty where it has none")
+    processing: str = column("Processing of the record; empty for that of the settings")
+    predicted_rotation_ratio: float = column("Rotation ratio of its equivalent block under the pulse")
+    integrated_rotation_ratio: float = column("Rotation ratio of its mechanism under the record")
+
+
+def variation_rows(
+    identity: Identity, period_result: "PeriodResult", case: "CaseResult"
+) -> Iterator[VariationRow]:
+    """Yield the row of each variation of a case."""
+    for variation in case.variations:
+        yield VariationRow(
+            **_of_structure(identity, period_result),
+            crack=variation.crack,
+            position_m=variation.position,
+            processing=variation.processing,
+            predicted_rotation_ratio=variation.predicted_rotation_ratio,
+            integrated_rotation_ratio=variation.integrated_rotation_ratio,
+        )
 
 
 # What comes with the results ---------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class CandidateCase(OfStructure):
-    """One mechanism of a structure, and one of the heights at which something holds it; None where nothing does.
-
-    governs: whether the numbers of the case are its own. followed: its members; None where statics alone lists it.
-    check: along its run as recorded; None where that was not followed. place: of the hold, from 0.
-    """
-
-    candidate: Candidate
-    governs: bool
-    followed: "FollowedCrack | None" = None
-    check: "ModelCheck | None" = None
-    hold: Reaction | None = None
-    place: int = 0
-
-    @property
-    def at_rest(self) -> float:
-        """The force of the hold as the mechanism starts, N per metre; nan where it never does."""
-        starts = math.isfinite(self.candidate.uplift_multiplier)
-        return float(self.hold.force[0]) if self.hold is not None and starts else math.nan
-
-    @property
-    def largest(self) -> float:
-        """The largest force of the hold over the motion, N per metre; nan where it was not followed."""
-        forces = self.check.holding if self.check else ()
-        return forces[self.place] if self.hold is not None and self.place < len(forces) else math.nan
-
-
-of_candidate_case = Columns(CandidateCase)
-of_candidate = of_candidate_case.part(lambda of: of.candidate)
-of_side = of_candidate_case.optional(lambda of: None if of.candidate.refusal else of.candidate.side)
-of_members = of_candidate_case.optional(lambda of: of.followed.ensemble if of.followed else None)
-of_hold = of_candidate_case.optional(lambda of: of.hold)
-
-
 @row("mechanisms")
-class MechanismRow(CaseRow[CandidateCase]):
+class MechanismRow(CaseRow):
     """One row per mechanism in which a structure may fall, and per height at which something holds it back.
 
     Forces are N per metre of wall, against what moves outwards positive.
     """
 
-    mechanism: str = of_candidate("What it does, in words", lambda candidate: candidate.name)
-    crack: str = of_candidate(
-        "What opens and where, as in the other tables", lambda candidate: candidate.description
+    mechanism: str = column("What it does, in words")
+    crack: str = column("What opens and where, as in the other tables")
+    counts: bool = column("Whether it takes part in the verdict, where it is followed")
+    governs: bool = column("Whether it governs, so that the numbers of verdicts.csv are its own")
+    static_multiplier: float = column(
+        "Acceleration in g at which limit analysis lets it start, with ties at the force at which they yield"
     )
-    counts: bool = of_candidate(
-        "Whether it takes part in the verdict, where it is followed", lambda candidate: candidate.counts
+    frequency_parameter_rad_s: float = column("p; empty where its motion cannot be followed")
+    critical_rotation_rad: float = column("Critical rotation, likewise")
+    overturning_members: int | None = column("Members that overturn in it; empty where it was not followed")
+    members: int | None = column("Members that were followed in it")
+    hold: str = column("What holds it at a height: tie, floor or top; empty: nothing")
+    hold_height_m: float = column("That height above the ground")
+    hold_force_at_rest_n_per_m: float = column(
+        "Force there as the mechanism starts; empty where ties keep it shut"
     )
-    governs: bool = of_candidate_case(
-        "Whether it governs, so that the numbers of verdicts.csv are its own", lambda of: of.governs
-    )
-    static_multiplier: float = of_candidate(
-        "Acceleration in g at which limit analysis lets it start, with ties at the force at which they yield",
-        lambda candidate: candidate.uplift_multiplier,
-    )
-    frequency_parameter_rad_s: float = of_side(
-        "p; empty where its motion cannot be followed", lambda side: side.frequency_parameter
-    )
-    critical_rotation_rad: float = of_candidate(
-        "Critical rotation, likewise", lambda candidate: candidate.critical_rotation
-    )
-    overturning_members: int | None = of_members(
-        "Members that overturn in it; empty where it was not followed",
-        lambda ensemble: ensemble.overturning_members,
-    )
-    members: int | None = of_members("Members that were followed in it", lambda ensemble: ensemble.members)
-    hold: str = of_hold(
-        "What holds it at a height: tie, floor or top; empty: nothing", lambda hold: hold.kind
-    )
-    hold_height_m: float = of_hold("That height above the ground", lambda hold: hold.height)
-    hold_force_at_rest_n_per_m: float = of_candidate_case(
-        "Force there as the mechanism starts; empty where ties keep it shut", lambda of: of.at_rest
-    )
-    largest_hold_force_n_per_m: float = of_candidate_case(
+    largest_hold_force_n_per_m: float = column(
         "Largest force there over the motion as recorded, without the impacts of the wall; with them it is about 2.8 "
-        "times the static force (1.9 to 4.8 in eight of ten walls)",
-        lambda of: of.largest,
+        "times the static force (1.9 to 4.8 in eight of ten walls)"
     )
 
 
-def candidate_cases(period_result: "PeriodResult", identity: Identity) -> Iterator[CandidateCase]:
-    """Yield every mechanism of a structure with each of its holds, and what was found of it; none without a result."""
+def mechanism_rows(identity: Identity, period_result: "PeriodResult") -> Iterator[MechanismRow]:
+    """Yield the rows of every mechanism of a structure, one for each of its holds; none without a result."""
     if period_result.worst is None:
         return
     from rocking.assessment.cracks import mechanisms_of  # as above: it loads what integrates
 
-    followed = (
-        {crack.description: crack for crack in period_result.ensembles.followed}
-        if period_result.ensembles
-        else {}
-    )
+    ensembles = period_result.ensembles
+    followed = {crack.description: crack for crack in ensembles.followed} if ensembles else {}
     family = mechanisms_of(period_result.scene.structure)
     for candidate in family:
         only = candidate is family[0]  # which has no name where no other one may form
         own = followed.get(candidate.description) or (followed.get("") if only else None)
-        governs = candidate.description == period_result.crack or (only and not period_result.crack)
         check = period_result.check_of(candidate)
+        forces = check.holding if check else ()
+        starts = math.isfinite(candidate.uplift_multiplier)
         for place, hold in enumerate(candidate.reactions or (None,)):
-            yield CandidateCase(identity, period_result, candidate, governs, own, check, hold, place)
+            yield MechanismRow(
+                **_of_structure(identity, period_result),
+                mechanism=candidate.name,
+                crack=candidate.description,
+                counts=candidate.counts,
+                governs=candidate.description == period_result.crack or (only and not period_result.crack),
+                static_multiplier=candidate.uplift_multiplier,
+                frequency_parameter_rad_s=math.nan
+                if candidate.refusal
+                else candidate.side.frequency_parameter,
+                critical_rotation_rad=candidate.critical_rotation,
+                overturning_members=own.ensemble.overturning_members if own else None,
+                members=own.ensemble.members if own else None,
+                hold=hold.kind if hold else "",
+                hold_height_m=hold.height if hold else math.nan,
+                hold_force_at_rest_n_per_m=float(hold.force[0]) if hold and starts else math.nan,
+                largest_hold_force_n_per_m=forces[place] if hold and place < len(forces) else math.nan,
+            )
 
 
 @row()
@@ -876,12 +720,8 @@ def rows_of_record(
         for period_result, case in result.cases(component):
             with _as_failures(failures, identity, period_result):
                 if case.response is not None:
-                    compared = ComparedCase(identity, period_result, case)
-                    comparison.append(ComparisonRow.of(compared))
-                variations += [
-                    VariationRow.of(VariedCase(identity, period_result, variation))
-                    for variation in case.variations
-                ]
+                    comparison.append(comparison_row(identity, period_result, case))
+                variations += variation_rows(identity, period_result, case)
             failures += [
                 _failed(identity, period_result, failure.stage, failure.message) for failure in case.failures
             ]
@@ -891,13 +731,13 @@ def rows_of_record(
         identity = by_component[period_result.worst.component] if period_result.worst else identities[0]
         with _as_failures(failures, identity, period_result):
             identity = replace(identity, component=period_result.component)
-            verdicts.append(VerdictRow.of(OfStructure(identity, period_result)))
+            verdicts.append(verdict_row(identity, period_result))
         with _as_failures(failures, identity, period_result):
-            mechanisms += [MechanismRow.of(case) for case in candidate_cases(period_result, identity)]
+            mechanisms += mechanism_rows(identity, period_result)
     components = list(zip(identities, result.components, strict=True))
     return RecordRows(
-        record=[RecordRow.of(ReadComponent(*component, licence, epicentre)) for component in components],
-        pulses=[PulseRow.of(found) for component in components for found in pulses_found(*component)],
+        record=[record_row(*component, licence, epicentre) for component in components],
+        pulses=[row for component in components for row in pulse_rows(*component)],
         comparison=comparison,
         variations=variations,
         failures=failures,
@@ -907,5 +747,5 @@ def rows_of_record(
         ],
         verdicts=verdicts,
         mechanisms=mechanisms,
-        supports=[SupportRow.of(support) for support in structures_carried(result, by_component)],
+        supports=[*support_rows(result, by_component)],
     )

@@ -16,20 +16,22 @@ from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.decide import Decision
 from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
+from rocking.assessment.motions import Component, HorizontalMotion, pulses_of
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import (
     ComparisonRow,
     FailureRow,
     Identity,
-    OfStructure,
     VerdictRow,
+    verdict_row,
 )
 from rocking.assessment.scene import Scene
-from rocking.assessment.settings import EnsembleSettings
+from rocking.assessment.settings import EnsembleSettings, PredictingPulse
 from rocking.errors import StructureError
 from rocking.motion.response import Response
+from rocking.records import Accelerogram
 from rocking.structures import Block, Outcome
-from rocking.tables.rows import Row, empty
+from rocking.tables.rows import Row
 
 R = TypeVar("R", bound=Row)
 
@@ -54,7 +56,8 @@ def filled(row_class: type[R], **values: Any) -> R:
     """A row of `values`; what is left out is empty."""
     for column in row_class.table.columns:
         if values.get(column.name) is None:
-            values[column.name] = empty(column)
+            of_type = {float: math.nan, str: "", tuple: ()}
+            values[column.name] = None if column.optional else of_type.get(column.holds)
     return row_class(**values)
 
 
@@ -117,11 +120,9 @@ def decided(decision: Decision, reserve: Reserve | None = None, **values: Any) -
 def verdicts(stations: Sequence[PeriodResult], record: str = "a") -> list[VerdictRow]:
     """Their rows."""
     return [
-        VerdictRow.of(
-            OfStructure(
-                Identity(record=record, component=station.component, record_sha256="", settings_sha256=""),
-                station,
-            )
+        verdict_row(
+            Identity(record=record, component=station.component, record_sha256="", settings_sha256=""),
+            station,
         )
         for station in stations
     ]
@@ -131,3 +132,10 @@ def failure(component: str, structure: str = "pier", message: str = "No.", recor
     return FailureRow(
         record=record, component=component, structure=structure, stage="responses", message=message
     )
+
+
+def component_of(
+    accelerogram: Accelerogram, settings: PredictingPulse, vertical: Accelerogram | None = None
+) -> Component:
+    """Return a component that stands alone with its pulses."""
+    return pulses_of(accelerogram, settings, HorizontalMotion()).component_of(accelerogram, vertical)

@@ -13,18 +13,16 @@ from rocking.assessment.assessor import Assessor, with_histories
 from rocking.assessment.case import CaseResult, PeriodResult
 from rocking.assessment.inputs import CaseInputs
 from rocking.assessment.methods import NEGLIGIBLE, Method, agreement, ratio, rests, rocks, within_factor_two
-from rocking.assessment.motions import Component, HorizontalMotion, component_of, horizontal_motions
+from rocking.assessment.motions import Component, HorizontalMotion, horizontal_motions
 from rocking.assessment.one_case import compute_case, predict
 from rocking.assessment.rows import (
     RATIO_COLUMNS,
-    ComparedCase,
     ComparisonRow,
     Identity,
-    PulseRow,
-    ReadComponent,
-    RecordRow,
     capacity_rows,
-    pulses_found,
+    comparison_row,
+    pulse_rows,
+    record_row,
 )
 from rocking.assessment.scene import Scene, on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings, PredictingPulse
@@ -33,6 +31,7 @@ from rocking.pulses import PULSE_METHODS, Pulse, PulseAnalysis, PulseEvidence, e
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maximum
 from rocking.structures import Block, Facade, Outcome
+from tests.unit.assessment.made_rows import component_of
 
 STEP = 0.01
 PULSE = Pulse(amplitude=3.0, circular_frequency=2 * np.pi / 0.8, start_time=2.0)
@@ -58,7 +57,7 @@ def assessed(record: Accelerogram, settings: AssessmentSettings = SETTINGS, vert
 
 def compared(case: CaseResult) -> ComparisonRow:
     station = PeriodResult.of(Scene("block", BLOCK), {case.component: case})
-    return ComparisonRow.of(ComparedCase(IDENTITY, station, case))
+    return comparison_row(IDENTITY, station, case)
 
 
 @pytest.fixture(scope="module")
@@ -74,7 +73,7 @@ def test_a_record_that_is_one_pulse_is_predicted_by_its_pulse(case):
 
 def test_the_ranked_rows_of_pulses_are_the_alternatives_in_their_order():
     component = component_of(RECORD, SETTINGS.pulse)
-    rows = [PulseRow.of(found) for found in pulses_found(IDENTITY, component)]
+    rows = pulse_rows(IDENTITY, component)
     rows = [row for row in rows if row.ranked]
     assert [row.pulse for row in rows] == [evidence.pulse for evidence in component.analysis.ranked]
     assert [row.rank for row in rows] == list(range(1, len(rows) + 1)) and rows[0].gain_ratio == 1
@@ -230,7 +229,7 @@ def row_of(record: Accelerogram, motion: HorizontalMotion, dominant: Pulse | Non
     if dominant is not None:
         evidence = PulseEvidence(pulse=dominant, gain=1.0, explained_energy=0.5, phase=0.0)
         analysis = PulseAnalysis(record, (evidence,), (), (), (0.1, 5.0))
-    return RecordRow.of(ReadComponent(IDENTITY, Component(record, vertical, motion, analysis, ()), ""))
+    return record_row(IDENTITY, Component(record, vertical, motion, analysis, ()))
 
 
 def component(share: float, name: str, azimuth: float | None = None, **changes) -> Accelerogram:

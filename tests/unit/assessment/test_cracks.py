@@ -10,17 +10,16 @@ import pytest
 import rocking
 from rocking.assessment import contacts
 from rocking.assessment.assessor import Assessor
-from rocking.assessment.cracks import cracks, ensemble_over_cracks, slides_at
+from rocking.assessment.cracks import crack_named, cracks, ensemble_over_cracks, slides_at
 from rocking.assessment.decide import Verdict, decide
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.evidence import walls
 from rocking.assessment.evidence.walls import tie_swing
 from rocking.assessment.inputs import CaseInputs
 from rocking.assessment.kinds import AssessmentKind
-from rocking.assessment.motions import GroundMotions, Motion, component_of, processed
+from rocking.assessment.motions import GroundMotions, Motion, processed
 from rocking.assessment.one_case import (
     compute_case,
-    governing_crack,
     other_cracks,
     other_processings,
     predict,
@@ -35,6 +34,7 @@ from rocking.records import Accelerogram
 from rocking.structures import Arch, Block, Facade, LoadedWall, Spire, Wall
 from rocking.structures.joints import Joints
 from rocking.structures.structure import AS_DESCRIBED
+from tests.unit.assessment.made_rows import component_of
 
 STEP, TIMES = 0.01, np.arange(0, 4, 0.01)
 SPIRE = Spire(width=3.0, height=15.0, wall_thickness=0.3)
@@ -174,8 +174,8 @@ def test_what_slides_first_is_followed_as_if_it_lifted_and_makes_no_word():
 def test_the_crack_that_governs_is_found_by_its_description():
     several = cracks(WALL)
     assert len(several) > 3
-    assert all(governing_crack(WALL, part.description) is part for part in several)
-    assert governing_crack(WALL, AS_DESCRIBED) is several[0]
+    assert all(crack_named(WALL, part.description) is part for part in several)
+    assert crack_named(WALL, AS_DESCRIBED) is several[0]
 
 
 def test_beside_a_known_crack_that_overturns_the_worst_other_is_told_and_followed_no_farther():

@@ -54,7 +54,7 @@ def test_a_list_says_which_structure_a_variant_is_of(tmp_path):
 
 
 def test_each_variant_has_its_difference_to_the_first(made):
-    first, thicker = (VariantRow.of(row) for row in made["wall"])
+    first, thicker = made["wall"]
     assert (first.variant, thicker.variant) == ("wall", "thicker")
     assert math.isnan(first.share_difference) and math.isnan(first.reserve_ratio)
     assert thicker.share_difference == pytest.approx(16 / 64 - 48 / 64)
@@ -119,9 +119,10 @@ def test_a_difference_within_the_error_of_the_members_is_not_shown(made):
     def with_share(variant, share, **counts):
         row = replace(variant.conclusion.row, **counts)
         row = replace(row, decision=replace(row.decision, share=share))
-        return replace(variant, conclusion=replace(variant.conclusion, row=row))
+        return replace(variant.conclusion, row=row)
 
     base = with_share(first, 0.75, **few)
-    near = replace(with_share(own, 0.70, members=1024, overturning_members=677), first=base)
-    far = replace(with_share(own, 0.25, members=1024, overturning_members=256), first=base)
+    near = with_share(own, 0.70, members=1024, overturning_members=677)
+    far = with_share(own, 0.25, members=1024, overturning_members=256)
+    near, far = (variants(GROUPS, [base, other])["wall"][1] for other in (near, far))
     assert not near.shows_difference and far.shows_difference

@@ -23,10 +23,10 @@ from tests.unit.study.made_jobs import keep_nothing, outcomes_in, worked
 from tests.unit.study.test_job import _record, _study
 
 FUNCTIONS = {
-    "rocking.assessment.assessor": ("compute_prediction", "governing_crack", "cracked"),
+    "rocking.assessment.assessor": ("compute_prediction", "crack_named", "cracked"),
     "rocking.assessment.one_case": ("check_model", "ensemble_over_cracks", "other_cracks"),
     StructureRow.__module__: ("crushing",),
-    rows_of_record.__module__: ("candidate_cases",),
+    rows_of_record.__module__: ("mechanism_rows",),
 }
 METHODS = ("mechanism", "candidates", "contact_forces", "capacity_curve")
 PLACES = [
