@@ -14,7 +14,7 @@ from rocking.assessment.case import (
     RecordResult,
     SceneResult,
 )
-from rocking.assessment.cracks import cracked, slides_at
+from rocking.assessment.cracks import crack_named, cracked, slides_at
 from rocking.assessment.inputs import (
     CaseInputs,
     Inputs,
@@ -40,7 +40,6 @@ from rocking.assessment.one_case import (
     compute_pulses,
     compute_reserve,
     count_motions,
-    governing_crack,
     predict,
 )
 from rocking.assessment.reserve import Reserve
@@ -442,7 +441,7 @@ class Assessor:
             return period_result
         structure = period_result.scene.structure
         description = case.ensembles.governing.description
-        crack = governing_crack(structure, description)
+        crack = crack_named(structure, description)
         loss = period_result.scene.terms.support_loss
         # Of what slides before it lifts nothing can be told at any factor.
         slides = not isnan(slides_at(crack)) and not crack.bulges

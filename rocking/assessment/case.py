@@ -430,7 +430,7 @@ class PeriodResult:
         shares = [case.contact for case in self.every_case if case.contact is not None]
         falls = sum(share.falls for share in shares)
         runs = sum(share.runs for share in shares)
-        return ContactShare(falls=falls, runs=runs, reason=shares[0].reason) if runs else None
+        return ContactShare(falls=falls, runs=runs) if runs else None
 
     @property
     def verdict(self) -> Verdict:

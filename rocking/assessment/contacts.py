@@ -7,7 +7,7 @@ bounds (theory: section 11). "Stands" is then not said.
 
 import math
 from collections.abc import Sequence
-from contextlib import closing
+from contextlib import closing, suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -23,6 +23,7 @@ from rocking.errors import RockingError
 from rocking.records import Accelerogram
 from rocking.signal.measures import peak_velocity
 from rocking.structures import Structure
+from rocking.structures.leaves import parts_of
 from rocking.structures.stack import COURSES, Stack
 from rocking.structures.stones import Stones
 
@@ -60,13 +61,12 @@ MANY_COURSES = 12
 class ContactShare:
     """The number of stacks of courses, or of chains of stones, that fall, of those that contact dynamics followed.
 
-    falls, runs: over amplitudes, time steps, directions and signs, as far as they were followed. reason: why none was;
-    "" where they were.
+    falls, runs: over amplitudes, time steps, directions and signs, as far as they were followed; 0 of one rigid body
+    and of what cannot be laid.
     """
 
     falls: int = 0
     runs: int = 0
-    reason: str = ""
 
 
 @lru_cache(maxsize=256)
@@ -75,7 +75,7 @@ def stackable(structure: Structure) -> bool:
 
     Of a wall whose leaves may part, all of them together and each of them.
     """
-    numbers = [_courses_of(part) for part in _parts(structure)]
+    numbers = [_courses_of(part) for _, part in parts_of(structure)]
     return all(numbers) and max(numbers) > 1
 
 
@@ -85,11 +85,6 @@ def _courses_of(structure: Structure) -> int:
         return _laid(structure)[0].count
     except RockingError:
         return 0
-
-
-def _parts(structure: Structure) -> list[Structure]:
-    """What falls by itself."""
-    return [structure, *(leaf for _, leaf in structure.leaves_alone)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,14 +122,12 @@ def contact_share(
     verdict; the share of all is asked else.
     """
     settings = settings or AssessmentSettings()
-    worst = ContactShare(reason="one rigid body moves as its mechanism does, whose members say more")
-    try:
+    worst = ContactShare()
+    with suppress(RockingError):
         for draws in draws_of_parts(structure, motions, settings, runs):
             own = _share_of(draws, settings, until_sure)
             if not worst.runs or own.falls * worst.runs > worst.falls * own.runs:
                 worst = own
-    except RockingError as error:
-        return ContactShare(reason=str(error))
     return worst
 
 
@@ -157,7 +150,7 @@ def draws_of_parts(
     structure: Structure, motions: GroundMotions, settings: AssessmentSettings, runs: int
 ) -> list[list[Draw]]:
     """Return the draws of each part that is more than one body. Raises RockingError for one that cannot be laid."""
-    laid = [(part, _laid(part)) for part in _parts(structure)]
+    laid = [(part, _laid(part)) for _, part in parts_of(structure)]
     return [_draws(part, stacks, motions, settings, runs) for part, stacks in laid if stacks[0].count > 1]
 
 

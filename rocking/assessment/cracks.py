@@ -228,19 +228,16 @@ def never_overturns_because(structure: Structure) -> str:
     return "" if one_can else reasons[0]
 
 
+def crack_named(structure: Structure, description: str) -> Candidate:
+    """Return the crack of this description; the first one where none has it, as where only one may form."""
+    several = cracks(structure)
+    return next((candidate for candidate in several if candidate.description == description), several[0])
+
+
 def cracked(structure: Structure, description: str) -> Structure:
     """Return the structure with the crack of this description; itself where none of its cracks has it."""
-    described = (
-        candidate.structure for candidate in cracks(structure) if candidate.description == description
-    )
-    return next(described, structure) if description else structure
-
-
-def part_cracked(structure: Structure, description: str) -> str:
-    """Return the leaf that falls alone with the crack of this description, "" where it is no leaf's."""
-    return next(
-        (candidate.part for candidate in cracks(structure) if candidate.description == description), ""
-    )
+    crack = crack_named(structure, description)
+    return crack.structure if description and crack.description == description else structure
 
 
 def ensemble_over_cracks(

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rocking.assessment.decide import FAR, CrackFacts
+from rocking.assessment.decide import CrackFacts
 from rocking.assessment.methods import NEGLIGIBLE
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import SIZES, EnsembleSettings
@@ -256,11 +256,6 @@ class Ensemble:
             farthest=float(self._followed.max()) if self.members else np.nan,
         )
 
-    @property
-    def far(self) -> bool:
-        """Whether all members stay far from overturning."""
-        return bool(self.members and not self.failed_members and self._followed.max() <= FAR)
-
     def overturning_beyond(self, rotation_ratio: float) -> "Ensemble":
         """Return it with each member that rotates further counted as one that overturns."""
         ratios = np.where(self.rotation_ratios > rotation_ratio, np.inf, self.rotation_ratios)
@@ -318,7 +313,7 @@ def ensemble(
 
     members = follow(points[:FIRST])
     rest = bool(np.all(members.rotation_ratios <= NEGLIGIBLE))
-    if rest or (verdict_only and members.far):
+    if rest or (verdict_only and not members.facts().share_error):
         return members
 
     followed = max(settings.size, FIRST)

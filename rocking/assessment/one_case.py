@@ -12,11 +12,7 @@ from functools import lru_cache, partial
 from time import process_time
 
 from rocking.assessment.case import CaseResult, Failure, Prediction, Variation
-from rocking.assessment.cracks import (
-    counting_cracks,
-    cracks,
-    ensemble_over_cracks,
-)
+from rocking.assessment.cracks import counting_cracks, crack_named, ensemble_over_cracks
 from rocking.assessment.evidence import gathered
 from rocking.assessment.evidence.asked import Asked
 from rocking.assessment.falls import reserve
@@ -43,7 +39,6 @@ from rocking.pulses import Pulse, PulseEvidence, predicting_pulse
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_as_printed, predict_maximum
 from rocking.structures import Mechanism, Outcome, Structure
-from rocking.structures.structure import Candidate
 
 
 @dataclass
@@ -328,7 +323,7 @@ def count_motions(inputs: PairInputs, clock: Clock) -> int:
 
 def compute_reserve(inputs: ReserveInputs, clock: Clock) -> Reserve:
     """Return the reserve of the crack of a structure that governs. Raises RockingError where it cannot be followed."""
-    crack = governing_crack(inputs.structure, inputs.crack)
+    crack = crack_named(inputs.structure, inputs.crack)
     with clock.stage("reserve"):
         motions = ground_motions(inputs.motion, inputs.settings.ensemble.processing)
         return reserve(
@@ -339,9 +334,3 @@ def compute_reserve(inputs: ReserveInputs, clock: Clock) -> Reserve:
             support_loss=inputs.support_loss,
             share=inputs.share,
         )
-
-
-def governing_crack(structure: Structure, description: str) -> Candidate:
-    """Return the crack of this description; the first one where none has it, as where only one may form."""
-    several = cracks(structure)
-    return next((crack for crack in several if crack.description == description), several[0])

@@ -20,7 +20,7 @@ from rocking.assessment.conclusion import (
     fallen_in_one_run,
     to_check,
 )
-from rocking.assessment.cracks import cracked, crushing_factor, part_cracked
+from rocking.assessment.cracks import crack_named, cracked, crushing_factor
 from rocking.assessment.decide import ORDER, Verdict
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.methods import Agreement, agreement
@@ -479,10 +479,11 @@ def _beside_the_word(conclusion: Conclusion, structure: Structure | None) -> str
 
 def _turned(row: VerdictRow, structure: Structure) -> Picture:
     """A structure with the crack that governs, turned to the side of its largest rotation."""
+    crack = crack_named(structure, row.crack)
     broken = cracked(structure, row.crack)
     sign = -1 if row.peak_side == -1 else 1
     side = broken.mechanism().sides[0 if sign > 0 else -1]
-    rest = beside(structure, part_cracked(structure, row.crack))
+    rest = beside(structure, crack.part if crack.description == row.crack else "")
     shapes = sketch(broken, sign * _DRAWN * side.critical_rotation, *_ROOM, rest=rest)
     return drawn_by_hand(shapes, *_ROOM, f"{row.structure}, turned, and at rest.")
 

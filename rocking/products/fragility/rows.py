@@ -90,25 +90,19 @@ def fragility_rows(
         *(curve.levels, curve.probability, curve.probability_low, curve.probability_high),
         curve.lognormal,
     )
-    for place, (level, probability, low, high, lognormal) in enumerate(np.array(along).T.tolist()):
+    for level, probability, low, high, lognormal in np.array(along).T.tolist():
         yield FragilityRow(
             structure=structure,
             support_period_s=support_period,
             intensity_measure=curve.measure,
             threshold=curve.threshold,
             level=level,
-            stations=_stations_reaching(curve, place),
+            stations=curve.reaching(level),
             probability=probability,
             probability_low=low,
             probability_high=high,
             lognormal=lognormal,
         )
-
-
-def _stations_reaching(curve: Fragility, place: int) -> int:
-    """How many stations have a record that reaches the level at `place` within the largest factor."""
-    tried = np.isfinite(curve.exceedance[:, place])
-    return len({name for name, reached in zip(curve.stations, tried, strict=True) if reached})
 
 
 @row("fragility_summary")
@@ -167,6 +161,7 @@ def _summary_row(
 ) -> FragilitySummaryRow:
     """The row of one curve. hazard: of its intensity measure or another; None without one."""
     rate = curve.annual_rate(hazard) if hazard is not None and hazard.is_of(curve.measure) else None
+    highest = float(curve.levels[-1])
     factor_for_median = largest_scale_factor = math.nan
     if curve.analysis is not None:
         largest_scale_factor = float(curve.analysis.factors[np.isfinite(curve.exceedance)].max())
@@ -179,9 +174,9 @@ def _summary_row(
         records=len(curve.stations),
         stations=curve.sample.count,
         earthquakes=curve.sample.earthquakes,
-        stations_at_median=curve.reaching(min(curve.median, float(curve.levels[-1]))),
+        stations_at_median=curve.reaching(min(curve.median, highest)),
         factor_for_median=factor_for_median,
-        stations_out=curve.sample.count - _stations_reaching(curve, -1),
+        stations_out=curve.sample.count - curve.reaching(highest),
         largest_scale_factor=largest_scale_factor,
         median=curve.median,
         by=curve.by,

@@ -207,7 +207,7 @@ def test_only_what_contact_dynamics_can_follow_is_advised_to_it():
     ):
         assert stackable(structure) is can
         if not can:
-            assert contact_share(structure, motions).runs == 0 and contact_share(structure, motions).reason
+            assert contact_share(structure, motions).runs == 0
 
 
 def test_directions_share_the_steps_and_unlike_sides_meet_both_signs(monkeypatch):
@@ -292,20 +292,7 @@ def test_a_tie_that_is_too_stiff_for_the_usual_step_is_followed_at_a_shorter_one
     front = rocking.Facade((3.6,), (0.4,), 18e3, restitution=0.6, behind="cross_walls", **tie)
     assert front.stack().longest_step < STEP
     share = contact_share(front, GroundMotions.of(sine(3.0)), runs=2)
-    assert share.runs and not share.reason
-
-
-def test_one_rigid_body_is_left_to_its_members():
-    share = contact_share(Block.of_size(0.8, 4.0), GroundMotions.of(sine(2.0)))
-    assert share.runs == 0
-    assert "moves as its mechanism does" in share.reason
-
-
-def test_what_is_no_stack_says_so():
-    frame = Frame(Block.of_size(0.5, 4.0), 3, 1.0)
-    share = contact_share(frame, GroundMotions.of(sine(2.0)))
-    assert share.runs == 0
-    assert "a stack of courses" in share.reason
+    assert share.runs
 
 
 def test_an_impact_that_keeps_little_by_balance_is_doubted_and_a_typed_one_is_not():
