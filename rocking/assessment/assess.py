@@ -18,6 +18,7 @@ from rocking.errors import ConfigurationError, RecordError, RockingError
 from rocking.motion.response import Response
 from rocking.quantities import kind_of
 from rocking.records import Accelerogram
+from rocking.records.obspy.stream import from_obspy
 from rocking.structures import Mechanism, Structure
 
 if TYPE_CHECKING:
@@ -175,7 +176,7 @@ def assess(
     ----------
     record : Accelerogram, sequence of Accelerogram or object
         One accelerogram, or both horizontal components, which then make one ensemble over eight directions;
-        or an obspy Stream or Trace, as Accelerogram.from_obspy reads it with `unit` and `inventory`, whose
+        or an obspy Stream or Trace, as from_obspy reads it with `unit` and `inventory`, whose
         vertical component acts too.
     structure : Structure or Mechanism
         The structure, or a mechanism alone.
@@ -210,7 +211,7 @@ def assess(
     stands
     """
     if type(record).__module__.startswith("obspy."):
-        channels = Accelerogram.from_obspy(record, inventory, unit)
+        channels = from_obspy(record, inventory, unit)
         record = [channel for channel in channels if channel.is_horizontal]
         vertical = vertical or next((channel for channel in channels if channel.vertical), None)
     records = _checked_records(record)

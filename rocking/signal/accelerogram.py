@@ -3,7 +3,7 @@
 from contextlib import nullcontext
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -33,9 +33,6 @@ _AT_BIRTH = (SignalKind.STEP_UNUSUAL, SignalKind.PEAK_IMPOSSIBLE)
 
 SAME_STEP = 1e-6
 """Share by which the time steps of one station's components may differ: the rounding of their headers."""
-
-Calibration = Literal["apply", "done"]
-"""Whether the samples of a trace are still to be multiplied by its calibration, or are: obspy never resets it."""
 
 
 @dataclass(frozen=True)
@@ -231,7 +228,11 @@ class Accelerogram(Drawn):
         return sha256_of_bytes(np.float64(self.time_step).tobytes(), self.acceleration.tobytes())
 
     def scaled(self, factor: float) -> "Accelerogram":
-        """Return this accelerogram with its acceleration multiplied by `factor`, remembered in scale_factor."""
+        """Return this accelerogram with its acceleration multiplied by `factor`, remembered in scale_factor.
+
+        >>> rocking.Accelerogram(np.ones(101), time_step=0.01).scaled(2.0).peak_acceleration
+        2.0
+        """
         factor = finite(RecordError, "factor", factor)
         names = "acceleration", "scale_factor", "initial_velocity", "initial_displacement"
         return replace(self, **{name: getattr(self, name) * factor for name in names})
@@ -244,25 +245,6 @@ class Accelerogram(Drawn):
     def warned(self, *warnings: RockingWarning) -> "Accelerogram":
         """Return a copy with more warnings."""
         return replace(self, warnings=(*self.warnings, *warnings))
-
-    @classmethod
-    def from_obspy(
-        cls,
-        trace_or_stream: Any,
-        inventory: Any = None,
-        unit: str | None = None,
-        response: str = "sensitivity",
-        calibration: Calibration | None = None,
-    ) -> "list[Accelerogram]":
-        """Return an accelerogram for each channel of an obspy Trace or Stream, as `rocking.from_obspy` does.
-
-        >>> from obspy import Trace
-        >>> rocking.Accelerogram.from_obspy(Trace(np.sin(np.arange(9.0)), {"channel": "HNE"}), unit="m/s2")[0].azimuth
-        90.0
-        """
-        from rocking import from_obspy  # which imports this
-
-        return from_obspy(trace_or_stream, inventory, unit, response, calibration)
 
     def to_obspy(self) -> Any:
         """Return an obspy Trace of the acceleration, m/s², from which from_obspy makes this accelerogram again.

@@ -53,7 +53,6 @@ UPWARDS = {
     ("rocking.drawn", "rocking.reports.panels"),
     ("rocking.structures.structure", "rocking.reports.panels"),
     ("rocking.signal.accelerogram", "rocking.signal.measures"),
-    ("rocking.signal.accelerogram", "rocking.records.obspy.stream"),
 }
 """Methods that a person calls on an object and that a module above it does: `wall.plot()`, `record.spectrum()`.
 

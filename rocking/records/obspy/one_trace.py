@@ -1,7 +1,7 @@
 """Traces of obspy as accelerograms: the same whether obspy read the file or this package did."""
 
 from collections.abc import Iterator
-from typing import Any, get_args
+from typing import Any, Literal, get_args
 
 import numpy as np
 
@@ -14,9 +14,11 @@ from rocking.records.formats.text import LARGEST_SERIES
 from rocking.records.kinds import RecordKind
 from rocking.records.obspy.traces import STEEP, Motion, calibrated, names, quantity_order, site, unit_left_by
 from rocking.records.plausibility import BURIED
-from rocking.signal.accelerogram import OBSPY_EXTRAS, SAME_STEP, Accelerogram, Calibration, Source
+from rocking.signal.accelerogram import OBSPY_EXTRAS, SAME_STEP, Accelerogram, Source
 from rocking.warnings import RockingWarning
 
+Calibration = Literal["apply", "done"]
+"""Whether the samples of a trace are still to be multiplied by its calibration, or are: obspy never resets it."""
 _TO_DISPLACEMENT = "GSE1", "GSE2", "CSS", "NNSA_KB_CORE"
 """The formats whose calibration is in nm of displacement a count, at a period that it is stated for."""
 _OBSPY_G = 9.81

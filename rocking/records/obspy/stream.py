@@ -3,10 +3,10 @@
 from typing import Any
 
 from rocking.errors import RecordError
-from rocking.records.obspy.one_trace import from_traces
+from rocking.records.obspy.one_trace import Calibration, from_traces
 from rocking.records.obspy.traces import joined
 from rocking.records.read import checked_channels
-from rocking.signal.accelerogram import Accelerogram, Calibration
+from rocking.signal.accelerogram import Accelerogram
 
 
 def from_obspy(

@@ -7,8 +7,8 @@ import pytest
 from obspy import Stream, Trace, UTCDateTime, read, read_inventory
 from obspy.core.inventory import Comment, Inventory, Network
 
+import rocking
 from rocking.errors import RecordError
-from rocking.records import Accelerogram
 from rocking.records.kinds import RecordKind
 from rocking.warnings import Kind
 from tests.refusals import refused
@@ -39,7 +39,7 @@ def inventory(units: str = "M/S**2", dip: float = 0.0):
     (trace("HNN"), None),
 ])  # fmt: skip
 def test_channels_of_unlike_stations_or_steps_are_told(other: Trace, kind: Kind | None) -> None:
-    records = Accelerogram.from_obspy(Stream([trace(), other]), unit="nm/s2")
+    records = rocking.from_obspy(Stream([trace(), other]), unit="nm/s2")
     unlike = {RecordKind.STATIONS_UNLIKE, RecordKind.STEPS_OF_STREAM_UNLIKE}
     told = [{warning.kind for warning in record.warnings} & unlike for record in records]
     assert told == [{kind} if kind else set()] * 2
@@ -49,7 +49,7 @@ def test_pieces_of_a_channel_with_unlike_rates_are_refused() -> None:
     later = trace(delta=0.02)
     later.stats.starttime += 30
     with refused(RecordError, "channel", "Sampling rate differs: 100.0 vs 50.0"):
-        Accelerogram.from_obspy(Stream([trace(), later]), unit="nm/s2")
+        rocking.from_obspy(Stream([trace(), later]), unit="nm/s2")
 
 
 @pytest.mark.parametrize(("units", "field"), [("M/S**2", ""), ("M/S", "quantity"), ("V", "unit")])
@@ -62,9 +62,9 @@ def test_removing_the_sensitivity_leaves_the_unit_that_the_response_states(units
     done.data = done.data / 200000
     if field:
         with refused(RecordError, field):
-            Accelerogram.from_obspy(done)
+            rocking.from_obspy(done)
     else:
-        (record,) = Accelerogram.from_obspy(done)
+        (record,) = rocking.from_obspy(done)
         assert np.allclose(record.acceleration, (COUNTS - COUNTS.mean()) / 200000, rtol=0, atol=1e-12)
         assert record.processed is False and record.processing[-1].startswith(
             "Mean of the whole record removed, 0.0249"
@@ -75,14 +75,14 @@ def test_removing_the_sensitivity_leaves_the_unit_that_the_response_states(units
     (0.0, False, False), (-4.0, False, False), (12.0, True, False), (-80.0, True, True), (-88.0, False, True),
 ])  # fmt: skip
 def test_a_tilted_sensor_is_told(dip: float, is_told: bool, vertical: bool) -> None:
-    (record,) = Accelerogram.from_obspy(trace(), inventory(dip=dip))
+    (record,) = rocking.from_obspy(trace(), inventory(dip=dip))
     assert record.vertical == vertical
     assert (RecordKind.TILTED in {warning.kind for warning in record.warnings}) == is_told
 
 
 def test_a_response_without_stages_is_not_removed_in_full() -> None:
     with refused(RecordError, "response", "stages"):
-        Accelerogram.from_obspy(trace(), inventory(), response="full")
+        rocking.from_obspy(trace(), inventory(), response="full")
 
 
 def described_twice(change: str, new: str, ends: str = "") -> Inventory:
@@ -105,10 +105,10 @@ def described_twice(change: str, new: str, ends: str = "") -> Inventory:
 def test_epochs_that_overlap_and_differ_are_refused_with_both(change: str, new: str) -> None:
     """The first one was taken, unsaid: by a gain 2.5 times the true one."""
     with refused(RecordError, "inventory") as caught:
-        Accelerogram.from_obspy(trace(), described_twice(change, new))
+        rocking.from_obspy(trace(), described_twice(change, new))
     assert all(words in str(caught.value) for words in ("200000 counts", "(from 1960", "(from 1965"))
-    (record,) = Accelerogram.from_obspy(trace(), described_twice(change, new, ends="1964-12-31"))
-    (same,) = Accelerogram.from_obspy(trace(), described_twice("gain", "200000"))
+    (record,) = rocking.from_obspy(trace(), described_twice(change, new, ends="1964-12-31"))
+    (same,) = rocking.from_obspy(trace(), described_twice("gain", "200000"))
     per_unit = 500000 if change == "gain" else 200000
     assert np.allclose(record.acceleration, (COUNTS - COUNTS.mean()) / per_unit, rtol=0, atol=1e-12)
     assert (record.azimuth, same.azimuth) == (0 if change == "azimuth" else 90, 90)
@@ -121,7 +121,7 @@ def test_epochs_that_overlap_and_differ_are_refused_with_both(change: str, new: 
 def test_an_orientation_that_nobody_knows_is_no_azimuth(note: str, dip: float, azimuth: float | None) -> None:
     described = inventory(dip=dip)
     described[0][0][0].comments = [Comment(note)]
-    (record,) = Accelerogram.from_obspy(trace(), described)
+    (record,) = rocking.from_obspy(trace(), described)
     assert record.azimuth == (None if record.vertical else azimuth) and record.vertical == (dip != 0)
     is_told = RecordKind.ORIENTATION_UNKNOWN in {warning.kind for warning in record.warnings}
     assert is_told == (azimuth is None)
@@ -131,7 +131,7 @@ def test_pieces_whose_rates_differ_by_their_rounding_are_one_channel() -> None:
     first, second = trace(), trace()
     second.stats.starttime += 30
     second.stats.sampling_rate = 99.9999
-    (record,) = Accelerogram.from_obspy(Stream([first, second]), unit="nm/s2")
+    (record,) = rocking.from_obspy(Stream([first, second]), unit="nm/s2")
     assert record.acceleration.size == 6000 and record.time_step == 0.01
     assert second.stats.sampling_rate == 99.9999  # that of the caller
 
@@ -139,10 +139,10 @@ def test_pieces_whose_rates_differ_by_their_rounding_are_one_channel() -> None:
 def test_a_log_of_text_next_to_the_channels_is_passed_over() -> None:
     header = {"network": "XX", "station": "MADE", "channel": "LOG"}
     log = Trace(np.frombuffer(b"clock locked", dtype="S1").copy(), header)
-    (record,) = Accelerogram.from_obspy(Stream([log, trace()]), unit="nm/s2")
+    (record,) = rocking.from_obspy(Stream([log, trace()]), unit="nm/s2")
     assert record.component == "HNE"
     with refused(RecordError, "channel", log.id):
-        Accelerogram.from_obspy(Stream([log]), unit="nm/s2")
+        rocking.from_obspy(Stream([log]), unit="nm/s2")
 
 
 def test_a_sac_file_ends_where_its_header_says() -> None:
@@ -151,9 +151,9 @@ def test_a_sac_file_ends_where_its_header_says() -> None:
     trace().write(content, format="SAC")
     content.seek(0)
     stream = read(content, format="SAC")
-    assert len(Accelerogram.from_obspy(stream, unit="um/s2")) == 1
+    assert len(rocking.from_obspy(stream, unit="um/s2")) == 1
     stream[0].stats.sac.e += 1.0
     with refused(RecordError, "e"):
-        Accelerogram.from_obspy(stream, unit="um/s2")
+        rocking.from_obspy(stream, unit="um/s2")
     stream.trim(stream[0].stats.starttime + 1)
-    assert len(Accelerogram.from_obspy(stream, unit="um/s2")) == 1
+    assert len(rocking.from_obspy(stream, unit="um/s2")) == 1

@@ -200,7 +200,7 @@ def test_an_input_that_is_no_file_is_refused_and_not_waited_for(miniseed: Path, 
 def test_there_and_back_nothing_changes() -> None:
     rng = np.random.default_rng(3)
     stream = Stream([trace(rng.normal(size=200), channel) for channel in ("HNE", "HNN", "HNZ")])
-    records = Accelerogram.from_obspy(stream, unit="m/s2")
+    records = rocking.from_obspy(stream, unit="m/s2")
     assert [(r.component, r.azimuth, r.vertical) for r in records] == [
         ("HNE", 90.0, False), ("HNN", 0.0, False), ("HNZ", None, True),
     ]  # fmt: skip
@@ -208,7 +208,7 @@ def test_there_and_back_nothing_changes() -> None:
     for before, after in zip(stream, back, strict=True):
         assert np.array_equal(before.data, after.data) and before.id == after.id
         assert (before.stats.delta, before.stats.starttime) == (after.stats.delta, after.stats.starttime)
-    for first, again in zip(records, Accelerogram.from_obspy(back), strict=True):
+    for first, again in zip(records, rocking.from_obspy(back), strict=True):
         pairs = ((getattr(first, f.name), getattr(again, f.name)) for f in dataclasses.fields(first)[1:])
         assert all(one == other for one, other in pairs if not hasattr(one, "sha256"))
         assert first.sha256 == again.sha256
@@ -227,7 +227,7 @@ def test_what_a_stream_leaves_open_is_refused() -> None:
         (trace(values), "furlong", "unit", "furlong"),
     ):
         with refused(RecordError, field, value):
-            Accelerogram.from_obspy(given, unit=unit)
+            rocking.from_obspy(given, unit=unit)
 
 
 def inventory_of(**changed: str):
@@ -254,16 +254,16 @@ def with_response(samples: np.ndarray) -> Stream:
 
 def test_a_unit_that_is_given_wins_over_a_response() -> None:
     stream = with_response(COUNTS / 1e4)
-    (record,) = Accelerogram.from_obspy(stream, unit="cm/s2")
+    (record,) = rocking.from_obspy(stream, unit="cm/s2")
     assert record.peak_acceleration == pytest.approx(np.abs(COUNTS).max() / 1e6)
 
 
 def test_samples_whose_response_was_removed_are_not_divided_again() -> None:
     stream = with_response(COUNTS)
     removed = stream.copy().remove_response(output="ACC", water_level=None, pre_filt=(0.02, 0.05, 40, 45))
-    (record,) = Accelerogram.from_obspy(removed)
+    (record,) = rocking.from_obspy(removed)
     assert np.allclose(record.acceleration, removed[0].data)
-    (same,) = Accelerogram.from_obspy(removed, unit="m/s2")
+    (same,) = rocking.from_obspy(removed, unit="m/s2")
     assert np.array_equal(same.acceleration, record.acceleration)
     for velocity in (
         stream.copy().remove_response(output="VEL", water_level=None, pre_filt=(0.02, 0.05, 40, 45)),
@@ -271,8 +271,8 @@ def test_samples_whose_response_was_removed_are_not_divided_again() -> None:
     ):
         for unit in (None, "m/s2"):
             with refused(RecordError, "quantity", "velocity"):
-                Accelerogram.from_obspy(velocity, unit=unit)
-    (again,) = Accelerogram.from_obspy(removed.copy().integrate().differentiate())
+                rocking.from_obspy(velocity, unit=unit)
+    (again,) = rocking.from_obspy(removed.copy().integrate().differentiate())
     assert again.acceleration.size == record.acceleration.size
 
 
@@ -281,7 +281,7 @@ def test_what_a_rotation_made_untrue_is_not_believed() -> None:
         Accelerogram(item, 0.01, name) for item, name in zip(np.eye(2, 60) + 0.1, ("HNN", "HNE"), strict=True)
     ]
     turned = Stream([component.to_obspy() for component in pair]).rotate("NE->RT", back_azimuth=30.0)
-    records = Accelerogram.from_obspy(turned)
+    records = rocking.from_obspy(turned)
     assert len(records) == 2
     for record in records:
         assert record.component in ("HNR", "HNT") and record.azimuth is None
@@ -290,25 +290,25 @@ def test_what_a_rotation_made_untrue_is_not_believed() -> None:
 def test_a_stream_passes_the_checks_of_a_file() -> None:
     for samples, field in ((COUNTS * 1.0, "peak"), (np.zeros(4_000_001), "samples")):
         with refused(RecordError, field):
-            Accelerogram.from_obspy(trace(samples), unit="m/s2")
+            rocking.from_obspy(trace(samples), unit="m/s2")
     calibrated = trace(COUNTS / 1e5)
     calibrated.stats.calib = 2.0
     with refused(UndeclaredError, "calibration"):
-        Accelerogram.from_obspy(calibrated, unit="m/s2")
+        rocking.from_obspy(calibrated, unit="m/s2")
     for calibration, factor in (("apply", 2), ("done", 1)):
-        (record,) = Accelerogram.from_obspy(calibrated, unit="m/s2", calibration=calibration)
+        (record,) = rocking.from_obspy(calibrated, unit="m/s2", calibration=calibration)
         assert record.peak_acceleration == pytest.approx(factor * np.abs(COUNTS).max() / 1e5)
     with refused(RecordError, "calibration", True):
-        Accelerogram.from_obspy(calibrated, unit="m/s2", calibration=True)
+        rocking.from_obspy(calibrated, unit="m/s2", calibration=True)
     numbered = Stream([trace(COUNTS / (1e5 + n), channel=str(n)) for n in range(3)])
-    for record in Accelerogram.from_obspy(numbered, unit="m/s2"):
+    for record in rocking.from_obspy(numbered, unit="m/s2"):
         assert record.azimuth is None and record.component.startswith("channel ")
 
 
 def test_dip_and_depth_say_what_is_vertical_and_what_is_down_hole() -> None:
-    (record,) = Accelerogram.from_obspy(trace(), inventory_of(dip="-90", depth="156"))
+    (record,) = rocking.from_obspy(trace(), inventory_of(dip="-90", depth="156"))
     assert record.vertical and record.borehole and not record.is_horizontal
-    (record,) = Accelerogram.from_obspy(trace(), inventory_of(depth="1.5"))
+    (record,) = rocking.from_obspy(trace(), inventory_of(depth="1.5"))
     assert record.is_horizontal and record.azimuth == 72.0
 
 
@@ -317,7 +317,7 @@ def test_dip_and_depth_say_what_is_vertical_and_what_is_down_hole() -> None:
 )
 def test_the_input_unit_of_an_instrument_is_read_by_its_factor(units: str, factor: float) -> None:
     samples = COUNTS / COUNTS.max() / factor * 200000
-    (record,) = Accelerogram.from_obspy(trace(samples), inventory_of(units=units))
+    (record,) = rocking.from_obspy(trace(samples), inventory_of(units=units))
     assert record.peak_acceleration == pytest.approx(np.abs(samples - samples.mean()).max() * factor / 200000)
 
 
@@ -333,7 +333,7 @@ def test_the_input_unit_of_an_instrument_is_read_by_its_factor(units: str, facto
 )
 def test_a_response_that_is_none_is_refused(changed: dict[str, str], named: tuple) -> None:
     with refused(RecordError, *named):
-        Accelerogram.from_obspy(trace(), inventory_of(**changed))
+        rocking.from_obspy(trace(), inventory_of(**changed))
 
 
 def test_a_sensitivity_at_another_frequency_than_its_stages_is_told() -> None:
@@ -341,15 +341,15 @@ def test_a_sensitivity_at_another_frequency_than_its_stages_is_told() -> None:
     text = XML.format(units="M/S**2").replace("<Value>200000</Value><Frequency>1</Frequency><Input",
                                               "<Value>230000</Value><Frequency>5</Frequency><Input")  # fmt: skip
     inventory = read_inventory(io.BytesIO(text.encode()), format="STATIONXML")
-    (record,) = Accelerogram.from_obspy(trace(), inventory)
+    (record,) = rocking.from_obspy(trace(), inventory)
     assert np.allclose(record.acceleration, (COUNTS - COUNTS.mean()) / 230000, atol=1e-12)
     assert [warning.kind for warning in record.warnings] == [RecordKind.SENSITIVITY_ELSEWHERE]
 
 
 def test_the_full_removal_asks_the_stages_alone() -> None:
     """The stated sensitivity, 15 % off, takes no part in it."""
-    (record,) = Accelerogram.from_obspy(trace(), inventory_of(gain="230000"), response="full")
-    (right,) = Accelerogram.from_obspy(trace(), inventory_of(), response="full")
+    (record,) = rocking.from_obspy(trace(), inventory_of(gain="230000"), response="full")
+    (right,) = rocking.from_obspy(trace(), inventory_of(), response="full")
     assert np.allclose(record.acceleration, right.acceleration, atol=1e-9)
 
 
@@ -370,7 +370,7 @@ def test_names_that_are_no_verticals(name: str, along: float | None) -> None:
 
 
 def test_a_direction_that_nobody_states_is_told() -> None:
-    (record,) = Accelerogram.from_obspy(trace(COUNTS / 1e5, channel="QQX"), unit="m/s2")
+    (record,) = rocking.from_obspy(trace(COUNTS / 1e5, channel="QQX"), unit="m/s2")
     assert RockingWarning(RecordKind.LONE_MAY_BE_VERTICAL, "QQX") in record.warnings
 
 
@@ -380,11 +380,11 @@ def test_a_stored_answer_of_a_data_centre_reads_as_its_files_do(real_records: Pa
     files = sorted(folder.glob("*.mseed"))
     stream = sum((obspy_read(str(file), format="MSEED") for file in files), Stream())
     inventory = read_inventory(str(folder / "CI.CLC.xml"), format="STATIONXML")
-    found = Accelerogram.from_obspy(stream, inventory)
+    found = rocking.from_obspy(stream, inventory)
     assert [r.sha256 for r in found] == [read(file)[0].sha256 for file in files]
     for item in stream:
         item.stats.response = inventory.get_response(item.id, item.stats.starttime)
-    divided = Accelerogram.from_obspy(stream.remove_sensitivity())
+    divided = rocking.from_obspy(stream.remove_sensitivity())
     for one, record in zip(divided, found, strict=True):
         assert np.allclose(one.acceleration, record.acceleration, rtol=0, atol=1e-9)
 

@@ -7,8 +7,9 @@ import pytest
 from obspy import Trace
 from obspy.io.sac import SACTrace
 
+import rocking
 from rocking.errors import RecordError
-from rocking.records import Accelerogram, read
+from rocking.records import read
 from rocking.records.direction import Direction
 from rocking.records.formats.format import coordinates
 from rocking.records.formats.layouts import AskedError
@@ -149,10 +150,10 @@ def test_a_sac_file_that_says_it_is_no_acceleration_is_refused(tmp_path, kind, w
 
 def test_a_unit_that_is_given_wins_where_obspy_differentiated_what_nobody_named():
     trace = Trace(WAVE / 10, {"channel": "HNE", "delta": 0.01}).differentiate()
-    (record,) = Accelerogram.from_obspy(trace, unit="m/s2")
+    (record,) = rocking.from_obspy(trace, unit="m/s2")
     assert np.allclose(record.acceleration, trace.data)
     with refused(RecordError, "quantity", "velocity"):
-        Accelerogram.from_obspy(Trace(WAVE / 10, {"channel": "HNE", "delta": 0.01}).integrate(), unit="m/s2")
+        rocking.from_obspy(Trace(WAVE / 10, {"channel": "HNE", "delta": 0.01}).integrate(), unit="m/s2")
 
 
 @pytest.mark.parametrize(
