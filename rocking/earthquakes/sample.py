@@ -360,11 +360,6 @@ class ClusterSample:
         """The number of stations."""
         return len(self.station_names)
 
-    @property
-    def interval_words(self) -> str:
-        """What an interval over these earthquakes is called."""
-        return interval_words(self.earthquakes)
-
     @cached_property
     def sizes(self) -> np.ndarray:
         """(e,): the number of stations of each earthquake."""

@@ -23,7 +23,7 @@ from rocking.assessment.falls import Falls, Model, falls_along
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.drawn import Drawn
-from rocking.earthquakes.sample import ClusterSample
+from rocking.earthquakes.sample import ClusterSample, interval_words
 from rocking.errors import ConfigurationError, StructureError
 from rocking.floors.support import Support
 from rocking.fragility.exchange import CURVE, NRML, curve_frame, nrml
@@ -148,7 +148,7 @@ class Fragility(Drawn):
     def __repr__(self) -> str:
         low, high = self.interval
         unit = f" {self.unit}" if self.unit else ""
-        interval = f"{self.sample.interval_words}: {low:.3g} to {high:.3g}"
+        interval = f"{interval_words(self.sample.earthquakes)}: {low:.3g} to {high:.3g}"
         unreached = listed([f"{level:g}" for level in self.unreached])
         if (gap := self.gap) is not None:
             interval = f"between levels {gap[0]:.3g} and {gap[1]:.3g}, too far apart for an interval"

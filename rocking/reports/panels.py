@@ -218,7 +218,7 @@ def _plot_fragility(fragility: Fragility, axes: Axes) -> None:
     event = "overturning" if overturning else f"a rotation above {fragility.threshold:g} of the critical one"
     interval = fragility.probability_low, fragility.probability_high
     label = f"empirical, {fragility.sample.words}"
-    words = fragility.sample.interval_words
+    words = interval_words(fragility.sample.earthquakes)
     curve = CurveBand(fragility.levels, fragility.probability, interval, fragility.lognormal, words)
     draw_probability(axes, curve, label)
     axes.set(xlabel=f"{fragility.measure} [{fragility.unit or '-'}]", ylabel=f"probability of {event} [-]")

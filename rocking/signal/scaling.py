@@ -63,16 +63,6 @@ class ScalingTarget:
         factor = acceleration_factor(unit) if measure == "pga" else VELOCITY_UNITS[unit]
         return cls(measure, float(number) * factor, " ".join(text.split()))
 
-    def factor(self, horizontal: Sequence[Accelerogram]) -> float:
-        """Return the one factor on all components. Raises RecordError for a record that does not move."""
-        largest = max(map(_MEASURES[self.measure], horizontal))
-        if largest <= 0:
-            raise RecordError(
-                f"the record is zero throughout, so that nothing scales it to {self.text}.",
-                scale_to=self.text,
-            )
-        return self.value / largest
-
 
 def scaled_to(
     target: ScalingTarget, horizontal: Sequence[Accelerogram], vertical: Accelerogram | None = None
@@ -82,7 +72,13 @@ def scaled_to(
     The largest peak among the horizontal components becomes what is asked; scale_factor of each says by how much its
     file was multiplied in all. Raises RecordError for a record that is zero throughout.
     """
-    factor = target.factor(horizontal)
+    largest = max(map(_MEASURES[target.measure], horizontal))
+    if largest <= 0:
+        raise RecordError(
+            f"the record is zero throughout, so that nothing scales it to {target.text}.",
+            scale_to=target.text,
+        )
+    factor = target.value / largest
     sentence = (
         f"All components multiplied by {factor:.5g}, so that the larger {target.measure.upper()} of the horizontal "
         f"ones is {target.text.split(' ', 1)[1]}."

@@ -84,10 +84,6 @@ _CSMNC_HEADER = 16
 _CSMNC_FIRST = re.compile(r"(?=(?:.*\n){0,15}NO\. OF POINTS:)(?:.*\n){0,15}OBSERVING POINT:")
 
 
-def _read_csmnc(content: bytes, options: Options) -> list[Accelerogram]:
-    return _CSMNC.series(*parted(content, _CSMNC_HEADER), options)
-
-
 _GEONET = Layout("mm/s2", {
     "samples": r"^Number of points\s+(\S+)", "step": r"(?:intervals of|data at)\s+([\d.]+)\s*s",
     "duration": r"\bDuration\s+([\d.]+)", "component": r"^Component\s+(\S+)", "station": r"^Site\s+(\S+)",
@@ -168,7 +164,7 @@ CSMNC = Format(
     "China Strong Motion Networks Centre",
     "lines OBSERVING POINT: and NO. OF POINTS: in the first 16",
     _CSMNC_FIRST,
-    _read_csmnc,
+    lambda content, options: _CSMNC.series(*parted(content, _CSMNC_HEADER), options),
     "CSMNC",
 )
 GEONET = Format(

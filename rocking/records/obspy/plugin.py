@@ -1,7 +1,8 @@
 """Our text formats as obspy waveform plug-ins: `obspy.read("file.AT2")` understands them once we are installed.
 
 obspy finds `is_<name>` and `read_<name>` by the entry points of pyproject.toml. Plain columns are left out: they carry
-no unit, and claiming every file of bare numbers would take other programs' files.
+no unit, and claiming every file of bare numbers would take other programs' files; K-NET, EVT, SAC and miniSEED are
+obspy's own already.
 """
 
 from functools import partial
@@ -11,9 +12,6 @@ from typing import Any
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.read import LARGEST_FILE, bare_text, read_content, unpack
 from rocking.tables import read_start
-
-PLUGINS = {form.plugin: form.name for form in FORMATS if form.plugin}
-"""Name in obspy → name in FORMATS. K-NET, EVT, SAC and miniSEED are obspy's own already."""
 
 _HEAD = 2**16
 

@@ -209,4 +209,3 @@ def test_the_order_of_the_catalogue_draws_no_other_samples():
 )
 def test_an_interval_is_called_by_how_many_earthquakes_are_behind_it(earthquakes, words):
     assert interval_words(earthquakes) == words
-    assert ClusterSample.scattered([f"{number}" for number in range(earthquakes)]).interval_words == words
