@@ -5,7 +5,7 @@ from pathlib import Path
 
 from docs.paper.report import EquationRow, equation_rows, paper_figures, paper_report
 from docs.paper.response import PredictionRow, prediction_rows
-from rocking.catalogue import load_catalogue, open_record
+from rocking.catalogue import load_catalogue, open_station
 from rocking.errors import RecordError
 from rocking.records import read
 from rocking.reports.style import svg
@@ -27,7 +27,7 @@ def write_paper(catalogue: Path, mirror: str | None, folder: Path) -> str:
     message, instead = "All figures were drawn.", ""
     try:
         record = next(record for record in load_catalogue(catalogue) if record.id == EXAMPLE)
-        motion = open_record(record, mirror=mirror)[0]
+        motion = open_station(record, mirror=mirror).horizontal[0]
     except (StopIteration, RecordError) as error:
         why = str(error) or f"{catalogue} lists no {EXAMPLE}."
         message = f"Fig. 8 is drawn for the shipped record, not for the paper's: {why}"

@@ -105,8 +105,8 @@ def motions_of(
     catalogue: "Sequence[CatalogueRecord]", mirror: str | None, tell: Callable[[str], None]
 ) -> "Iterator[NamedRecord]":
     """Yield identifier and accelerogram of every component of the records, after a line for each record."""
-    from rocking.catalogue import open_record
+    from rocking.catalogue import open_station
 
     for count, record in enumerate(catalogue, start=1):
         tell(f"{count} of {len(catalogue)}: {record.id}")
-        yield from ((record.id, accelerogram) for accelerogram in open_record(record, mirror))
+        yield from ((record.id, accelerogram) for accelerogram in open_station(record, mirror).horizontal)

@@ -20,6 +20,7 @@ from rocking.motion.batch import rocking_spectrum
 from rocking.motion.nonlinear_kernel import rock
 from rocking.pulses import Pulse, extract_pulses
 from rocking.signal.accelerogram import Accelerogram
+from rocking.signal.measures import response_spectrum
 from rocking.signal.processing import Processing, process
 from rocking.sine_pulse import overturning_amplitudes, predict_maxima, predict_maximum
 from rocking.structures import Block, Spire
@@ -108,7 +109,7 @@ def compile_mechanisms() -> None:
     integrate(block, record)
     integrate_members(block, record, Members([1.0]))
     extract_pulses(record)
-    record.spectrum()
+    response_spectrum(record)
     process(record, Processing(high_pass=0.5))
 
 

@@ -3,5 +3,4 @@
 from rocking.catalogue.catalogue import CatalogueRecord as CatalogueRecord
 from rocking.catalogue.catalogue import load_catalogue as load_catalogue
 from rocking.catalogue.station import Station as Station
-from rocking.catalogue.station import open_record as open_record
 from rocking.catalogue.station import open_station as open_station

@@ -61,11 +61,6 @@ def open_station(record: CatalogueRecord, mirror: str | Path | None = None) -> S
         return station_of(channels, record)
 
 
-def open_record(record: CatalogueRecord, mirror: str | Path | None = None) -> list[Accelerogram]:
-    """Return the horizontal components of `record`, as open_station does."""
-    return list(open_station(record, mirror).horizontal)
-
-
 def _channels_of(
     record: CatalogueRecord, file: RecordFile, inventory: Path | None, mirror: str | Path | None
 ) -> list[Accelerogram]:

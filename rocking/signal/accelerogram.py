@@ -17,7 +17,7 @@ from rocking.warnings import RockingWarning
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-    from rocking import RecordMeasures, ResponseSpectrum
+    from rocking import RecordMeasures
 
 LARGEST_PEAK = 5 * GRAVITY
 """m/s²; the largest recorded so far is 4.4 g (Iwate-Miyagi 2008, IWTH25), so what is above is a wrong unit."""
@@ -215,12 +215,6 @@ class Accelerogram(Drawn):
         from rocking import record_measures  # which imports this
 
         return record_measures(self)
-
-    def spectrum(self, periods: np.ndarray | None = None, damping: float = 0.05) -> "ResponseSpectrum":
-        """Return the response spectrum at undamped `periods`, s, as response_spectrum does; None: at its own."""
-        from rocking import response_spectrum  # which imports this
-
-        return response_spectrum(self, periods, damping)
 
     @cached_property
     def sha256(self) -> str:

@@ -121,7 +121,8 @@ class ResponseSpectrum(Drawn):
 
     Examples
     --------
-    >>> rocking.Accelerogram(np.ones(101), time_step=0.01).spectrum(np.array([0.5])).pseudo_acceleration.round(1)
+    >>> record = rocking.Accelerogram(np.ones(101), time_step=0.01)
+    >>> rocking.response_spectrum(record, np.array([0.5])).pseudo_acceleration.round(1)
     array([1.9])
     """
 

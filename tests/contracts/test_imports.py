@@ -54,7 +54,7 @@ UPWARDS = {
     ("rocking.structures.structure", "rocking.reports.panels"),
     ("rocking.signal.accelerogram", "rocking.signal.measures"),
 }
-"""Methods that a person calls on an object and that a module above it does: `wall.plot()`, `record.spectrum()`.
+"""Methods that a person calls on an object and that a module above it does: `wall.plot()`, `record.measures`.
 
 Each imports within the method, through the package root, when it is called; nothing else may.
 """

@@ -24,8 +24,8 @@ SACPZ = rb"(\*.*\n)*\s*(ZEROS|POLES|CONSTANT)\s+-?\d"
 
 def inventory_for(stats: Any, options: Options) -> Any:
     """Return the inventory given, else the one in the folder that names this network and station, or None."""
-    if (given := inventory_of(options)) is not None:
-        return given
+    if options.inventory is not None:
+        return inventory_of(options.inventory)
     if options.unit is not None or options.folder is None:
         return None
     naming = _naming(stats, options.described) or _naming(stats, sorted(options.folder.glob("*.xml")))
@@ -36,7 +36,7 @@ def inventory_for(stats: Any, options: Options) -> Any:
             f"{missing}; {advice('inventory')}; if the samples are acceleration, {advice('unit')}.",
             unit=None,
         )
-    return _parse(naming[0])
+    return inventory_of(naming[0])
 
 
 def _naming(stats: Any, paths: Sequence[Path]) -> list[Path]:
@@ -67,13 +67,9 @@ def _codes_in(path: str, _changed: int, _size: int) -> frozenset[tuple[str, str]
     return frozenset(_CODE.findall(text)) if "FDSNStationXML" in text[:2000] else frozenset()
 
 
-def _parse(path: Path) -> Any:
-    return parsed_inventory(read_whole(path, _LARGEST_XML, RecordError, path.name), path.name)
-
-
-def inventory_of(options: Options) -> Any:
-    """Return obspy's inventory of the StationXML that the caller names, None where he names none."""
-    return _parse(options.inventory) if options.inventory is not None else None
+def inventory_of(path: Path | None) -> Any:
+    """Return obspy's inventory of the StationXML at a path, None of no path."""
+    return path and parsed_inventory(read_whole(path, _LARGEST_XML, RecordError, path.name), path.name)
 
 
 _KINDS = (

@@ -228,7 +228,7 @@ def read_station(content: bytes, options: Options) -> list[Accelerogram]:
     for trace, noted in _traces(facts, samples):
         is_raw = _is_raw(facts["tag"]) or _are_counts(noted, own, trace)
         unit = _unit_of(noted, own, trace, is_raw, options)
-        inventory = inventory_of(options) or own if unit is None else own
+        inventory = inventory_of(options.inventory) or own if unit is None else own
         if unit is None and inventory is None:
             raise UndeclaredError(
                 f"the workspace holds no StationXML of {trace.id}; {advice('inventory')}.", unit=None

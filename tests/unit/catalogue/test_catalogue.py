@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from rocking import Arch, extract_pulses, integrate, predict_maximum
-from rocking.catalogue import CatalogueRecord, files, load_catalogue, open_record
+from rocking.catalogue import CatalogueRecord, files, load_catalogue, open_station
 from rocking.catalogue.catalogue import catalogue_text, repeated
 from rocking.catalogue.files import download, path_of, with_hashes
 from rocking.catalogue.listing import listing_text
@@ -66,7 +66,7 @@ def test_horizontal_components_scaled_and_named(folder: Path) -> None:
     earthquake = {"magnitude": "6.7", "epicentral_distance_km": "0", "event": "Now"}
     path = write(folder, row(scale_factor="2", station="Here", high_pass_hz="0.1", **earthquake))
     (record,) = load_catalogue(path)
-    north, east = open_record(record)
+    north, east = open_station(record).horizontal
     assert (north.magnitude, north.epicentral_distance) == (6.7, 0.0)
     assert (north.component, east.component) == ("NS", "EW")
     assert north.acceleration[3] == pytest.approx(2 * 0.03) and north.scale_factor == 2
@@ -75,12 +75,12 @@ def test_horizontal_components_scaled_and_named(folder: Path) -> None:
 
 def test_components_by_name_and_in_the_order_given(folder: Path) -> None:
     (record,) = load_catalogue(write(folder, row(component="UD; NS")))
-    vertical, horizontal = open_record(record)
+    vertical, horizontal = open_station(record).horizontal
     assert (vertical.component, horizontal.component) == ("UD", "NS") and not horizontal.warnings
     assert vertical.warnings[-1] == RockingWarning(RecordKind.VERTICAL_AS_HORIZONTAL, "UD")
     (record,) = load_catalogue(write(folder, row(component="XX")))
     with refused(RecordError, "component", "XX"):
-        open_record(record)
+        open_station(record)
 
 
 def test_all_defects_stand_in_one_message(folder: Path) -> None:
@@ -212,7 +212,7 @@ def test_a_download_ends_at_a_size_and_after_a_time(folder, tmp_path: Path, answ
 
 def test_the_shipped_catalogue_opens_offline() -> None:
     records = load_catalogue(SHIPPED / "catalogue.csv")
-    opened = {record.id: open_record(record) for record in records}
+    opened = {record.id: open_station(record).horizontal for record in records}
     assert sum(len(channels) for channels in opened.values()) == 7
     # A block of slenderness 0.2 lifts at 0.203 g: every record shipped makes it rock.
     assert min(a.peak_acceleration for channels in opened.values() for a in channels) > 0.21 * GRAVITY
@@ -225,7 +225,8 @@ def test_the_shipped_catalogue_opens_offline() -> None:
 def test_the_shipped_records_make_the_arches_rock_as_their_readme_says() -> None:
     """Closed form and integration under Loma Prieta agree, and the scaled pulse knocks over none of Fig. 8."""
     records = {
-        one_record.id: open_record(one_record) for one_record in load_catalogue(SHIPPED / "catalogue.csv")
+        one_record.id: open_station(one_record).horizontal
+        for one_record in load_catalogue(SHIPPED / "catalogue.csv")
     }
     (along,) = (record for record in records["APEEL_1989"] if record.component == "43")
     pulse = extract_pulses(along).dominant
@@ -252,7 +253,7 @@ def test_the_near_fault_catalogue_opens_from_the_mirror(real_records: Path, mani
     listed = {row["file"]: row for row in manifest}
     assert len(records) >= 50 and all(record.is_remote for record in records)
     for record in records:
-        (channel,) = open_record(record, real_records)
+        (channel,) = open_station(record, real_records).horizontal
         stated = float(listed[record.file]["pga_g"]) * GRAVITY
         assert not channel.vertical and abs(channel.peak_acceleration / stated - 1) < 0.005
     rows = (row for row in manifest if row["role"] in ("pulse", "non-pulse") and "UP" not in row["component"])
@@ -271,7 +272,11 @@ def test_a_catalogue_from_a_folder(folder: Path) -> None:
     assert {file for file, _ in unread} == {"notes.md", "broken.AT2"}
     declared = {r["file"]: (r.get("unit", ""), r.get("time_step_s", "")) for r in rows}
     assert declared == {"plain.txt": ("g", "0.02"), "table.csv": ("", ""), "sub/table.csv": ("", "")}
-    assert [len(open_record(record)) for record in load_catalogue(write(folder, *rows))] == [1, 2, 2]
+    assert [len(open_station(record).horizontal) for record in load_catalogue(write(folder, *rows))] == [
+        1,
+        2,
+        2,
+    ]
     assert catalogue_from_folder(folder, unit="g", time_step=0.02) == (rows, unread)  # not its own catalogue
     with refused(RecordError, "folder"):
         catalogue_from_folder(folder / "none")
@@ -304,7 +309,7 @@ def test_ids_that_a_catalogue_writes_are_ids_that_it_loads(tmp_path: Path) -> No
     named(tmp_path / "sub", "CON.csv")
     rows, unread = catalogue_from_folder(tmp_path)
     assert [name for name, _ in unread] == [] and len(rows) == len([n for n in odd if n[0] != "."]) + 1
-    assert all(len(open_record(record)) == 2 for record in load_catalogue(write(tmp_path, *rows)))
+    assert all(len(open_station(record).horizontal) == 2 for record in load_catalogue(write(tmp_path, *rows)))
     assert not any(row["file"][0] in "=+-@" for row in rows)
 
 
@@ -314,7 +319,7 @@ def test_control_characters_of_a_header_stay_in_the_file(tmp_path: Path) -> None
     (row,), _ = catalogue_from_folder(tmp_path)
     assert all(cell.isprintable() for cell in row.values()) and row["station"] == "HYPERLINK(1)"
     (record,) = load_catalogue(write(tmp_path, row))
-    (channel,) = open_record(record)
+    (channel,) = open_station(record).horizontal
     assert all(text.isprintable() for text in (channel.component, channel.station, channel.event))
 
 
@@ -408,13 +413,13 @@ def test_a_row_added_by_hand_needs_no_hash_until_it_is_read(folder: Path) -> Non
     (folder / "up.csv").write_bytes(TABLE.encode())
     path = folder / "mine.csv"
     path.write_text('id,file,note\nold,table.csv,"a, b"\nnew,table.csv; up.csv,x\nlost,none.csv,\n')
-    assert len(open_record(load_catalogue(path)[0])) == 2
+    assert len(open_station(load_catalogue(path)[0]).horizontal) == 2
     records = {record.id: with_hashes(record) for record in load_catalogue(path)}
     assert records["old"].sha256 == SHA and records["new"].sha256 == f"{SHA};{SHA}"
     assert records["lost"].sha256 == ""
     (folder / "table.csv").write_text(TABLE.replace("1,", "2,", 1))
     with refused(RecordError, "sha256"):
-        open_record(records["old"])
+        open_station(records["old"])
 
 
 def test_the_readme_of_the_records_describes_every_column() -> None:
@@ -449,4 +454,4 @@ def test_a_day_of_the_row_overrides_that_of_the_file(folder: Path, event: str, f
     head = "PEER STRONG MOTION DATABASE RECORD\nNORTHRIDGE 1/17/94 12:31, HERE, 009\n"
     (folder / "a.AT2").write_text(f"{head}ACCELERATION IN UNITS OF G\nNPTS= 1000, DT= .01 SEC\n{values}\n")
     (record,) = load_catalogue(write(folder, {"id": "one", "file": "a.AT2", "event": event}))
-    assert [channel.event_time for channel in open_record(record)] == [found]
+    assert [channel.event_time for channel in open_station(record).horizontal] == [found]

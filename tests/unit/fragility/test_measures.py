@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import rocking
-from rocking.catalogue import load_catalogue, open_record
+from rocking.catalogue import load_catalogue, open_station
 from rocking.errors import ConfigurationError
 from rocking.fragility.measures import (
     CORNER,
@@ -41,7 +41,7 @@ NAMED = [spelling.replace("T1,T2", "0.2,2.0").replace("(T)", "(0.5)") for spelli
 def records(real_records) -> list[Accelerogram]:
     """Ten stations of FEMA P-695, one component each, followed by zeros: pyrotd wraps the end round to the start."""
     chosen = load_catalogue(ROOT / "records" / "fema_p695.csv")[:20:2]
-    read = [open_record(name, real_records)[0] for name in chosen]
+    read = [open_station(name, real_records).horizontal[0] for name in chosen]
     return [
         Accelerogram(np.append(channel.acceleration, np.zeros(6000)), channel.time_step) for channel in read
     ]

@@ -10,7 +10,7 @@ import pytest
 from made_files import MADE, MADE_BINARY, content_of
 
 import rocking
-from rocking.catalogue import load_catalogue, open_record
+from rocking.catalogue import load_catalogue, open_station
 from rocking.earthquakes.sample import MADE as MADE_MOTION
 from rocking.errors import RecordError
 from rocking.records import read
@@ -217,10 +217,10 @@ def test_what_a_header_calls_synthetic_is_made_in_every_catalogue(tmp_path: Path
     at2(tmp_path, first="SYNTHETIC ACCELEROGRAM, NOT RECORDED")
     for event in ("", MADE_MOTION):
         path = write(tmp_path, row(file="made.AT2", sha256="", event=event))
-        assert open_record(load_catalogue(path)[0])[0].event == MADE_MOTION
+        assert open_station(load_catalogue(path)[0]).horizontal[0].event == MADE_MOTION
     path = write(tmp_path, row(file="made.AT2", sha256="", event="Kobe 1995"))
     with pytest.raises(RecordError) as said:
-        open_record(load_catalogue(path)[0])
+        open_station(load_catalogue(path)[0])
     assert "Kobe 1995" in str(said.value) and MADE_MOTION in str(said.value)
 
 
@@ -296,7 +296,7 @@ def test_a_cell_of_the_catalogue_stands_against_no_file(tmp_path: Path, cells: d
     at2(tmp_path)
     path = write(tmp_path, row(file="made.AT2", sha256="", **cells))
     with pytest.raises(RecordError) as said:
-        open_record(load_catalogue(path)[0])
+        open_station(load_catalogue(path)[0])
     assert all(word in str(said.value) for word in named)
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rocking.catalogue import load_catalogue, open_record
+from rocking.catalogue import load_catalogue, open_station
 from rocking.catalogue.files import answers_of
 from rocking.errors import CatalogueError, RecordError
 from rocking.records import read
@@ -285,7 +285,7 @@ def test_many_files_of_two_layouts_cost_two_answers(tmp_path: Path) -> None:
     assert "Fill in" not in "".join(notes.values())
     for record in records:
         place = int("".join(filter(str.isdigit, record.file)) or 0)
-        (channel,) = open_record(record)
+        (channel,) = open_station(record).horizontal
         assert channel.acceleration == pytest.approx(np.roll(MOTION, 7 * place), abs=1e-5)
     before = (tmp_path / NAME).read_bytes()
     write_catalogue(tmp_path, target, None, None)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from openpyxl import Workbook
 
-from rocking.catalogue import listing, load_catalogue, open_record, readings
+from rocking.catalogue import listing, load_catalogue, open_station, readings
 from rocking.catalogue.listing import listing_text
 from rocking.errors import CatalogueError, RecordError
 from rocking.records import read
@@ -42,7 +42,7 @@ def test_a_catalogue_with_semicolons_and_decimal_commas(tmp_path: Path, encoding
     path = european(tmp_path / "catalogue.csv", [row], encoding)
     (record,) = load_catalogue(path)
     assert (record.time_step, record.scale_to, record.station) == (0.01, "pga 0.35 g", "Düzce")
-    north, _ = open_record(record)
+    north, _ = open_station(record).horizontal
     assert north.component == "N" and north.acceleration.size == MOTION.size
     assert "0 of them new" in write_catalogue(tmp_path, path, None, None)
 
@@ -128,7 +128,7 @@ def test_a_unit_that_is_declared_for_a_folder_fills_the_rows_that_asked(tmp_path
     write_catalogue(tmp_path, target, "m/s2", None)
     (record,) = load_catalogue(target)
     assert record.unit == "m/s2" and "Fill in" not in record.note
-    assert open_record(record)[0].acceleration.size == MOTION.size
+    assert open_station(record).horizontal[0].acceleration.size == MOTION.size
 
 
 def test_a_fault_of_ours_costs_no_other_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -36,7 +36,7 @@ PLOTTED = {
     "spectrum": SPECTRUM,
     "mechanism": BLOCK.mechanism(),
     "structure": rocking.Arch(10.0, 1.5, np.radians(157.5)),
-    "response spectrum": RECORD.spectrum(),
+    "response spectrum": rocking.response_spectrum(RECORD),
 }
 
 

@@ -13,7 +13,7 @@ import xlsxwriter
 from rocking.assessment.conclusion import TO_CHECK
 from rocking.assessment.scene import load_scenes
 from rocking.catalogue import load_catalogue
-from rocking.catalogue.station import open_record
+from rocking.catalogue.station import open_station
 from rocking.errors import CatalogueError, ConfigurationError, RecordError
 from rocking.quantities import GRAVITY
 from rocking.records import read
@@ -70,7 +70,7 @@ def test_counts_are_read_by_their_factor_or_by_the_unit_of_one(counts: Path) -> 
 def test_a_catalogue_gives_the_factor_of_counts(counts: Path, cells: str) -> None:
     catalogue = counts.with_name("catalogue.csv")
     catalogue.write_text(f"id,file,unit,scale_factor\na,counts.txt,{cells}\n")
-    (record,) = open_record(load_catalogue(catalogue)[0])
+    (record,) = open_station(load_catalogue(catalogue)[0]).horizontal
     assert record.peak_acceleration == pytest.approx(0.5 * GRAVITY, rel=1e-3)
     assert not record.warnings
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import yaml
 
-from rocking.catalogue import load_catalogue, open_record
+from rocking.catalogue import load_catalogue, open_station
 from rocking.study.cli import main
 from rocking.study.selection import joined_by_station
 from rocking.study.settings import read_settings
@@ -56,7 +56,7 @@ def test_two_rows_of_one_station_and_earthquake_are_one_pair_with_one_factor(stu
         writer.writeheader()
         writer.writerows(rows)
     pool = {
-        one_record.id: [open_record(one_record)[0]]
+        one_record.id: [open_station(one_record).horizontal[0]]
         for one_record in load_catalogue(path)
         if one_record.id != "gone"
     }
@@ -105,7 +105,10 @@ def test_the_catalogue_of_the_set_holds_the_factors_and_can_be_opened(study, cap
     for name in chosen:
         factor = name.scale_factor / pool[name.id].scale_factor
         assert f"{name.id}: factor {factor:.4g}" in told
-        ratio = open_record(name)[0].acceleration / open_record(pool[name.id])[0].acceleration
+        ratio = (
+            open_station(name).horizontal[0].acceleration
+            / open_station(pool[name.id]).horizontal[0].acceleration
+        )
         np.testing.assert_allclose(ratio, factor, rtol=1e-9)
     first = (study / "records" / "selected.csv").read_bytes()
     assert b"target" in (study / "records" / "selected.svg").read_bytes()
