@@ -18,7 +18,7 @@ import numpy as np
 from scipy.special import betaincinv
 
 from rocking.assessment.assessor import Assessor, Store
-from rocking.assessment.cracks import counting_cracks
+from rocking.assessment.cracks import cracks
 from rocking.assessment.decide import Verdict
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.motions import Component, HorizontalMotion, Motion
@@ -681,8 +681,8 @@ def _lifting(
     for scene in scenes:
         if scene.place.supports:
             return np.ones(len(records), dtype=bool)
-        cracks = counting_cracks(scene.structure)
-        least = min(least, *(crack.mechanism.uplift_multiplier for crack in cracks))
+        counting = cracks(scene.structure).counting
+        least = min(least, *(crack.mechanism.uplift_multiplier for crack in counting))
     strongest = (1 + settings.ensemble.amplitude_range) / GRAVITY
     return np.array([strongest * record.peak_acceleration > least for record in records])
 

@@ -27,7 +27,7 @@ from docs.research.report import Tables, Target
 from docs.research.sites import Records
 from rocking.assessment.assessor import Assessor
 from rocking.assessment.case import PeriodResult
-from rocking.assessment.cracks import CrackEnsembles, FollowedCrack, counting_cracks, slides_first
+from rocking.assessment.cracks import CrackEnsembles, FollowedCrack, cracks, slides_first
 from rocking.assessment.decide import Verdict, decide
 from rocking.assessment.ensemble import drawn, lattice
 from rocking.assessment.motions import GroundMotions, Motion, ground_motions
@@ -130,7 +130,7 @@ def stability_trials(
         number = min(STRUCTURES_PER_KIND, len(structures))
         for name in draw.choice(list(structures), number, replace=False).tolist():
             structure = structures[name]
-            multiplier = counting_cracks(structure)[0].mechanism.uplift_multiplier
+            multiplier = cracks(structure).counting[0].mechanism.uplift_multiplier
             factor = sites.lifting_factor(first, multiplier, sites.UPLIFTS, draw)
             one, other = first.scaled(factor), second.scaled(factor)
             vertical = aligned(other.scaled(VERTICAL), one) if kind == "with vertical motion" else None
@@ -172,7 +172,7 @@ def in_study(scene: Scene, components: Sequence[Accelerogram], vertical: Acceler
 def very_many(structure: Structure, motions: GroundMotions) -> CrackEnsembles:
     """Return the ensembles of MEMBERS members of every crack that counts."""
     settings = AssessmentSettings()
-    several = counting_cracks(structure)
+    several = cracks(structure).counting
     several = tuple(candidate for candidate in several if not slides_first(candidate, motions)) or several
     followed = (
         FollowedCrack(

@@ -12,7 +12,6 @@ from functools import cached_property
 from rocking.assessment.contacts import ContactShare, stackable
 from rocking.assessment.cracks import (
     CrackEnsembles,
-    counting_cracks,
     cracks,
     decided_by,
     loses_seat_at,
@@ -204,7 +203,7 @@ class CaseResult:
         if self.ensembles is not None:
             followed = [crack for crack in self.ensembles.followed if crack.counts]
             rests = all(bool((crack.ensemble.rotation_ratios == 0).all()) for crack in followed)
-        typed = counting_cracks(body)[0].mechanism.restitution_range is not None
+        typed = cracks(body).counting[0].mechanism.restitution_range is not None
         wall = held(body)
         restraints = wall.restraints if wall else ()
         tops = (restraint for restraint in restraints if restraint.kind == "top" and restraint.lets_go)

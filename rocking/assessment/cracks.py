@@ -23,7 +23,7 @@ from rocking.motion.response import lifting_friction
 from rocking.motion.table import table_of
 from rocking.structures import Structure
 from rocking.structures.crackable import crushing
-from rocking.structures.structure import CRACKS, Candidate, with_geometry
+from rocking.structures.structure import CRACKS, Candidate, Mechanisms
 from rocking.warnings import RockingWarning
 
 _SEATS = 65
@@ -123,28 +123,23 @@ class CrackEnsembles:
 
 
 @lru_cache(maxsize=256)
-def cracks(structure: Structure) -> tuple[Candidate, ...]:
+def cracks(structure: Structure) -> Mechanisms:
     """Return the mechanisms that may form; first the one that is known, or that statics chooses.
 
     Where a restitution is typed far below that of the geometry, the first one comes once more with that of the
     geometry: a typed restitution that dissipates more energy than the geometry implies needs a measurement to be relied
     upon. Those of leaves that may part are those of each leaf; of what is weakest they come first.
     """
-    every = structure.candidates(CRACKS)
-    if not structure.leaves_alone:
-        return with_geometry(every)
-    forming: list[Candidate] = []
     alone = {leaf.name: leaf for leaf in structure.leaves_alone}
-    for part in dict.fromkeys(candidate.part for candidate in every):
-        if part:
-            forming += alone[part].named(cracks(alone[part].structure))
-        else:
-            forming += with_geometry(tuple(candidate for candidate in every if not candidate.part))
-    return tuple(forming)
+    return Mechanisms(
+        candidate
+        for part, own in structure.candidates(CRACKS).parts.items()
+        for candidate in (alone[part].named(cracks(alone[part].structure)) if part else own.with_geometry)
+    )
 
 
 @lru_cache(maxsize=256)
-def mechanisms_of(structure: Structure) -> tuple[Candidate, ...]:
+def mechanisms_of(structure: Structure) -> Mechanisms:
     """Return every mechanism: those that may be followed, and behind them those that statics alone lists."""
     forming = cracks(structure)
     listed = (
@@ -152,7 +147,7 @@ def mechanisms_of(structure: Structure) -> tuple[Candidate, ...]:
         for candidate in structure.mechanisms()
         if not any(_alike(candidate, own) for own in forming)
     )
-    return (*forming, *listed)
+    return Mechanisms((*forming, *listed))
 
 
 def _alike(one: Candidate, other: Candidate) -> bool:
@@ -202,24 +197,19 @@ def loses_seat_at(structure: Structure, support_loss: float) -> float:
     return lost
 
 
-def counting_cracks(structure: Structure) -> tuple[Candidate, ...]:
-    """Return those of the mechanisms that may form that take part in the verdict."""
-    return tuple(candidate for candidate in cracks(structure) if candidate.counts)
-
-
 def weakest_not_followed(structure: Structure) -> Candidate | None:
     """Return the mechanism of least λ where its motion cannot be followed, and so does not count; None where it can.
 
     Of a leaf that may part that leaf is asked.
     """
-    least = min(candidate.uplift_multiplier for candidate in counting_cracks(structure))
-    own = (candidate for candidate in structure.mechanisms() if not candidate.part)
+    least = cracks(structure).counting.least_multiplier
+    own = structure.mechanisms().of_all
     return next((listed for listed in own if listed.refusal and listed.uplift_multiplier < least), None)
 
 
 def never_overturns_because(structure: Structure) -> str:
     """Return why no mechanism that counts can overturn, in words; "" where one can, or where that is not known."""
-    reasons = [candidate.mechanism.never_overturns_because for candidate in counting_cracks(structure)]
+    reasons = [candidate.mechanism.never_overturns_because for candidate in cracks(structure).counting]
     if not all(reasons):
         return ""
     one_can = any(
@@ -231,7 +221,7 @@ def never_overturns_because(structure: Structure) -> str:
 def crack_named(structure: Structure, description: str) -> Candidate:
     """Return the crack of this description; the first one where none has it, as where only one may form."""
     several = cracks(structure)
-    return next((candidate for candidate in several if candidate.description == description), several[0])
+    return several.described(description) or several[0]
 
 
 def cracked(structure: Structure, description: str) -> Structure:
@@ -261,8 +251,7 @@ def ensemble_over_cracks(
     """
     every = cracks(structure)
     parts: list[CrackEnsembles] = []
-    for part in dict.fromkeys(candidate.part for candidate in every):
-        own = [candidate for candidate in every if candidate.part == part]
+    for own in every.parts.values():
         parts.append(_of_part(own, motions, settings, is_named=len(every) > 1, exhaustive=exhaustive))
         if parts[-1].followed[0].facts.step(settings.ensemble.risk) is Verdict.OVERTURNS:
             break
@@ -273,7 +262,7 @@ def ensemble_over_cracks(
 
 
 def _of_part(
-    several: Sequence[Candidate],
+    several: Mechanisms,
     motions: GroundMotions,
     settings: AssessmentSettings,
     *,
@@ -281,9 +270,9 @@ def _of_part(
     exhaustive: bool,
 ) -> CrackEnsembles:
     """The ensembles of the cracks of one part that may govern it; is_named: whether anything else may form."""
-    counting = [candidate for candidate in several if candidate.counts]
+    counting = several.counting
     sliding = sliding_first(several, motions)
-    lifting = [candidate for candidate in counting if candidate not in sliding] or counting
+    lifting = Mechanisms(candidate for candidate in counting if candidate not in sliding) or counting
     left_out = [candidate for candidate in counting if candidate not in lifting]
     first, *others = *lifting, *(candidate for candidate in several if not candidate.counts)
     of_statics = ensemble(
@@ -304,9 +293,9 @@ def _of_part(
     def in_doubt(several: Sequence[Candidate]) -> list[Candidate]:
         if exhaustive:
             return list(several)
-        always = [candidate for candidate in several if candidate.bulges]
-        rest = [candidate for candidate in several if not candidate.bulges]
-        return always + screened(rest, of_statics, motions, settings, first.mechanism.uplift_multiplier)
+        rest = Mechanisms(several)
+        lifted_at = first.mechanism.uplift_multiplier
+        return [*rest.bulges, *screened(rest.cracks, of_statics, motions, settings, lifted_at)]
 
     def followed(candidate: Candidate) -> FollowedCrack:
         of_one = ensemble(
@@ -339,19 +328,15 @@ def _of_part(
     return ensembles
 
 
-def sliding_first(several: Sequence[Candidate], motions: GroundMotions) -> list[Candidate]:
+def sliding_first(several: Mechanisms, motions: GroundMotions) -> Mechanisms:
     """Return those of the mechanisms that may form that slide before they lift, under motions that reach so far.
 
     A bulge whose joints slide instead is no safer for it: it is none of them where anything that counts lifts, or
     nothing but bulges may form.
     """
-    sliding = [candidate for candidate in several if slides_first(candidate, motions)]
-    counting = [candidate for candidate in several if candidate.counts]
-    if all(candidate.bulges for candidate in counting) or any(
-        candidate not in sliding for candidate in counting
-    ):
-        return [candidate for candidate in sliding if not candidate.bulges]
-    return sliding
+    sliding = Mechanisms(candidate for candidate in several if slides_first(candidate, motions))
+    some_lift = any(candidate not in sliding for candidate in several.counting)
+    return sliding.cracks if some_lift or not several.counting.cracks else sliding
 
 
 def slides_first(candidate: Candidate, motions: GroundMotions) -> bool:

@@ -24,7 +24,7 @@ from rocking.assessment.contacts import (
     stackable,
 )
 from rocking.assessment.cores import in_order
-from rocking.assessment.cracks import counting_cracks, loses_seat_at
+from rocking.assessment.cracks import cracks, loses_seat_at
 from rocking.assessment.evidence import cannot_be_told
 from rocking.assessment.evidence.asked import Asked
 from rocking.assessment.evidence.walls import anchors_slide, held_all_along
@@ -149,7 +149,7 @@ class _Stones:
     @property
     def _lifts(self) -> float:
         """The factor at which the first mechanism lifts."""
-        least = min(crack.uplift_multiplier for crack in counting_cracks(self.structure))
+        least = cracks(self.structure).counting.least_multiplier
         return least / GroundMotions.of(self.record).excitation
 
     @cached_property
@@ -235,7 +235,7 @@ def reserve(
     def reaches(factor: float, number: int) -> bool:
         return is_asked(factor) and any(_as_many(draws, factor, number) for draws in parts)
 
-    first = min(crack.uplift_multiplier for crack in counting_cracks(structure))
+    first = cracks(structure).counting.least_multiplier
     least = first / motions.excitation / AMPLITUDES[1]
     factors = []
     for reached, factor in zip(SHARES, (of_members.low, of_members.median, of_members.high), strict=True):

@@ -70,8 +70,10 @@ class AssessmentKind(Kind):
     NOTHING_TO_DO = auto(), "nothing needs to be done", "nothing"
 
     # A structure, and where it stands.
-    HELD_AT_CEILING = auto(), """{about} of type wall: taken as held at floor and ceiling; a wall that is free
-        at its top, such as a boundary wall, is a free_wall."""
+    HELD_AT_CEILING = auto(), """{about}: taken as held at floor and ceiling; a wall that is free at its top,
+        such as a boundary wall, is a free_wall."""
+    ON_STILL_BASE = auto(), """{about}: with a base that rocks it may fall where alone it stands, as 4 of 123
+        bodies on a pedestal did."""
     VERTICAL_MISSING = auto(), """The settings ask for the vertical component (vertical: true), but there is
         none, and none acts."""
     # fmt: on

@@ -12,7 +12,7 @@ from functools import lru_cache, partial
 from time import process_time
 
 from rocking.assessment.case import CaseResult, Failure, Prediction, Variation
-from rocking.assessment.cracks import counting_cracks, crack_named, ensemble_over_cracks
+from rocking.assessment.cracks import crack_named, cracks, ensemble_over_cracks
 from rocking.assessment.evidence import gathered
 from rocking.assessment.evidence.asked import Asked
 from rocking.assessment.falls import reserve
@@ -119,7 +119,7 @@ def _under_component(inputs: CaseInputs, clock: Clock) -> CaseResult:
     vertical = inputs.vertical
     try:
         mechanism = structure.mechanism()
-        first = counting_cracks(structure)[0].mechanism
+        first = cracks(structure).counting[0].mechanism
         at_rest = settings.fidelity == "quick" and stays_at_rest(first, record, vertical)
         responses = {Method.MECHANISM_ON_RECORD: _STILL} if at_rest else _integrated(mechanism, inputs, clock)
         check = check_model(structure, responses[Method.MECHANISM_ON_RECORD], record, vertical)

@@ -79,6 +79,14 @@ def check_terms(mapping: Mapping[str, object]) -> CheckTerms:
     return CheckTerms(**given)
 
 
+TAKEN_AS = {
+    "wall": AssessmentKind.HELD_AT_CEILING,
+    "cavity_wall": AssessmentKind.HELD_AT_CEILING,
+    "pinnacle": AssessmentKind.ON_STILL_BASE,
+}
+"""What a structure is taken for by its type in a file, of those that may be meant otherwise."""
+
+
 @dataclass(frozen=True)
 class Scene:
     """One structure of a list, where it stands, and what its list says for the checks of a code.
@@ -114,9 +122,9 @@ class Scene:
             if caution.kind is StructureKind.RESTITUTION_ABOVE
         ]
         heavy = self.place.warning(self.name) if self.place.supports else None
-        is_wall = self.structure.type_name == "wall"
-        ceiling = RockingWarning(AssessmentKind.HELD_AT_CEILING, self.name) if is_wall else None
-        return (*sizes, *above, *filter(None, (heavy, ceiling)))
+        taken_as = TAKEN_AS.get(self.structure.described.type_name)
+        taken = RockingWarning(taken_as, self.name) if taken_as else None
+        return (*sizes, *above, *filter(None, (heavy, taken)))
 
 
 def variants_of(scenes: Mapping[str, Scene]) -> dict[str, list[str]]:

@@ -24,7 +24,7 @@ from rocking.structures import Structure
 from rocking.structures.crackable import Crackable
 from rocking.structures.joints import USUAL
 from rocking.structures.leaves import parts_of
-from rocking.structures.structure import AS_DESCRIBED, Candidate
+from rocking.structures.structure import AS_DESCRIBED, Candidate, Mechanisms
 from rocking.structures.tied import held
 from rocking.warnings import Phrase, RockingWarning
 
@@ -172,17 +172,16 @@ def _opening(structure: Structure) -> Iterator[Candidate]:
             "geometry, as rocking.Block or rocking.Facade.",
             structure=structure,
         )
-    own = [candidate for candidate in structure.candidates() if not candidate.part]
-    cracked = [candidate for candidate in own if candidate.counts and not candidate.bulges]
+    cracked = structure.candidates().of_all.counting.cracks
     if isinstance(structure, Crackable) and structure.statics_chooses:
         typed = structure.crack_in_words
-        cracked = [*cracked[:1], *(candidate for candidate in cracked[1:] if candidate.description == typed)]
-    family = [candidate for candidate in structure.mechanisms() if not candidate.part]
-    bulges = [candidate for candidate in family if candidate.bulges and not candidate.refusal]
+        cracked = Mechanisms([*cracked[:1], *(one for one in cracked[1:] if one.description == typed)])
+    bulges = structure.mechanisms().of_all.bulges.followed
     opens_elsewhere = bulges and not (isinstance(structure, Crackable) and structure.crack_is_known)
     for candidate in cracked:
         body = candidate.structure
-        shut = opens_elsewhere and candidate.stays_shut
+        wall = held(body)
+        shut = opens_elsewhere and wall is not None and not wall.lets_go
         for sign, side in _sides(body):
             if shut and sign > 0:
                 continue

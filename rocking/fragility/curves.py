@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from scipy.special import erfcx, ndtr, stdtr, stdtrit
 
-from rocking.assessment.cracks import counting_cracks, never_overturns_because, sliding_first
+from rocking.assessment.cracks import cracks, never_overturns_because, sliding_first
 from rocking.assessment.ensemble import drawn, lattice
 from rocking.assessment.falls import Falls, Model, falls_along
 from rocking.assessment.motions import GroundMotions
@@ -37,7 +37,7 @@ from rocking.quantities import GRAVITY, counted, listed
 from rocking.records import Accelerogram
 from rocking.signal.measures import peak_velocity
 from rocking.structures import EquivalentBlock, Mechanism, Structure
-from rocking.structures.structure import Candidate
+from rocking.structures.structure import Mechanisms
 from rocking.structures.unknown_geometry import as_structure
 from rocking.tables import check_target, write_whole
 
@@ -551,7 +551,7 @@ def fragility(
         )
     sample = checked_sample(ClusterSample.of(records, stations, events))
     body = as_structure(structure if isinstance(structure, Structure) else reduced)
-    counting = counting_cracks(body)
+    counting = cracks(body).counting
     first, *others = counting
     mechanism = first.mechanism
     if why := never_overturns_because(body):
@@ -640,9 +640,7 @@ def _rotation_ratios(
         return np.array(list(bar(of_records, "record", len(records))))
 
 
-def _left_out(
-    counting: Sequence[Candidate], records: Sequence[Accelerogram], factors: np.ndarray
-) -> np.ndarray:
+def _left_out(counting: Mechanisms, records: Sequence[Accelerogram], factors: np.ndarray) -> np.ndarray:
     """Whether each crack is left out at the factors (r, k), (c, r, k): it slides before it lifts, and another lifts."""
     left_out = np.zeros((len(counting), *factors.shape), dtype=bool)
     for place, step in np.argwhere(~np.isnan(factors)).tolist():

@@ -11,7 +11,7 @@ from rocking.errors import MotionError
 from rocking.quantities import GRAVITY, counted, four_digits
 from rocking.records import Accelerogram
 from rocking.structures import Outcome, Structure
-from rocking.structures.linkage import UnknownContacts, largest_so_far
+from rocking.structures.linkage import MotionState, UnknownContacts, largest_so_far
 from rocking.structures.tied import held
 from rocking.warnings import RockingWarning
 
@@ -189,9 +189,12 @@ def check_model(
     )
     wall = held(structure)
     try:
-        states = turned[rocks], velocity[rocks], None, ground, lift, largest_so_far(turned)[rocks]
-        contacts = structure.contact_forces(*states)
-        reactions = wall.reactions(*states) if wall else ()
+        so_far = largest_so_far(turned)[rocks]
+        state = MotionState.of(
+            structure.mechanism(), turned[rocks], velocity[rocks], None, ground, lift, so_far
+        )
+        contacts = structure.contact_forces(state)
+        reactions = wall.reactions(state) if wall else ()
     except UnknownContacts as why:
         return ModelCheck(reason=str(why))
     largest = min(float(rotation.max()), structure.mechanism().positive.end_rotation)
@@ -223,7 +226,8 @@ def lifting_friction(structure: Structure) -> float:
     ground = np.array([-sign * side.uplift_multiplier * GRAVITY])
     least = np.array([1e-12 * side.end_rotation])
     try:
-        contacts = structure.contact_forces(sign * least, np.zeros(1), None, ground, np.zeros(1), least)
+        state = MotionState.of(structure.mechanism(), sign * least, 0.0, ground=ground, largest=least)
+        contacts = structure.contact_forces(state)
     except UnknownContacts:
         return side.uplift_multiplier
     return float(np.nanmax(contacts.required_friction))

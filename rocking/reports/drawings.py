@@ -332,7 +332,7 @@ def bay_of(structure: Structure) -> Bay | None:
     right = float(ends[1]) + _BESIDE_A_BAY * spacing
     openings = [structure.opening]
     if structure.opening is None:
-        openings = [candidate.opening for candidate in structure.mechanisms() if not candidate.part]
+        openings = [candidate.opening for candidate in structure.mechanisms().of_all]
     falls = []
     for opening in openings:
         if opening is None or not opening.between:

@@ -31,7 +31,7 @@ from rocking.assessment.rows import (
     VerdictRow,
     WarningRow,
 )
-from rocking.assessment.scene import variants_of
+from rocking.assessment.scene import TAKEN_AS, variants_of
 from rocking.assessment.variants import variants
 from rocking.errors import FaultError, one_structure
 from rocking.floors.kinds import FloorKind
@@ -647,7 +647,7 @@ def _known(report: RecordReport) -> Section:
         "Contacts": _contacts(report),
         "Models": [
             *(str(replace(warning, about=listed(names))) for warning, names in report.left_out.items()),
-            *_held_at_ceiling(report.warnings),
+            *_taken_as(report.warnings),
         ],
         "Processing": [warning] if depends else [],
         "Warnings": [
@@ -732,10 +732,13 @@ def _said(warnings: Iterable[WarningRow], kind: Kind) -> list[str]:
     return [row.sentence for row in warnings if row.kind is kind]
 
 
-def _held_at_ceiling(warnings: Iterable[WarningRow]) -> list[str]:
-    """What walls are taken for, in one sentence on all of them."""
-    walls = [row.about for row in warnings if row.kind is AssessmentKind.HELD_AT_CEILING]
-    return [str(RockingWarning(AssessmentKind.HELD_AT_CEILING, listed(walls, _MOST_NAMED)))] if walls else []
+def _taken_as(warnings: Iterable[WarningRow]) -> list[str]:
+    """What structures are taken for, in one sentence on all that are taken for the same."""
+    names: dict[Kind, list[str]] = {}
+    for row in warnings:
+        if row.kind in TAKEN_AS.values():
+            names.setdefault(row.kind, []).append(row.about)
+    return [str(RockingWarning(kind, listed(taken, _MOST_NAMED))) for kind, taken in names.items()]
 
 
 def _notices(report: RecordReport) -> list[Notice]:

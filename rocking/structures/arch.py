@@ -33,7 +33,7 @@ from rocking.structures.drawing import Path, plane, span, swept
 from rocking.structures.fields import OptionalUnitWeight, Value, count, length, restitution_value, stated
 from rocking.structures.linkage import PRESSED, STILL, Restitution, momentum_balance
 from rocking.structures.stones import Stones, chain, counted_voussoirs
-from rocking.structures.structure import Candidate
+from rocking.structures.structure import Candidate, Mechanisms
 from rocking.warnings import Phrase
 
 _CRUSHINGS = 60
@@ -154,7 +154,7 @@ class Arch(Crackable):
                 hinge_angles=self.hinge_angles,
             ) from None
 
-    def _may_form(self, count: int) -> tuple[Candidate, ...]:
+    def _may_form(self, count: int) -> Mechanisms:
         """The mechanism of statics, that of the hinges that are typed, and the weakest with other hinges.
 
         To the other side the mirror image of each rocks.
@@ -171,7 +171,7 @@ class Arch(Crackable):
                 other = replace(self, hinge_angles=tuple(angles), crack="known", restitution=restitution)
                 other.mechanism()
                 others.append(Candidate(description, np.nan, other))
-        return tuple(sorted(others, key=lambda candidate: candidate.uplift_multiplier))
+        return Mechanisms(sorted(others, key=lambda candidate: candidate.uplift_multiplier))
 
     @property
     def crack_position(self) -> float:

@@ -13,7 +13,7 @@ from rocking.errors import DoesNotStandError, StructureError, StructureWarning
 from rocking.structures.fields import CompressiveStrength, Value
 from rocking.structures.kinds import StructureKind
 from rocking.structures.linkage import HIGHEST_SHARE
-from rocking.structures.structure import CRACKS, Candidate, Structure, by_multiplier, ranked
+from rocking.structures.structure import CRACKS, Candidate, Mechanisms, Structure
 from rocking.warnings import Phrase, RockingWarning
 
 USUAL_WEIGHT = 20e3
@@ -113,14 +113,14 @@ class Crackable(Crushable):
         return RockingWarning.of(StructureKind.CRACK_KNOWN_AT, height_m=float(self.crack_position))
 
     @property
-    def _bulges(self) -> tuple[Candidate, ...]:
+    def _bulges(self) -> Mechanisms:
         """What may form of a held wall wherever it is cracked, by their λ."""
-        return ()
+        return Mechanisms()
 
-    def _ranked(self, count: int) -> tuple[Candidate, ...]:
-        return ranked(self._cracked(count), self._bulges, is_known=self.crack_is_known)
+    def _ranked(self, count: int) -> Mechanisms:
+        return self._cracked(count).with_bulges(self._bulges, is_known=self.crack_is_known)
 
-    def _cracked(self, count: int) -> tuple[Candidate, ...]:
+    def _cracked(self, count: int) -> Mechanisms:
         """The cracks of it that may form, `count` or one more; first the one that is known, or that statics chooses."""
         others = self._may_form(count)
         if not self.crack_is_known:
@@ -135,7 +135,7 @@ class Crackable(Crushable):
             for candidate in others
             if candidate.description != own.description
         )
-        return (own, *not_counting)
+        return Mechanisms([own, *not_counting])
 
     @property
     def _limit(self) -> float | None:
@@ -143,7 +143,7 @@ class Crackable(Crushable):
         return None
 
     @abstractmethod
-    def _may_form(self, count: int) -> tuple[Candidate, ...]:
+    def _may_form(self, count: int) -> Mechanisms:
         """The mechanisms that may form, by their λ."""
 
 
@@ -189,7 +189,7 @@ class CrackedAtHeight(Crackable):
         shares = np.linspace(self.lowest_crack, HIGHEST_SHARE, count)
         return [float(height) for height in self.height * shares]
 
-    def _may_form(self, count: int) -> tuple[Candidate, ...]:
+    def _may_form(self, count: int) -> Mechanisms:
         """Each has its own momentum balance where no restitution is given.
 
         Where λ has its least value between two of the heights, the height of that is one more. Where ties hold it, λ is
@@ -202,15 +202,15 @@ class CrackedAtHeight(Crackable):
         cracked = [
             candidate for candidate in formed if candidate.structure.mechanism().can_overturn
         ] or formed
-        ranked = by_multiplier(cracked)
+        ranked = Mechanisms.by_multiplier(cracked)
         least = cracked.index(ranked[0])
         low = cracked[max(least - 1, 0)].position
         high = cracked[min(least + 1, len(cracked) - 1)].position
         weakest = self._weakest_between(low, high) if low < high else None
         # What is weaker by less than that is the same crack.
         if weakest and weakest.uplift_multiplier < (1 - 1e-5) * ranked[0].uplift_multiplier:
-            ranked.insert(0, weakest)
-        return tuple(ranked)
+            return Mechanisms([weakest, *ranked])
+        return ranked
 
     def _weakest_between(self, low: float, high: float) -> Candidate | None:
         """The candidate of least λ between two heights [m]."""

@@ -52,17 +52,19 @@ class Description:
         """Return the description that an entry of a list gives.
 
         of_type: the forms of its type. texts: the values as they were typed, by key, where they are known. What is
-        blank counts as left out. Raises ConfigurationError for a key that is unknown, missing or too much.
+        blank, or an empty list, counts as left out. Raises ConfigurationError for a key that is unknown, missing or too
+        much.
         """
         keys = [key for key in entry if key not in NOT_KEYS]
-        values = {key: entry[key] for key in keys if entry[key] is not None}
+        given = {key: entry[key] for key in keys if entry[key] is not None}
+        values = {key: value for key, value in given.items() if not isinstance(value, list) or value}
         form = _form(of_type, keys, values)
-        given = [
+        typed = [
             Given(field, values[key], texts.get(key, _typed(values[key])))
             for key, field in form.keys.items()
             if key in values
         ]
-        return cls(form, tuple(given))
+        return cls(form, tuple(typed))
 
     @classmethod
     def of(cls, structure: Any) -> Self:
@@ -82,6 +84,11 @@ class Description:
     def structure(self) -> Any:
         """Return the structure that it describes; raises StructureError, by key and as typed, where it cannot stand."""
         arguments = {given.field.name: given.field.inward(given.value) for given in self.values}
+        keys = {field.name: field.key for field in self.form.fields if "_" in field.name}
+
+        def keyed(sentence: str) -> str:
+            return re.sub(r"\w+", lambda word: keys.get(word[0], word[0]), sentence)
+
         try:
             made = self.form.construct(**arguments)
         except SizeError as error:
@@ -89,11 +96,9 @@ class Description:
             key = next((field.key for field in self.form.fields if field.name == error.field), error.field)
             typed = self.entry.get(key)
             value = error.shown if typed is None or isinstance(typed, list | tuple) else shown(typed)
-            raise SizeError.of(key, value, error.said) from None
+            raise SizeError.of(key, value, keyed(error.said)) from None
         except StructureError as error:
-            keys = {field.name: field.key for field in self.form.fields if "_" in field.name}
-            sentence = re.sub(r"\w+", lambda word: keys.get(word[0], word[0]), str(error))
-            error.args = (sentence,)
+            error.args = (keyed(str(error)),)
             raise
         return self.describes(made)
 

@@ -76,5 +76,6 @@ class StructureKind(Kind):
     # Why something could not be computed or drawn.
     CURVE_HAS_NO_GEOMETRY = auto(), """a capacity curve has no geometry of which a static check could take
         masses and displacements; check it in the program that it comes from."""
-    FALLS_AT_REST = auto(), "the structure does not stand: what acts on it at rest turns it over."
+    FALLS_AT_REST = auto(), """the structure does not stand: what acts on it at rest turns it over; correct
+        its sizes, lean or loads."""
     # fmt: on

@@ -14,7 +14,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, wraps
-from typing import Literal, NamedTuple, TypeVar
+from typing import Literal, NamedTuple, Self, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike
 from rocking.errors import DoesNotStandError, StructureError
 from rocking.quantities import GRAVITY
 from rocking.structures.kinds import StructureKind
-from rocking.structures.mechanism import Side, SideTie, Tie
+from rocking.structures.mechanism import Mechanism, Side, SideTie, Tie
 from rocking.warnings import RockingWarning
 
 
@@ -34,7 +34,8 @@ class MotionState(NamedTuple):
     """A structure at k instants, each seen from the side to which it rocks: (k,) each.
 
     sign: the side. rotation ≥ 0 [rad], velocity [rad/s], acceleration [rad/s²] and ground ü_g [m/s²] are times the
-    sign; vertical is ü_v [m/s²]. largest: the largest rotation on that side so far [rad], which ties remember.
+    sign; vertical is ü_v [m/s²]. largest: the largest rotation on that side so far [rad], which ties remember. resting:
+    whether it is at rest and nothing says that it accelerates.
     """
 
     sign: np.ndarray
@@ -44,6 +45,33 @@ class MotionState(NamedTuple):
     ground: np.ndarray
     vertical: np.ndarray
     largest: np.ndarray
+    resting: np.ndarray
+
+    @classmethod
+    def of(
+        cls,
+        mechanism: Mechanism,
+        rotation: ArrayLike,
+        velocity: ArrayLike,
+        acceleration: ArrayLike | None = None,
+        ground: ArrayLike = 0.0,
+        vertical: ArrayLike = 0.0,
+        largest: ArrayLike | None = None,
+    ) -> Self:
+        """Return the states of signed rotations, velocities and accelerations; at rest the velocity gives the side.
+
+        acceleration None: that of the mechanism, 0 at rest. largest None: within the states given.
+        """
+        states = np.broadcast_arrays(rotation, velocity, ground, vertical)
+        phi, speed, push, lift = (np.atleast_1d(np.asarray(values, dtype=float)) for values in states)
+        so_far = largest_so_far(phi) if largest is None else np.maximum(np.abs(phi), largest)
+        resting = np.full(phi.shape, acceleration is None) & (phi == 0) & (speed == 0)
+        if acceleration is None:
+            moving = mechanism.angular_acceleration(phi, speed, push, lift, so_far)
+            acceleration = np.where(resting, 0.0, moving)
+        sign = mechanism.side_of(phi, speed)
+        turn = np.broadcast_to(np.asarray(acceleration, dtype=float), phi.shape)
+        return cls(sign, phi * sign, speed * sign, turn * sign, push * sign, lift, so_far, resting)
 
     @property
     def pull(self) -> np.ndarray:
@@ -504,15 +532,11 @@ GRIPPED = 0.2
 
 
 class Reaction(NamedTuple):
-    """What holds a wall sideways at a height [m]: a "tie", a "floor" or the "top", with its force, (k,) N per metre.
-
-    pressing: the weight that presses the wall there against what holds it, N per metre, by whose friction it may do so.
-    """
+    """What holds a wall sideways at a height [m]: a "tie", a "floor" or the "top", with its force, (k,) N per metre."""
 
     kind: str
     height: float
     force: np.ndarray
-    pressing: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,10 +8,9 @@ from dataclasses import KW_ONLY, dataclass, field, fields, replace
 from functools import cached_property
 from itertools import chain
 from operator import attrgetter
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, Self
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from rocking.errors import SizeError, StructureError, StructureWarning
 from rocking.quantities import GRAVITY, within
@@ -30,7 +29,6 @@ from rocking.structures.linkage import (
     Reaction,
     Restitution,
     UnknownContacts,
-    largest_so_far,
     momentum_balance,
 )
 from rocking.structures.mechanism import Mechanism, Side
@@ -262,61 +260,24 @@ class Structure(ABC):
             )
         return self.static_capacity(side).curve(count)
 
-    def contact_forces(
-        self,
-        rotation: ArrayLike,
-        angular_velocity: ArrayLike,
-        angular_acceleration: ArrayLike | None = None,
-        ground: ArrayLike = 0.0,
-        vertical: ArrayLike = 0.0,
-        largest: ArrayLike | None = None,
-    ) -> Contacts:
-        """Return the contact forces in motion.
+    def contact_forces(self, state: MotionState) -> Contacts:
+        """Return the contact forces in motion; at rest a single body carries the ground's whole acceleration.
 
-        rotation, angular_velocity, angular_acceleration: signed, (k,). ground, vertical: ü_g and ü_v, (k,) m/s².
-        largest: the largest rotation on that side so far [rad], (k,); None: within the states given.
-        At rotation 0 the side is that of the velocity. Tangential forces are positive towards the side it rocks to.
-        angular_acceleration None: that of its own mechanism. At rest a single body then carries the ground's whole
-        acceleration; the joints of a wall or an arch are statically indeterminate and their forces nan.
+        The joints of a wall or an arch at rest are statically indeterminate and their forces nan. Tangential forces are
+        positive towards the side it rocks to.
         Raises UnknownContacts, in words, where they are not known (a frame's are indeterminate).
         """
         if self._contacts_unknown:
             raise UnknownContacts(self._contacts_unknown)
-        state, resting = self._motion_state(
-            rotation, angular_velocity, angular_acceleration, ground, vertical, largest
-        )
         positive = self.linkages[0].contacts(state)
         negative = self.linkages[-1].contacts(state)
         is_positive = state.sign > 0
-        unknown = np.where(resting & (len(positive.names) > 1), np.nan, 0.0)
+        unknown = np.where(state.resting & (len(positive.names) > 1), np.nan, 0.0)
         return Contacts(
             positive.names,
             np.where(is_positive, positive.normal, negative.normal) + unknown,
             np.where(is_positive, positive.tangential, negative.tangential) + unknown,
         )
-
-    def _motion_state(
-        self,
-        rotation: ArrayLike,
-        angular_velocity: ArrayLike,
-        angular_acceleration: ArrayLike | None,
-        ground: ArrayLike,
-        vertical: ArrayLike,
-        largest: ArrayLike | None,
-    ) -> tuple[MotionState, np.ndarray]:
-        """The states of `contact_forces` seen from the side to which it rocks, and which of them are at rest."""
-        states = np.broadcast_arrays(rotation, angular_velocity, ground, vertical)
-        phi, velocity, push, lift = (np.atleast_1d(np.asarray(values, dtype=float)) for values in states)
-        so_far = largest_so_far(phi) if largest is None else np.maximum(np.abs(phi), largest)
-        free = angular_acceleration is None
-        resting = free & (phi == 0) & (velocity == 0)
-        if free:
-            moving = self.mechanism().angular_acceleration(phi, velocity, push, lift, so_far)
-            angular_acceleration = np.where(resting, 0.0, moving)
-        sign = self.mechanism().side_of(phi, velocity)
-        turn = np.broadcast_to(np.asarray(angular_acceleration, dtype=float), phi.shape)
-        state = MotionState(sign, phi * sign, velocity * sign, turn * sign, push * sign, lift, so_far)
-        return state, resting
 
     def stack(self, courses: int | None = None) -> Stack:
         """Return it as rigid courses for contact dynamics; raises StructureError where that has no meaning.
@@ -349,7 +310,7 @@ class Structure(ABC):
         """Return the loads, thrusts, ties and supports on it at a signed `rotation` [rad]."""
         return ()
 
-    def candidates(self, count: int = CRACKS) -> "tuple[Candidate, ...]":
+    def candidates(self, count: int = CRACKS) -> "Mechanisms":
         """Return the mechanisms that may form, `count` or one more; the first decides, the others by their λ.
 
         The first is the one that statics chooses, of least λ; where the crack is known that one, and the others do not
@@ -357,18 +318,26 @@ class Structure(ABC):
         wherever it is cracked: its bulge of least λ counts as well, and comes first where it is weaker. The same
         objects at every call, as they keep what they compute.
         """
-        known: dict[int, tuple[Candidate, ...]] = self.__dict__.setdefault("_candidates", {})
+        known: dict[int, Mechanisms] = self.__dict__.setdefault("_candidates", {})
         if count not in known:
             alone = [leaf.named(leaf.structure.candidates(count)) for leaf in self.leaves_alone]
-            known[count] = of_parts(self._ranked(count), alone)
+            known[count] = self._ranked(count).with_leaves(alone)
         return known[count]
 
-    def _ranked(self, count: int) -> "tuple[Candidate, ...]":
+    def _ranked(self, count: int) -> "Mechanisms":
         """What may form of all of it as one body, `count` or one more; the first decides."""
-        return (Candidate(AS_DESCRIBED, np.nan, self),)
+        return Mechanisms([Candidate(AS_DESCRIBED, np.nan, self)])
 
-    def mechanisms(self) -> "tuple[Candidate, ...]":
-        """Return every mechanism in which it may fall; a wall that is held at several heights has many by name."""
+    def mechanisms(self) -> "Mechanisms":
+        """Return every mechanism in which it may fall, by their λ of limit analysis (theory: section 12).
+
+        Of a wall that is held at several heights they are the cracks of `candidates`, and one by each further name of
+        the family; where the crack is known that one, and its bulges. The same objects at every call.
+        """
+        return self._mechanisms
+
+    @property
+    def _mechanisms(self) -> "Mechanisms":
         return self.candidates()
 
     @property
@@ -378,9 +347,8 @@ class Structure(ABC):
 
     @cached_property
     def static_multiplier(self) -> float:
-        """The least λ of the candidates that count: the ground acceleration [g] at which statics lets it fall."""
-        first, *_ = self.candidates()
-        return first.uplift_multiplier
+        """The least λ of its mechanisms by limit analysis, g, in which ties pull with the force at which they yield."""
+        return self.mechanisms()[0].uplift_multiplier
 
     @property
     def description(self) -> str:
@@ -552,20 +520,19 @@ class Candidate:
         return own
 
     @property
-    def slips(self) -> bool:
-        """Whether it is its top that slips under what lies on it."""
-        wall: HeldWall | None = getattr(self.structure, "held_wall", None)
-        return self.opening is not None and wall is not None and bool(wall.slip(self.opening))
-
-    @property
     def bulges(self) -> bool:
         """Whether a held wall bulges in it, or slips below its top, which it may wherever it is cracked."""
         return self.opening is not None
 
-    @property
-    def stays_shut(self) -> bool:
-        """Whether a tie without a strength would have to stretch for it to open outwards."""
-        return not getattr(self.structure, "lets_go", True)
+    @cached_property
+    def kind(self) -> Literal["cracks", "bulges", "slips", "between"]:
+        """What it is one of: cracks, or of a held wall bulges, a top that slips, and what falls between ties."""
+        if self.opening is None:
+            return "cracks"
+        if self.opening.between:
+            return "between"
+        wall: HeldWall | None = getattr(self.structure, "held_wall", None)
+        return "slips" if wall and wall.slip(self.opening) else "bulges"
 
     @property
     def uplift_multiplier(self) -> float:
@@ -604,7 +571,8 @@ class Candidate:
             if self.sign >= 0:
                 return asked()
             least = -1e-12 * self.side.end_rotation
-            return asked([least], [0.0], ground=[self.side.uplift_multiplier * GRAVITY])
+            pushed = self.side.uplift_multiplier * GRAVITY
+            return asked(MotionState.of(self.mechanism, least, 0.0, ground=pushed))
         except UnknownContacts:
             return ()
 
@@ -628,9 +596,9 @@ class LeafAlone(NamedTuple):
     name: str
     structure: Structure
 
-    def named(self, candidates: Iterable[Candidate]) -> tuple[Candidate, ...]:
+    def named(self, candidates: Iterable[Candidate]) -> "Mechanisms":
         """Return mechanisms of the leaf as those of the wall, which name it."""
-        return tuple(map(self._named, candidates))
+        return Mechanisms(map(self._named, candidates))
 
     def _named(self, candidate: Candidate) -> Candidate:
         alone = Phrase("{part} alone", part=self.name)
@@ -640,91 +608,119 @@ class LeafAlone(NamedTuple):
         return replace(candidate, description=description, name=does, part=self.name)
 
 
-def by_multiplier(cracked: Sequence[Candidate]) -> list[Candidate]:
-    """Return cracks by their λ; of those equal but for rounding, as all along a solid spire, the lowest comes first."""
-    return sorted(cracked, key=lambda candidate: float(f"{candidate.uplift_multiplier:.9g}"))
+class Mechanisms(tuple[Candidate, ...]):
+    """Mechanisms in which a structure may fall, in their order: the first one decides."""
 
+    __slots__ = ()
 
-def ranked(
-    cracked: Iterable[Candidate], bulges: Sequence[Candidate], *, is_known: bool
-) -> tuple[Candidate, ...]:
-    """Return the cracks of one body in their order, with what a held wall also does wherever it is cracked.
+    @property
+    def counting(self) -> "Mechanisms":
+        """Those that take part in the verdict."""
+        return Mechanisms(one for one in self if one.counts)
 
-    That is its bulge of least λ whose motion can be followed, what falls as its top slips (theory: section 12.6), and
-    what falls between ties. Each comes first where limit analysis, in which ties pull with the force at which they
-    yield, finds it weaker than every crack. Unless it is known, a crack that ties keep shut for good is left out, as
-    far as something else is left, and one below a top that slips before: what would hold it there does not.
-    """
-    every_crack = list(cracked)
-    followed = [bulge for bulge in bulges if not bulge.refusal]
-    between = [bulge for bulge in followed if bulge.opening and bulge.opening.between]
-    at_ties = [bulge for bulge in followed if not (bulge.opening and bulge.opening.between)]
-    slipping = [bulge for bulge in at_ties if bulge.slips][:1]
-    bulging = [bulge for bulge in at_ties if not bulge.slips][:1]
-    counting = [crack for crack in every_crack if crack.counts]
-    not_counting = [
-        crack for crack in every_crack if not crack.counts and math.isfinite(crack.uplift_multiplier)
-    ]
-    if not is_known:
-        opens = [crack for crack in counting if math.isfinite(crack.uplift_multiplier)]
-        counting = opens if opens or followed else counting
-        if any(bulge.mechanism.can_overturn for bulge in (*bulging, *slipping, *between[:1])):
-            counting = [crack for crack in counting if crack.mechanism.can_overturn]
-        if slipping:
-            slips_at = slipping[0].uplift_multiplier
-            counting = [crack for crack in counting if crack.uplift_multiplier <= slips_at]
-    for bulge in (*bulging, *slipping, *between[:1]):
-        is_weakest = all(bulge.uplift_multiplier < crack.uplift_multiplier for crack in counting)
-        counting.insert(0 if is_weakest else len(counting), bulge)
-    return (*counting, *not_counting)
+    @property
+    def followed(self) -> "Mechanisms":
+        """Those whose motion can be followed."""
+        return Mechanisms(one for one in self if not one.refusal)
 
+    @property
+    def cracks(self) -> "Mechanisms":
+        """Those that open at a crack."""
+        return Mechanisms(one for one in self if not one.bulges)
 
-def of_parts(
-    together: tuple[Candidate, ...], alone: Sequence[tuple[Candidate, ...]]
-) -> tuple[Candidate, ...]:
-    """Return what may form of a wall whose leaves may part, alone or all as one body; the weakest part comes first."""
-    if not alone:
-        return together
-    named = [
-        replace(candidate, description="all leaves together")
-        if candidate.description == AS_DESCRIBED
-        else candidate
-        for candidate in together
-    ]
-    return tuple(chain(*sorted([named, *alone], key=lambda part: part[0].uplift_multiplier)))
+    @property
+    def bulges(self) -> "Mechanisms":
+        """What a held wall does wherever it is cracked."""
+        return Mechanisms(one for one in self if one.bulges)
 
+    @property
+    def parts(self) -> "dict[str, Mechanisms]":
+        """Those of each part, in their order: of all of it as one body, "", and of each leaf that falls alone."""
+        names = dict.fromkeys(one.part for one in self)
+        return {name: Mechanisms(one for one in self if one.part == name) for name in names}
 
-def every(
-    cracked: Sequence[Candidate], family: Iterable[Candidate], alone: Iterable[Iterable[Candidate]]
-) -> tuple[Candidate, ...]:
-    """Return every mechanism by its λ: cracks, what else is in the family of a held wall, and those of each leaf."""
-    further = [
-        listed
-        for listed in family
-        if not any(_places_as_well(own, listed) or own.structure is listed.structure for own in cracked)
-    ]
-    return tuple(sorted((*cracked, *further, *chain(*alone)), key=attrgetter("uplift_multiplier")))
+    @property
+    def of_all(self) -> "Mechanisms":
+        """Those of all of it as one body."""
+        return self.parts.get("", Mechanisms())
 
+    @property
+    def least_multiplier(self) -> float:
+        """The least λ of limit analysis."""
+        return min(one.uplift_multiplier for one in self)
 
-def _places_as_well(own: Candidate, listed: Candidate) -> bool:
-    """Whether a crack is a mechanism of the family, which that places where λ is least, or a weaker one."""
-    return own.name == listed.name and own.uplift_multiplier <= (1 + 1e-6) * listed.uplift_multiplier
+    def described(self, description: str) -> Candidate | None:
+        """Return the one of this description; None where none has it."""
+        return next((one for one in self if one.description == description), None)
 
+    @classmethod
+    def by_multiplier(cls, cracked: Iterable[Candidate]) -> "Mechanisms":
+        """Return cracks by their λ; of equal ones but for rounding, as along a solid spire, the lowest comes first."""
+        return cls(sorted(cracked, key=lambda one: float(f"{one.uplift_multiplier:.9g}")))
 
-def with_geometry(several: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
-    """Return what may form of one part, last the first crack once more where its restitution is typed too low."""
-    first = next((candidate for candidate in several if candidate.counts and not candidate.bulges), None)
-    balanced = None if first is None else first.structure.restitution_of_geometry
-    if first is None or balanced is None:
-        return several
-    own, with_own = balanced
-    livelier = replace(
-        first,
-        description=f"restitution {own:.2f} of its geometry",
-        structure=with_own,
-        of_geometry=True,
-    )
-    if len(several) == 1:
-        typed = first.mechanism.restitution
-        several = (replace(first, description=Phrase("restitution {typed:.2f} as typed", typed=typed)),)
-    return (*several, livelier)
+    def with_bulges(self, bulges: "Mechanisms", *, is_known: bool) -> "Mechanisms":
+        """Return the cracks of one body in their order, with what a held wall also does wherever it is cracked.
+
+        That is its bulge of least λ whose motion can be followed, what falls as its top slips (theory: section 12.6),
+        and what falls between ties. Each comes first where limit analysis, in which ties pull with the force at which
+        they yield, finds it weaker than every crack. Unless it is known, a crack that ties keep shut for good is left
+        out, as far as something else is left, and one below a top that slips before: what would hold it there does not.
+        """
+        first = {one.kind: one for one in reversed(bulges.followed)}
+        further = [first[kind] for kind in ("bulges", "slips", "between") if kind in first]
+        counting = list(self.counting)
+        others = [one for one in self if not one.counts and math.isfinite(one.uplift_multiplier)]
+        if not is_known:
+            opens = [one for one in counting if math.isfinite(one.uplift_multiplier)]
+            counting = opens if opens or further else counting
+            if any(one.mechanism.can_overturn for one in further):
+                counting = [one for one in counting if one.mechanism.can_overturn]
+            if "slips" in first:
+                slips_at = first["slips"].uplift_multiplier
+                counting = [one for one in counting if one.uplift_multiplier <= slips_at]
+        for bulge in further:
+            is_weakest = all(bulge.uplift_multiplier < one.uplift_multiplier for one in counting)
+            counting.insert(0 if is_weakest else len(counting), bulge)
+        return Mechanisms((*counting, *others))
+
+    def with_leaves(self, alone: "Sequence[Mechanisms]") -> "Mechanisms":
+        """Return them with those of each leaf that may part, the weakest part first."""
+        if not alone:
+            return self
+        together = Mechanisms(
+            replace(one, description="all leaves together") if one.description == AS_DESCRIBED else one
+            for one in self
+        )
+        return Mechanisms(chain(*sorted([together, *alone], key=lambda part: part[0].uplift_multiplier)))
+
+    def with_family(self, family: Iterable[Candidate], alone: "Iterable[Mechanisms]") -> "Mechanisms":
+        """Return every mechanism by its λ: cracks, what else is in the family of a held wall, and those of its leaves.
+
+        A crack stands for that of the family of its name, which that places where λ is least, or for a stronger one.
+        """
+
+        def is_listed(listed: Candidate) -> bool:
+            enough = (1 + 1e-6) * listed.uplift_multiplier
+            return any(
+                one.structure is listed.structure
+                or (one.name == listed.name and one.uplift_multiplier <= enough)
+                for one in self
+            )
+
+        further = (listed for listed in family if not is_listed(listed))
+        return Mechanisms(sorted((*self, *further, *chain(*alone)), key=attrgetter("uplift_multiplier")))
+
+    @property
+    def with_geometry(self) -> "Mechanisms":
+        """Those of one part, last the first crack once more where its restitution is typed too low."""
+        first = next(iter(self.counting.cracks), None)
+        balanced = None if first is None else first.structure.restitution_of_geometry
+        if first is None or balanced is None:
+            return self
+        own, with_own = balanced
+        words = f"restitution {own:.2f} of its geometry"
+        livelier = replace(first, description=words, structure=with_own, of_geometry=True)
+        if len(self) > 1:
+            return Mechanisms((*self, livelier))
+        typed = Phrase("restitution {typed:.2f} as typed", typed=first.mechanism.restitution)
+        return Mechanisms((replace(first, description=typed), livelier))

@@ -10,7 +10,6 @@ from itertools import pairwise
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from rocking.errors import DoesNotStandError, StructureError, StructureWarning
 from rocking.quantities import GRAVITY
@@ -42,7 +41,7 @@ from rocking.structures.stack import (
     joints_between,
     loaded,
 )
-from rocking.structures.structure import Candidate, Structure, every
+from rocking.structures.structure import Candidate, Mechanisms, Structure
 from rocking.warnings import Phrase, RockingWarning
 
 UnitWeight = Annotated[float, Value("Weight of the masonry", 20.0, "kN/m³", (8, 30), bounds={"ge": 1e-6})]
@@ -342,30 +341,21 @@ class Tied(CrackedAtHeight, Leaved):
     def opened(self, opening: Opening) -> Self:
         """Return this wall where it opens so and nowhere else."""
 
-    def mechanisms(self) -> tuple[Candidate, ...]:
-        """Return every mechanism in which it may fall, by their λ of limit analysis (theory: section 12).
-
-        The cracks of `candidates`, and one by each further name of the family. Where the crack is known: that
-        one, and its bulges. The same objects at every call.
-        """
-        return self._mechanisms
-
     @cached_property
-    def _mechanisms(self) -> tuple[Candidate, ...]:
-        cracked = [candidate for candidate in self.candidates() if candidate.counts and not candidate.part]
+    def _mechanisms(self) -> Mechanisms:
         others = self._bulges if self.crack_is_known or self._is_one_bulge else self._family
-        if self.symmetric:
-            others = tuple(candidate for candidate in others if candidate.sign >= 0)
-        return every(cracked, others, [leaf.named(leaf.structure.mechanisms()) for leaf in self.leaves_alone])
+        family = [candidate for candidate in others if candidate.sign >= 0 or not self.symmetric]
+        alone = [leaf.named(leaf.structure.mechanisms()) for leaf in self.leaves_alone]
+        return self.candidates().counting.of_all.with_family(family, alone)
 
     @cached_property
-    def _bulges(self) -> tuple[Candidate, ...]:
+    def _bulges(self) -> Mechanisms:
         """Those of the family in which it opens at a hinge that cracks elsewhere leave out, by their λ.
 
         A crack that is known says where the wall is cracked, not that what holds it keeps it from bulging.
         """
         if self._is_one_bulge or not self.held_wall.holds:
-            return ()
+            return Mechanisms()
         own = self._described_opening
         span = (own.foot, own.hold) if own else None
 
@@ -374,9 +364,9 @@ class Tied(CrackedAtHeight, Leaved):
             if opening is None:
                 return False
             elsewhere = opening.hinge is not None and (opening.foot, opening.hold) != span
-            return elsewhere or opening.between or candidate.slips
+            return elsewhere or candidate.kind in ("between", "slips")
 
-        return tuple(filter(bulges, self._family))
+        return Mechanisms(filter(bulges, self._family))
 
     @property
     def _is_one_bulge(self) -> bool:
@@ -393,7 +383,7 @@ class Tied(CrackedAtHeight, Leaved):
         within = [place for place in super()._places(count) if not (np.abs(stops - place) < near).any()]
         return [*within, *stops.tolist()]
 
-    def _cracked(self, count: int) -> tuple[Candidate, ...]:
+    def _cracked(self, count: int) -> Mechanisms:
         cracked = super()._cracked(count)
         self._check_restitution()
         return cracked
@@ -403,11 +393,6 @@ class Tied(CrackedAtHeight, Leaved):
         for bulge in self._bulges:
             if bulge.refused is not None and bulge.refused.field == "restitution":
                 raise bulge.refused
-
-    @cached_property
-    def static_multiplier(self) -> float:
-        """The least λ of its mechanisms by limit analysis, g; ties pull with the force at which they yield."""
-        return self.mechanisms()[0].uplift_multiplier
 
     @property
     def _limit(self) -> float | None:
@@ -419,7 +404,7 @@ class Tied(CrackedAtHeight, Leaved):
         return min([self.held_wall.multiplier(self._opens), *inwards])
 
     @cached_property
-    def _family(self) -> tuple[Candidate, ...]:
+    def _family(self) -> Mechanisms:
         wall = self.held_wall
         family = []
         for opening, multiplier in wall.family():
@@ -439,7 +424,7 @@ class Tied(CrackedAtHeight, Leaved):
             if is_named:
                 words = Phrase("{opens} ({does})", opens=words, does=name)
             family.append(Candidate(words, place, opened, name=name, limit=multiplier, sign=sign))
-        return tuple(family)
+        return Mechanisms(family)
 
     @property
     def lets_go(self) -> bool:
@@ -447,33 +432,21 @@ class Tied(CrackedAtHeight, Leaved):
         crack = Opening(foot=self.crack_position) if self.opening is None else self.opening
         return math.isfinite(self.held_wall.multiplier(crack))
 
-    def reactions(
-        self,
-        rotation: ArrayLike = 0.0,
-        angular_velocity: ArrayLike = 0.0,
-        angular_acceleration: ArrayLike | None = None,
-        ground: ArrayLike | None = None,
-        vertical: ArrayLike = 0.0,
-        largest: ArrayLike | None = None,
-    ) -> tuple[Reaction, ...]:
-        """Return the force of everything that holds it sideways, N per metre, over k states as of `contact_forces`.
+    def reactions(self, state: MotionState | None = None) -> tuple[Reaction, ...]:
+        """Return the force of everything that holds it sideways, N per metre, over k states.
 
-        ground None: that at which it starts to fall outwards; without arguments they are those at rest under λ
-        (theory: section 12.4). Positive where it holds the wall back. What stretches pulls as its tie does; what the
-        mechanism takes for rigid gives what the balance of the bodies asks for. A floor that rests on the top and is
-        held sideways asks for its own inertia as well.
+        None: as it starts to fall outwards, at rest under λ (theory: section 12.4). Positive where it holds the wall
+        back. What stretches pulls as its tie does; what the mechanism takes for rigid gives what the balance of the
+        bodies asks for. A floor that rests on the top and is held sideways asks for its own inertia as well.
         Raises UnknownContacts where the bodies do not determine them.
 
         >>> wall = rocking.LoadedWall.of_size(3.6, 0.35, 18e3, 2.4, top_load=40e3, top_slab="flat", restitution=0.5)
         >>> [(each.kind, each.height, round(float(each.force[0]))) for each in wall.reactions()]
         [('top', 3.6, 19705)]
         """
-        side = self.mechanism().positive
-        if ground is None:
-            ground = -side.uplift_multiplier * GRAVITY
-        state, _ = self._motion_state(
-            rotation, angular_velocity, angular_acceleration, ground, vertical, largest
-        )
+        if state is None:
+            pushed = -self.mechanism().positive.uplift_multiplier * GRAVITY
+            state = MotionState.of(self.mechanism(), 0.0, 0.0, ground=pushed)
         found = [self._held_back(state, mirrored) for mirrored in (False, True)[: len(self.linkages)]]
         is_positive = state.sign > 0
         return tuple(
@@ -503,7 +476,8 @@ class Tied(CrackedAtHeight, Leaved):
             name, reaction = max(each, key=lambda asking: float(asking[1].force[0]))
             friction = hold.inwards if hold.kind == "top" else 0.0
             of_ties = hold.outwards - friction if np.isfinite(friction) else 0.0
-            coefficient = friction / reaction.pressing if reaction.pressing else 0.0
+            pressing = sum(load.weight for load in wall.loads if load.z == hold.height)
+            coefficient = friction / pressing if pressing else 0.0
             found.append(
                 Restraint(
                     kind=hold.kind,
@@ -575,8 +549,7 @@ class Tied(CrackedAtHeight, Leaved):
                 if abs(height - hold.height) < 1e-9 * wall.height:
                     pull = tie.tie.tension(tie.stretch(state.rotation), tie.stretch(state.largest))
                     force = force + pull * linkage.unit
-            pressing = sum(load.weight for load in wall.loads if hold.kind == "top" and load.z == hold.height)
-            reactions.append(Reaction(hold.kind, hold.height, force, pressing))
+            reactions.append(Reaction(hold.kind, hold.height, force))
         return reactions
 
     @property

@@ -8,7 +8,6 @@ import numpy as np
 from rocking.errors import StructureError
 from rocking.structures.linkage import Linkage
 from rocking.structures.mechanism import Mechanism
-from rocking.structures.stack import Stack
 from rocking.structures.structure import Structure
 
 
@@ -16,6 +15,7 @@ from rocking.structures.structure import Structure
 class UnknownGeometry(Structure):
     """A mechanism that somebody gives without its geometry: it has one crack, no outline and unknown contacts."""
 
+    type_name: ClassVar[str] = "mechanism alone"
     _contacts_unknown: ClassVar[str] = "a mechanism alone has no contacts that are known"
 
     of: Mechanism
@@ -33,12 +33,6 @@ class UnknownGeometry(Structure):
     def linkages(self) -> tuple[Linkage, ...]:
         """None: no moving part is known."""
         return ()
-
-    def stack(self, courses: int | None = None) -> Stack:
-        """Raise StructureError."""
-        raise StructureError(
-            "a mechanism alone is not a stack of courses, so that contact dynamics cannot follow it."
-        )
 
     def _linkage(self, mirrored: bool) -> Linkage:
         raise StructureError(

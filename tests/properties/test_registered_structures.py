@@ -22,7 +22,7 @@ from rocking.quantities import GRAVITY
 from rocking.structures import Arch, Facade, Spire
 from rocking.structures.crackable import Crackable
 from rocking.structures.kinds import StructureKind
-from rocking.structures.linkage import UnknownContacts
+from rocking.structures.linkage import MotionState, UnknownContacts
 from rocking.structures.structure_list import TYPES, structure_from_config
 
 SCHEMA = jsonschema.validators.validator_for(scenes_schema())(scenes_schema())
@@ -251,7 +251,8 @@ def test_contacts_are_finite_or_refused_in_words(structure):
     mechanism = structure.mechanism()
     rotation = mechanism.critical_rotation * np.array([0.2, 0.6])
     try:
-        found = structure.contact_forces(rotation, [0.1, -0.1], ground=[0.5, -0.5])
+        state = MotionState.of(structure.mechanism(), rotation, [0.1, -0.1], ground=[0.5, -0.5])
+        found = structure.contact_forces(state)
     except UnknownContacts as why:
         assert len(str(why).split()) > 4
         told = {warning.kind for warning in structure.cautions}

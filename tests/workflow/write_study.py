@@ -41,5 +41,7 @@ def write_study(folder: Path, records: int, duration: float = 20.0, time_step: f
 
 if __name__ == "__main__":
     if not 3 <= len(sys.argv) <= 5:
-        raise SystemExit("usage: python -m tests.workflow.write_study FOLDER RECORDS [DURATION_S [TIME_STEP_S]]")
+        raise SystemExit(
+            "usage: python -m tests.workflow.write_study FOLDER RECORDS [DURATION_S [TIME_STEP_S]]"
+        )
     write_study(Path(sys.argv[1]), int(sys.argv[2]), *map(float, sys.argv[3:]))

@@ -7,14 +7,14 @@ from typing import Protocol
 
 from rocking.assessment.case import CaseResult
 from rocking.assessment.contacts import MOST_RUNS, RUNS, ContactShare, contact_share
-from rocking.assessment.cracks import counting_cracks, cracks, sliding_first
+from rocking.assessment.cracks import cracks, sliding_first
 from rocking.assessment.decide import Facts, Limit, Verdict
 from rocking.assessment.methods import Method
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.motion.response import Response
 from rocking.structures import Outcome, Structure
-from rocking.structures.structure import Candidate
+from rocking.structures.structure import Mechanisms
 
 
 @dataclass(eq=False)
@@ -44,12 +44,12 @@ class Asked:
         return cls(case, structure, motions, settings)
 
     @cached_property
-    def counting(self) -> tuple[Candidate, ...]:
+    def counting(self) -> Mechanisms:
         """The mechanisms that count."""
-        return counting_cracks(self.structure)
+        return cracks(self.structure).counting
 
     @cached_property
-    def sliding(self) -> list[Candidate]:
+    def sliding(self) -> Mechanisms:
         """Those that slide before they lift."""
         return sliding_first(cracks(self.structure), self.motions)
 

@@ -102,9 +102,9 @@ def why_open(
         return None
     if bounces:
         return AssessmentKind.CONTACTS_OPEN
-    candidates = [candidate for candidate in structure.candidates() if not candidate.part]
-    bulges = [candidate.structure for candidate in candidates if candidate.bulges]
-    first = [candidate.structure for candidate in candidates if not candidate.bulges][:1]
+    forming = structure.candidates().of_all
+    bulges = [bulge.structure for bulge in forming.bulges]
+    first = [crack.structure for crack in forming.cracks[:1]]
     asked = [body for body in first if not all(isinstance(part, Turning) for part in body.linkages)]
     for body, sign, direction in product(asked, signs(structure, settings), directions(motions)):
         strongest = motions.horizontal[direction].scaled(sign * (1 + settings.ensemble.amplitude_range))

@@ -8,7 +8,7 @@ from rocking.assessment.cracks import cracks
 from rocking.errors import StructureError
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
-from rocking.structures.linkage import UnknownContacts
+from rocking.structures.linkage import MotionState, UnknownContacts
 from rocking.structures.unknown_geometry import as_structure
 
 BLOCK = rocking.Block(2.0, 0.2)
@@ -32,7 +32,7 @@ def test_what_needs_a_geometry_is_refused():
     alone = as_structure(BLOCK.mechanism())
     assert as_structure(BLOCK) is BLOCK
     with pytest.raises(UnknownContacts):
-        alone.contact_forces(0.01, 0.1)
+        alone.contact_forces(MotionState.of(alone.mechanism(), 0.01, 0.1))
     with pytest.raises(StructureError):
         alone.stack()
 

@@ -8,7 +8,7 @@ import pytest
 
 import rocking
 from rocking.assessment.contacts import contact_share
-from rocking.assessment.cracks import counting_cracks
+from rocking.assessment.cracks import cracks
 from rocking.assessment.falls import (
     APART,
     DRAWS,
@@ -167,7 +167,7 @@ def test_the_reserve_of_a_spire_is_where_its_stacks_fall():
     """Followed one after the other at factors on the motion: first one of them falls, then half, then all."""
     record = shaken(0.2)
     motions = GroundMotions.of(record)
-    found = reserve(SPIRE, counting_cracks(SPIRE)[0], motions, SETTINGS)
+    found = reserve(SPIRE, cracks(SPIRE).counting[0], motions, SETTINGS)
     assert math.isnan(reserve_of_members(SPIRE.mechanism(), motions).low), (
         "its mechanism stands up to the limit"
     )

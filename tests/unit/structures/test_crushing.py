@@ -13,6 +13,7 @@ from rocking.structures import Arch, ArchOnPiers, Block, Facade, Frame, LoadedWa
 from rocking.structures.building_parts import PARTS
 from rocking.structures.crackable import crushing
 from rocking.structures.held_wall import Opening
+from rocking.structures.linkage import MotionState
 from tests.refusals import refused
 
 FC = 1.5e6
@@ -38,7 +39,9 @@ def test_block_turns_about_a_point_within_its_foot():
     assert block.hinges()[0] == pytest.approx([b / 2 - c, 0.0], rel=1e-12)
     # the outline is not what crushes, and the contact bears the weight
     assert np.vstack(block.outline())[:, 0].max() == pytest.approx(b / 2)
-    assert float(block.contact_forces(1e-9, 0.0, 0.0).normal[0, 0]) == pytest.approx(GRAVITY)
+    assert float(
+        block.contact_forces(MotionState.of(block.mechanism(), 1e-9, 0.0, 0.0)).normal[0, 0]
+    ) == pytest.approx(GRAVITY)
 
 
 def test_frame_crushes_at_feet_and_heads():
@@ -160,7 +163,8 @@ def test_hinges_of_an_arch_lie_where_their_own_thrust_presses(arch):
     """The thrust from the balance of the bars as they start to move, not from the line that chose the hinges."""
     side = arch.mechanism().positive
     assert side.uplift_multiplier == pytest.approx(arch.onset.multiplier, rel=1e-11)
-    forces = arch.contact_forces(1e-13, 0.0, 0.0, ground=-arch.onset.multiplier * GRAVITY)
+    pushed = -arch.onset.multiplier * GRAVITY
+    forces = arch.contact_forces(MotionState.of(arch.mechanism(), 1e-13, 0.0, 0.0, pushed))
     weight = 18e3 * arch.thickness * arch.radius * arch.ring.mass
     pressing = forces.normal[:, 0] / GRAVITY * weight
     whole = Arch if type(arch) is Arch else ArchOnPiers

@@ -9,6 +9,7 @@ from loaded import facade_lagrangian, wall_lagrangian
 from rocking.quantities import GRAVITY
 from rocking.structures import Block, Facade, Frame, LoadedWall, RigidBody, Wall
 from rocking.structures.kinds import StructureKind
+from rocking.structures.linkage import MotionState
 
 TIES = {"tie_heights": (3.4, 6.4), "tie_stiffness": 8e3}
 THRUST = {"thrust": 1.5e3, "thrust_height": 7.0}
@@ -145,7 +146,8 @@ def test_the_toe_carries_mass_times_acceleration_and_what_hangs_on_it(name):
         tie = body.tie_pretension + body.tie_stiffness * stretch
         # bodies are in weights: forces times g
         pushed += 1j * held * (GRAVITY + vertical) + GRAVITY * tie - body.thrust * (GRAVITY + vertical)
-    found = body.contact_forces(sign * rotation(0.0), sign * speed, sign * turn, sign * ground, vertical)
+    signed = sign * rotation(0.0), sign * speed, sign * turn, sign * ground
+    found = body.contact_forces(MotionState.of(body.mechanism(), *signed, vertical))
     assert found.normal[0, 0] == pytest.approx(pushed.imag / masses.sum(), abs=1e-8)
     assert found.tangential[0, 0] == pytest.approx(pushed.real / masses.sum(), abs=1e-8)
 
@@ -156,7 +158,7 @@ def test_the_lower_block_is_in_balance_under_the_force_at_the_hinge(case):
     wall, _ = CASES[case]
     rotation, speed, ground = 0.04, 0.25, 1.3
     turn = float(wall.mechanism().angular_acceleration(rotation, speed, ground))
-    found = wall.contact_forces(rotation, speed, turn, ground)
+    found = wall.contact_forces(MotionState.of(wall.mechanism(), rotation, speed, turn, ground))
     motion = wall.linkages[0].motion(rotation)
     thrust = complex(found.normal[1, 0], found.tangential[1, 0]) * 1j * np.exp(0.5j * motion.angles[:2].sum())
     base, hinge = motion.hinges[:2]

@@ -8,6 +8,7 @@ from scipy.integrate import solve_ivp
 
 from rocking.quantities import GRAVITY
 from rocking.structures.arch import Arch, ArchOnPiers
+from rocking.structures.linkage import MotionState
 from rocking.structures.wall import Wall
 
 
@@ -82,7 +83,9 @@ def test_hinge_thrusts_are_the_constraint_forces(case):
         mass += sum(pier_part(structure, side)[0].sum() for side in (-1, 1))
     for phi, velocity in ((0.0, 0.0), (0.05, speed), (0.6 * mechanism.critical_rotation, -speed)):
         acceleration = mechanism.angular_acceleration(phi, velocity, 1.3, -2.0)
-        contacts = structure.contact_forces(phi, velocity, acceleration, 1.3, -2.0)
+        contacts = structure.contact_forces(
+            MotionState.of(structure.mechanism(), phi, velocity, acceleration, 1.3, -2.0)
+        )
         motion = structure.linkages[0].motion(phi)
         _, forces = system.solve(motion.angles, motion.spins * velocity, 1.3, -2.0)
         for hinge in range(len(contacts.names)):

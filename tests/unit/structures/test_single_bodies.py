@@ -6,6 +6,7 @@ from scipy.integrate import dblquad
 
 from rocking.quantities import GRAVITY
 from rocking.structures import Block, RigidBody, Spire
+from rocking.structures.linkage import MotionState
 
 
 def test_momentum_balance_of_an_off_centre_body_keeps_angular_momentum_about_the_new_corner():
@@ -62,12 +63,14 @@ def test_at_zero_rotation_the_velocity_chooses_the_side():
     leaving = body.mechanism().angular_acceleration([0.0, 0.0], [0.4, -0.4])
     inside = body.mechanism().angular_acceleration([1e-13, -1e-13], [0.4, -0.4])
     np.testing.assert_allclose(leaving, inside, rtol=1e-11)
-    found = body.contact_forces([0.0, 0.0], [0.4, -0.4], leaving)
-    expected = body.contact_forces([1e-13, -1e-13], [0.4, -0.4], inside)
+    mechanism = body.mechanism()
+    found = body.contact_forces(MotionState.of(mechanism, [0.0, 0.0], [0.4, -0.4], leaving))
+    expected = body.contact_forces(MotionState.of(mechanism, [1e-13, -1e-13], [0.4, -0.4], inside))
     np.testing.assert_allclose(found.normal, expected.normal, rtol=1e-11)
     np.testing.assert_allclose(found.tangential, expected.tangential, rtol=1e-11)
 
 
 def test_a_block_at_rest_needs_the_ground_acceleration_over_g_as_friction():
-    found = Block(2.0, 0.2).contact_forces(0.0, 0.0, 0.0, [0.5, -1.0])
+    block = Block(2.0, 0.2)
+    found = block.contact_forces(MotionState.of(block.mechanism(), 0.0, 0.0, 0.0, [0.5, -1.0]))
     np.testing.assert_allclose(found.required_friction[0], np.array([0.5, 1.0]) / GRAVITY, rtol=1e-14)

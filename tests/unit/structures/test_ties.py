@@ -16,6 +16,7 @@ from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import Facade, LoadedWall
+from rocking.structures.linkage import MotionState
 from rocking.structures.mechanism import Mechanism, Tie
 
 FACADE = Facade(
@@ -221,7 +222,9 @@ def test_acceleration_and_capacity_know_the_ties(structure):
 
 def test_contacts_remember_what_yielded():
     """Horizontal force at the toe, which carries what the ties do not: less of it once they are broken."""
-    found = FACADE.contact_forces([0.006, 0.006], [0.0, 0.0], largest=[0.006, 0.3])
+    found = FACADE.contact_forces(
+        MotionState.of(FACADE.mechanism(), [0.006, 0.006], [0.0, 0.0], largest=[0.006, 0.3])
+    )
     assert found.tangential[0, 0] < found.tangential[0, 1] - 0.01 * GRAVITY
     record = Accelerogram(-3.2 * np.sin(np.arange(400) / 20), 0.01)
     response = integrate(FACADE, record, history=True)
