@@ -400,11 +400,6 @@ class ArchOnPiers(Arch):
     A pier that cracks obliquely or comes apart in leaves is weaker than this monolithic one; the wedge
     between its level head and an inclined springing is left out.
 
-    Raises
-    ------
-    StructureError
-        When it cannot stand.
-
     Examples
     --------
     >>> rocking.ArchOnPiers(5.0, 0.8, np.pi, pier_width=1.5, pier_height=4.0).mechanism()

@@ -34,11 +34,6 @@ class Block(Crushable):
     Its "momentum" and "housner" are the same balance, 1 − 1.5 sin²α, the default. A one-sided block leans on something
     that no balance of the block alone describes, so it needs a number.
 
-    Raises
-    ------
-    StructureError
-        When it cannot stand.
-
     Examples
     --------
     >>> rocking.Block(semi_diagonal=2.0, slenderness=0.2).mechanism()
@@ -150,11 +145,6 @@ class RigidBody(Crushable):
 
     Its outline is not known, so each side is followed until the centre of mass is level with the corner. "momentum" and
     "housner" are one balance, of angular momentum about the corner to come, which differs from side to side.
-
-    Raises
-    ------
-    StructureError
-        When it cannot stand.
 
     Examples
     --------

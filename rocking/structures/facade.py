@@ -21,14 +21,7 @@ from rocking.structures.held_wall import Hold, Load, Opening, Storey
 from rocking.structures.kinds import StructureKind
 from rocking.structures.leaves import Leaf
 from rocking.structures.linkage import Restitution
-from rocking.structures.stack import (
-    MOST_COURSES,
-    Course,
-    Stack,
-    counted_courses,
-    joined,
-    slab,
-)
+from rocking.structures.stack import MOST_COURSES, Course, Stack, counted_courses, joined, slab
 from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight
 from rocking.warnings import RockingWarning
 
@@ -42,11 +35,6 @@ class Facade(Tied):
     """Storeys stacked as one rigid body, flush outside, that rocks above the crack at the foot of one storey.
 
     All forces are per metre of façade. It may crack at any joint unless a crack is known.
-
-    Raises
-    ------
-    StructureError
-        When it cannot stand.
 
     Examples
     --------

@@ -286,8 +286,11 @@ _IN_SI = {"°": "rad", "mm": "m", "MPa": "Pa", "GPa": "Pa"}
 """What a unit of the file is in SI; a k at its head goes."""
 
 
+_RAISES = "    Raises\n    ------\n    StructureError\n        When it cannot stand.\n\n"
+
+
 def stated(kind: type[Kind]) -> type[Kind]:
-    """Let the docstring of a class state its parameters, in SI, as their types do, before what it raises."""
+    """Let the docstring of a class state its parameters, in SI, as their types do, and what it raises."""
     hints = get_type_hints(kind, include_extras=True)
     entries = ["    Parameters\n    ----------\n"]
     for name, parameter in signature(kind).parameters.items():
@@ -301,7 +304,10 @@ def stated(kind: type[Kind]) -> type[Kind]:
             meaning = ", ".join(filter(None, (value.meaning, value.letter, unit)))
         known = "" if default is Parameter.empty else f", default {default!r}" if default else ", optional"
         entries.append(f"    {name} : {_in_words(hints[name])}{known}\n        {meaning}.\n")
-    before, raises, after = (kind.__doc__ or "").partition("    Raises\n")
+    described = kind.__doc__ or ""
+    if "    Raises\n" not in described:
+        described = described.replace("    Examples\n", f"{_RAISES}    Examples\n")
+    before, raises, after = described.partition("    Raises\n")
     kind.__doc__ = "".join([before, *entries, "\n", raises, after])
     return kind
 

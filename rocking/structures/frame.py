@@ -41,11 +41,6 @@ class Frame(Crushable):
 
     The rotation ends when the columns lie.
 
-    Raises
-    ------
-    StructureError
-        When it cannot stand.
-
     Examples
     --------
     >>> column = rocking.Block.of_size(breadth=1.1, height=8.0)

@@ -24,23 +24,9 @@ from rocking.structures.fields import (
 )
 from rocking.structures.held_wall import Hold, Load, Opening, Storey
 from rocking.structures.leaves import Leaf
-from rocking.structures.linkage import (
-    HIGHEST_SHARE,
-    Restitution,
-)
-from rocking.structures.stack import (
-    ROUGH,
-    Course,
-    Stack,
-    counted_courses,
-    slab,
-)
-from rocking.structures.tied import (
-    Eccentricity,
-    Tied,
-    TopSlab,
-    UnitWeight,
-)
+from rocking.structures.linkage import HIGHEST_SHARE, Restitution
+from rocking.structures.stack import ROUGH, Course, Stack, counted_courses, slab
+from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight
 
 _BEARING = 0.02
 """Breadth of a bearing in a stack, over the thickness of the wall: a hinge has none."""
@@ -72,11 +58,6 @@ class Wall(Tied):
 
     Base and top follow the ground, and the top support slides vertically. The rotation φ is that of the lower
     block. A wall that stands free at its top is a `Block`.
-
-    Raises
-    ------
-    StructureError
-        When it cannot stand.
 
     Examples
     --------
@@ -287,11 +268,6 @@ class Wall(Tied):
 @dataclass(frozen=True, repr=False)
 class LoadedWall(Wall):
     """A `Wall` of which the weight is known, so that it may bear loads and hang on ties.
-
-    Raises
-    ------
-    StructureError
-        When it cannot stand.
 
     Examples
     --------
