@@ -493,8 +493,8 @@ def _decided(
 class SceneResult:
     """The results of one scene under one record, along the axis of its place: the ground, then every period.
 
-    The verdicts over the periods of a support stand side by side and are not mixed: a share of periods would be no
-    probability. Where one of them has to stand for all, it is the worst.
+    The verdicts over the periods of a support are listed side by side and not mixed: a share of periods would be no
+    probability. Where one of them has to represent all, it is the worst.
     """
 
     scene: Scene

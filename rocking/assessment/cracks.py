@@ -243,7 +243,7 @@ def ensemble_over_cracks(
     statics chooses overturns, it says all; where one that is known does, the others are followed only until one of
     them overturns, too, so that the worst of them can be reported. Otherwise the bulge of a held wall is followed in
     full, and every crack that `screened` leaves in doubt; the one that then governs, and those whose count may still
-    change the verdict (`decide.may_change`), with as many members as their words need. A crack other than a bulge that
+    change the verdict (`decide.may_change`), with as many members as these need. A crack other than a bulge that
     slides before it lifts is left out where one that counts is left, and followed all the same where it is in doubt:
     the decision says what it would do. exhaustive: every crack is followed, whatever the screen says;
     docs/pages/validation.md counts what it misses. With fidelity: quick only as many members are followed as the

@@ -76,14 +76,14 @@ ORDER = (
 """The worst verdict first."""
 
 
-def worse(*words: Verdict) -> Verdict:
+def worse(*verdicts: Verdict) -> Verdict:
     """Return the worst of several verdicts."""
-    return max(words, key=lambda verdict: verdict.badness)
+    return max(verdicts, key=lambda verdict: verdict.badness)
 
 
-def better(*words: Verdict) -> Verdict:
+def better(*verdicts: Verdict) -> Verdict:
     """Return the safest of several verdicts."""
-    return min(words, key=lambda verdict: verdict.badness)
+    return min(verdicts, key=lambda verdict: verdict.badness)
 
 
 def share_error(*, falls: int, members: int, farthest: float = math.inf) -> float:
@@ -107,7 +107,7 @@ def step(*, falls: int, members: int, farthest: float = math.inf, risk: float = 
     """
     error = (
         share_error(falls=falls, members=members, farthest=farthest) * members
-    )  # in members, so that no edge hangs on rounding
+    )  # in members, so that no edge depends on rounding
     if falls + error <= risk * members:
         return Verdict.STANDS
     if members - falls + error <= risk * members:
@@ -195,7 +195,7 @@ class CrackFacts:
         )
 
     def is_near_an_edge(self, risk: float) -> bool:
-        """Whether one of the four edges between words lies within the error, so that more members may change it."""
+        """Whether one of the four edges between verdicts lies within the error, so that more members may change it."""
         edges = risk, 1 / 3, 2 / 3, 1 - risk  # those of `step`
         return self.share_error > 0 and any(abs(self.share - edge) <= self.share_error for edge in edges)
 
@@ -471,7 +471,7 @@ def decide(facts: Facts, limits: Iterable[Limit] = ()) -> Decision:
     A further limit, failure or fall never makes the verdict safer, nor the share smaller. The share is the largest of
     the cracks that count and the stacks, members that failed counted as falling: at it, the members of the crack or
     the stacks that make the verdict have a step no safer than it. The share is of one model, and the mark of the other
-    stands next to it. Row 5 and limits are of the verdict, not of the share. Under row 7 the share is empty, and its
+    is given next to it. Row 5 and limits are of the verdict, not of the share. Under row 7 the share is empty, and its
     interval reaches from the members that fall to those that fall or failed; under row 10 from the share at least to
     1.
     """
@@ -656,18 +656,18 @@ def may_change(facts: Facts, crack: CrackFacts) -> bool:
     return _envelope(at_worst).badness > _envelope(steps).badness
 
 
-def _envelope(words: Iterable[tuple[CrackFacts, Verdict]]) -> Verdict:
+def _envelope(of_cracks: Iterable[tuple[CrackFacts, Verdict]]) -> Verdict:
     """The verdict of all that may form: the worst of its parts, each of which falls by itself."""
     of_parts: dict[str, list[tuple[CrackFacts, Verdict]]] = {}
-    for crack, verdict in words:
+    for crack, verdict in of_cracks:
         of_parts.setdefault(crack.part, []).append((crack, verdict))
     return worse(*map(_envelope_of_part, of_parts.values()))
 
 
-def _envelope_of_part(each_with_word: Sequence[tuple[CrackFacts, Verdict]]) -> Verdict:
+def _envelope_of_part(each_with_verdict: Sequence[tuple[CrackFacts, Verdict]]) -> Verdict:
     """The verdict of one part: of the cracks only one opens, but a held wall may bulge with any of them."""
-    of_bulges = [word for crack, word in each_with_word if crack.bulges]
-    of_cracks = [word for crack, word in each_with_word if not crack.bulges]
+    of_bulges = [verdict for crack, verdict in each_with_verdict if crack.bulges]
+    of_cracks = [verdict for crack, verdict in each_with_verdict if not crack.bulges]
     if not of_cracks:
         return worse(Verdict.STANDS, *of_bulges)
     # The one that statics chooses comes first, which is the likeliest to form: others limit its verdict, no more.

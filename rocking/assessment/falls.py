@@ -102,13 +102,13 @@ def _falls_at(
     # Where nothing lifts it stands, unless it slides apart: rows 2 and 3 of the decision.
     if asked.slides_throughout and not (rests and not structure.joints.fall_by_sliding):
         return Falls(0.0, 1.0, Model.NONE)
-    told = Falls(share, share, Model.MECHANISM)
+    by_members = Falls(share, share, Model.MECHANISM)
     if contacts and share < 1 and anchors_slide(structure, motions):
         plane = contact_share(held_all_along(structure), motions, settings, DRAWS, until_sure=False)
         if plane.runs and (more := max(share, plane.falls / plane.runs)):
             return Falls(more, more, Model.CONTACTS)
     if share == 1 or rests or not _asks_contacts(asked, share):
-        return told
+        return by_members
     of_contacts = math.nan
     if structure.joints.as_stones:
         if stones is not None:

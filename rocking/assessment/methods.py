@@ -1,7 +1,7 @@
 """Methods, and how a prediction stands to the integration: each verdict and threshold is defined here once.
 
 A structure rests, rocks or overturns. It rests up to `NEGLIGIBLE` of its critical rotation, lifted or not: whether a
-rotation is exactly zero hangs on the last digit of the uplift acceleration, and a tremor below a thousandth of the
+rotation is exactly zero depends on the last digit of the uplift acceleration, and a tremor below a thousandth of the
 critical rotation, far below what any scatter of restitution or amplitude does, can neither harm nor decide anything. A
 threshold of zero would count each such tremor that a prediction leaves out as uplift missed. Predicted over integrated
 rotation, in contrast, is given wherever both are lifted and stay up: without the smallest predictions, the share that
@@ -54,7 +54,7 @@ def rocks(rotation_ratio: float) -> bool:
 
 
 class Acts(StrEnum):
-    """When the pulse of a prediction acts, beside the fall of the integration."""
+    """When the pulse of a prediction acts, relative to the fall of the integration."""
 
     BEFORE = "before"
     DURING = "during"
@@ -66,7 +66,7 @@ STILL_FALLING = 6.0
 
 
 def acts(*, start: float, end: float, fall: float, frequency_parameter: float) -> Acts | None:
-    """Return when a pulse from `start` to `end` acts beside a fall at the time `fall`; None where nothing falls."""
+    """Return when a pulse from `start` to `end` acts relative to a fall at `fall`; None where nothing falls."""
     if math.isnan(fall):
         return None
     if fall < start:

@@ -1,9 +1,9 @@
 """Scene: a structure at a place under the terms of a code, and the list in a file that it is read from, YAML or CSV.
 
-Everything above a single case works on scenes. Along the periods of a support verdicts stand side by side and are not
+Everything above a single case works on scenes. Along the periods of a support verdicts are listed side by side and not
 mixed: a share of periods would be no probability. In a list, a variant is a structure with some values changed, and
-stands behind the one that it is of. In CSV each row is an entry, and each column a key. The list is read safely, all
-defects stand in one message, and each size is remembered as it was typed.
+follows the one that it is of. In CSV each row is an entry, and each column a key. The list is read safely, all
+defects are in one message, and each size is remembered as it was typed.
 """
 
 import json
@@ -346,7 +346,7 @@ def _repeated(name: object) -> str:
 
 
 class _Entry(NamedTuple):
-    """One entry of a list: where it stands in words, its values and their texts as typed.
+    """One entry of a list: its place in the file in words, its values and their texts as typed.
 
     base: the name of the structure that it is a variant of; "" of one that is none.
     """
@@ -407,14 +407,14 @@ def _entries(path: Path, defects: list[str], content: bytes | None) -> list[_Ent
 _NOTE = "note"
 """The column of a structure list in CSV for what its writer wants to remember, as # is in YAML."""
 _NOTHING = ("", "-", "–", "—")
-"""What stands in a cell that holds nothing."""
+"""What is in a cell that holds nothing."""
 
 
 def _rows(path: Path, defects: list[str]) -> list[_Entry]:
     """The entries of a structure list in CSV: a row each, keys as columns; an empty cell, or a dash, is not given.
 
     A cell means what it would in YAML. A list is parted by semicolons. Where semicolons part the cells, as in
-    spreadsheets of countries of decimal commas, lists stand in quotation marks, which these write themselves.
+    spreadsheets of countries of decimal commas, lists are in quotation marks, which these write themselves.
     """
     of_types = [field for of_kind in TYPES.values() for form in of_kind for field in form.fields]
     lists = {field.key for field in of_types if field.is_list}

@@ -578,11 +578,11 @@ def fragility(
         for other, is_out in zip(others, left_out[1:], strict=True):
             ratios = follow(other.mechanism, np.where(is_out, np.nan, factors), ratios)
     varied = AssessmentSettings(ensemble=ensemble or EnsembleSettings(), tolerance=tolerance)
-    told = partial(falls_along, body, varied, contacts=contacts)
+    follow_record = partial(falls_along, body, varied, contacts=contacts)
     falls: list[list[Falls | None]] = []
     if over_cracks:
         with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-            found = pool.map(told, carried, factors, ratios)
+            found = pool.map(follow_record, carried, factors, ratios)
             falls = list(bar(found, "record", len(carried)))
     analysis = IncrementalDynamicAnalysis(measure, chosen, ratios, intensities, sample, falls)
     beyond = () if levels is None else tuple(float(level) for level in levels if level > chosen[-1])

@@ -42,7 +42,7 @@ CAPACITY_POINTS = 21
 
 @dataclass(frozen=True, kw_only=True)
 class Identity:
-    """Names of a component of a record and of the input behind it, which stand in each row about it."""
+    """Names of a component of a record and of the input behind it, which each row about it holds."""
 
     record: str
     component: str

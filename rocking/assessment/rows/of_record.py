@@ -260,7 +260,7 @@ def _moved_from_bearing(body: "Structure", response: "Response") -> float:
 
 
 def _acts(prediction: "Prediction | None", fall_time: float) -> Acts | None:
-    """When the pulse of a prediction acts beside the fall of the integration."""
+    """When the pulse of a prediction acts relative to the fall of the integration."""
     if prediction is None:
         return None
     pulse = prediction.pulse

@@ -42,10 +42,10 @@ def counted_apart(
 ) -> tuple[list[rows.ComparisonRow], list[rows.ComparisonRow]]:
     """Return the cases under what was recorded, and those under made records; where all were made, they come first."""
     recorded: list[rows.ComparisonRow] = []
-    beside: list[rows.ComparisonRow] = []
+    of_made: list[rows.ComparisonRow] = []
     for case in comparison:
-        (beside if case.record in made else recorded).append(case)
-    return (recorded, beside) if recorded else (beside, [])
+        (of_made if case.record in made else recorded).append(case)
+    return (recorded, of_made) if recorded else (of_made, [])
 
 
 @row("agreement")

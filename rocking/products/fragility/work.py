@@ -36,7 +36,7 @@ from rocking.study.work import Work
 from rocking.tables import Row, write_tables, write_whole
 
 OPENQUAKE = "fragility.xml"
-"""Beside the fragility tables: the curves of all structures as one model of OpenQuake."""
+"""Next to the fragility tables: the curves of all structures as one model of OpenQuake."""
 
 
 class Fragilities(Work):

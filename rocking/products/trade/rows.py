@@ -59,7 +59,7 @@ class TimedAnswer:
 
     @property
     def agreement(self) -> Agreement:
-        """The outcome beside that of the reference."""
+        """The outcome compared with that of the reference."""
         of_both = agreement(predicted=self.rotation_ratio, integrated=self.reference)
         return Agreement.TOO_LOW if of_both is Agreement.SAME and self.is_late else of_both
 
