@@ -296,12 +296,10 @@ class AnnualRate:
         Most that the value may lack, as levels end, 1/year.
     of_quantiles : mapping of float to float, optional
         The rate under each quantile of the hazard, which the interval does not cover: that is of the records.
-    half_level : float, default nan
-        Level at which half of the rate is made.
     reaching : int, default 0
-        Stations that reach it within the largest factor, of `stations`. Where these are fewer than 90 %,
-        nobody knows the others' part: value is nan, and the ends are those of both cases, that the others
-        never overturn beyond what they reach, and that they do at once (`is_stated`).
+        Stations that reach the level at which half of it is made within the largest factor, of `stations`.
+        Where these are fewer than 90 %, nobody knows the others' part: value is nan, and the ends are those of
+        both cases, that the others never overturn beyond what they reach, and that they do at once (`is_stated`).
     stations : int, default 0
         Number of stations.
 
@@ -317,7 +315,6 @@ class AnnualRate:
     high: float
     remainder: float
     of_quantiles: Mapping[float, float] = field(default_factory=dict)
-    half_level: float = math.nan
     reaching: int = 0
     stations: int = 0
 
@@ -396,7 +393,6 @@ def annual_rate(
         high=max(rate, min(high, most)),
         remainder=float(above + below),
         of_quantiles=of_quantiles if is_stated else dict.fromkeys(of_quantiles, math.nan),
-        half_level=half,
         reaching=reaching,
         stations=sample.count,
     )
