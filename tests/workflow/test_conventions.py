@@ -179,6 +179,7 @@ def test_a_file_system_without_locks_is_a_warning(done, tmp_path, number) -> Non
     assert f"not locked, {os.strerror(number)}" in ended.stdout
 
 
+@pytest.mark.slow
 def test_a_catalogue_that_cannot_be_written_stops_nothing(begun, done, tmp_path) -> None:
     """Nor any other file that the user wrote: a run only reads them, and the provenance holds the hash left blank."""
     study = begun.copy_to(tmp_path / "study")

@@ -28,7 +28,9 @@ FURTHER = """
 - {name: wall in millimetres, type: wall, height_m: 2200, thickness_m: 300}
 - {name: pinnacle, type: spire, width_m: 0.6, height_m: 3.0, plan: square}
 """
-"""Beside the shipped structures, two of which stand on supports; of the last one the stacks decide."""
+"""Next to the shipped structures, two of which stand on supports; of the last one the stacks decide."""
+SLOW = "facade"
+"""The shipped structure that is left out: to follow its stacks takes longer than all else here."""
 SETTINGS = {
     "ensemble": {"members": 8, "reserve": 0},
     "processing": {"apply": "never"},
@@ -51,7 +53,8 @@ def made(tree: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[SmallStu
         study.add(name, "".join(lines).encode())
     study.add("broken", b"no record")
     shipped = (ROOT / "config" / "structures.yaml").read_text(encoding="utf-8")
-    (study.folder / "structures.yaml").write_text(shipped + FURTHER, encoding="utf-8")
+    structures = [structure for structure in yaml.safe_load(shipped + FURTHER) if structure["name"] != SLOW]
+    (study.folder / "structures.yaml").write_text(yaml.safe_dump(structures), encoding="utf-8")
     (study.folder / "design.csv").write_text("period_s,acceleration_g\n0,0.2\n0.1,0.5\n0.5,0.5\n4,0.06\n")
     (study.folder / "config.yaml").write_text(yaml.safe_dump(SETTINGS), encoding="utf-8")
     return study, study.rocking("run", str(study.folder), status=1).stdout
@@ -111,7 +114,7 @@ def test_one_order_of_structures(made, pages, explored, told) -> None:
     ranked = [
         one_item["name"] for one_item in sorted(explored[1]["structures"], key=lambda item: item["rank"])
     ]
-    assert set(ranked) == names and len(names) == 14
+    assert set(ranked) == names and len(names) == 13
     summary = pages["summary/summary.pdf"]
     first, _, tables = summary.partition("Page 1 of")
     matrix = first.partition("to know")[2]
@@ -122,7 +125,7 @@ def test_one_order_of_structures(made, pages, explored, told) -> None:
     assert listed == ranked[: len(listed)] and len(listed) == 5
     _, _, others = told.partition("Others ")
     ends = [others.index(name) for name in ranked[5:8]]
-    assert ends == sorted(ends) and "; 6 structures more in verdicts.csv" in others
+    assert ends == sorted(ends) and "; 5 structures more in verdicts.csv" in others
     # The strong record is the worst of each, so that its own report has the same order.
     page = in_order(ranked, pages["strong/report.pdf"].partition("to do or know")[2])
     assert len(page) >= 10 and page == [name for name in ranked if name in page]
@@ -135,7 +138,7 @@ def test_one_order_of_structures(made, pages, explored, told) -> None:
 
 def test_one_count_of_records_structures_and_falls(made, pages, explored, told) -> None:
     study, _ = made
-    counts = "2 records, 14 structures"
+    counts = "2 records, 13 structures"
     summary = in_a_line(pages["summary/summary.pdf"])
     assert told.startswith(f"{counts}. ") and counts in summary and counts in explored[0]
     conclusion = re.search(r'<p id="conclusion">([^<]*)', explored[0])

@@ -29,6 +29,7 @@ def test_a_record_that_failed_has_its_line_and_ends_in_status_1_after_the_table(
     assert len(done.stdout.splitlines()) < 24
 
 
+@pytest.mark.slow
 def test_a_terminal_shows_the_line_of_a_record_before_an_outcome_whose_lines_fit(
     finished, tmp_path: Path
 ) -> None:
