@@ -172,8 +172,8 @@ def in_study(scene: Scene, components: Sequence[Accelerogram], vertical: Acceler
 def very_many(structure: Structure, motions: GroundMotions) -> CrackEnsembles:
     """Return the ensembles of MEMBERS members of every crack that counts."""
     settings = AssessmentSettings()
-    several = cracks(structure).counting
-    several = tuple(candidate for candidate in several if not slides_first(candidate, motions)) or several
+    counting = cracks(structure).counting
+    lifting = tuple(candidate for candidate in counting if not slides_first(candidate, motions)) or counting
     followed = (
         FollowedCrack(
             candidate.description,
@@ -182,7 +182,7 @@ def very_many(structure: Structure, motions: GroundMotions) -> CrackEnsembles:
             bulges=candidate.bulges,
             part=candidate.part,
         )
-        for candidate in several
+        for candidate in lifting
     )
     return CrackEnsembles(tuple(followed))
 

@@ -231,11 +231,7 @@ def cracked(structure: Structure, description: str) -> Structure:
 
 
 def ensemble_over_cracks(
-    structure: Structure,
-    motions: GroundMotions,
-    settings: AssessmentSettings,
-    *,
-    exhaustive: bool = False,
+    structure: Structure, motions: GroundMotions, settings: AssessmentSettings
 ) -> CrackEnsembles:
     """Return the ensembles of the cracks that may govern, of the structure and of each leaf that may part.
 
@@ -245,14 +241,13 @@ def ensemble_over_cracks(
     full, and every crack that `screened` leaves in doubt; the one that then governs, and those whose count may still
     change the verdict (`decide.may_change`), with as many members as these need. A crack other than a bulge that
     slides before it lifts is left out where one that counts is left, and followed all the same where it is in doubt:
-    the decision says what it would do. exhaustive: every crack is followed, whatever the screen says;
-    docs/pages/validation.md counts what it misses. With fidelity: quick only as many members are followed as the
-    verdict needs. Raises MotionError as `integrate` does.
+    the decision says what it would do. docs/pages/validation.md counts what the screen misses. With fidelity: quick
+    only as many members are followed as the verdict needs. Raises MotionError as `integrate` does.
     """
     every = cracks(structure)
     parts: list[CrackEnsembles] = []
     for own in every.parts.values():
-        parts.append(_of_part(own, motions, settings, is_named=len(every) > 1, exhaustive=exhaustive))
+        parts.append(_of_part(own, motions, settings, is_named=len(every) > 1))
         if parts[-1].followed[0].facts.step(settings.ensemble.risk) is Verdict.OVERTURNS:
             break
     if len(parts) == 1:
@@ -267,7 +262,6 @@ def _of_part(
     settings: AssessmentSettings,
     *,
     is_named: bool,
-    exhaustive: bool,
 ) -> CrackEnsembles:
     """The ensembles of the cracks of one part that may govern it; is_named: whether anything else may form."""
     counting = several.counting
@@ -291,8 +285,6 @@ def _of_part(
         left_out = []
 
     def in_doubt(several: Sequence[Candidate]) -> list[Candidate]:
-        if exhaustive:
-            return list(several)
         rest = Mechanisms(several)
         lifted_at = first.mechanism.uplift_multiplier
         return [*rest.bulges, *screened(rest.cracks, of_statics, motions, settings, lifted_at)]

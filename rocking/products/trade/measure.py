@@ -42,9 +42,7 @@ def trade(
     structures: Mapping[str, Structure],
     *,
     settings: AssessmentSettings | None = None,
-    each_unnamed: bool = False,
     tell: Callable[[str], None] = lambda _line: None,
-    within: Callable[[str], AbstractContextManager[None]] = lambda _structure: nullcontext(),
 ) -> list[TradeRow]:
     """Return a row for each method and structure, and one for each method over all structures.
 
@@ -60,13 +58,8 @@ def trade(
         Structures by name.
     settings : AssessmentSettings or None, optional
         Settings of the assessment; None: the default.
-    each_unnamed : bool, default False
-        Whether records that name no earthquake are of one each, not all of one.
     tell : callable, optional
         Takes a line for each record, and one for each case that cannot be followed.
-    within : callable, optional
-        Gives what surrounds the work on a structure, by its name, or on a record (an empty text), and may
-        keep errors from the rest.
 
     Returns
     -------
@@ -80,11 +73,7 @@ def trade(
     >>> [str(row.method) for row in rows if row.structure == "pier" and row.wrong_verdicts]
     ['Eq. 15 as printed', 'one sine', 'one sine, half the energy', 'five sines']
     """
-    mechanisms: dict[str, Mechanism] = {}
-    for name, structure in structures.items():
-        with within(name):
-            mechanisms[name] = structure.mechanism()
-    cases = [TradeCase(structure=name, mechanism=mechanism) for name, mechanism in mechanisms.items()]
+    cases = [TradeCase(structure=name, mechanism=body.mechanism()) for name, body in structures.items()]
     tried: list[Accelerogram] = []
 
     def met() -> Iterator[tuple[GroundMotions, list[TradeCase]]]:
@@ -92,10 +81,7 @@ def trade(
             tried.append(record)
             yield GroundMotions.of(record), cases
 
-    def sample() -> ClusterSample:
-        return ClusterSample.of(tried, each_unnamed=each_unnamed)
-
-    return trade_of_cases(met(), sample, mechanisms, settings=settings, tell=tell, within=within)
+    return trade_of_cases(met(), lambda: ClusterSample.of(tried), structures, settings=settings, tell=tell)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -133,7 +119,8 @@ def trade_of_cases(
 ) -> list[TradeRow]:
     """Return the rows of `trade` for the cases that are met under motions of one component.
 
-    sample: of these motions, once all were met. structures: names, in the order of their rows.
+    sample: of these motions, once all were met. structures: names, in the order of their rows. within: gives what
+    surrounds the work on a structure, by its name, or on a record (an empty text), and may keep errors from the rest.
     """
     chosen = settings or AssessmentSettings()
     answers: dict[tuple[TradeMethod, str], list[TimedAnswer]] = {}

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 import rocking
+from rocking.assessment.motions import GroundMotions
 from rocking.assessment.rows import FailureRow
 from rocking.earthquakes.sample import ClusterSample
 from rocking.products.trade import measure as trade_module
-from rocking.products.trade.measure import TradeMethod, what_follows
+from rocking.products.trade.measure import TradeCase, TradeMethod, what_follows
 from rocking.products.trade.report import write_trade_report
 from rocking.products.trade.rows import TimedAnswer, TradeRow, trade_row
 from rocking.products.trade.work import trade_lines
@@ -94,7 +95,10 @@ def test_a_fault_of_one_structure_or_record_costs_no_other_and_is_a_row(
         rocking.trade(records, STRUCTURES)
     log = tmp_path / "trade.log"
     faults = []
-    tried = rocking.trade(records, STRUCTURES, within=partial(costs_no_other, faults, log, "the trade"))
+    cases = [TradeCase(structure=name, mechanism=body.mechanism()) for name, body in STRUCTURES.items()]
+    met = ((GroundMotions.of(record), cases) for record in records)
+    net = partial(costs_no_other, faults, log, "the trade")
+    tried = trade_module.trade_of_cases(met, lambda: ClusterSample.of(records), STRUCTURES, within=net)
     first, second = faults
     assert (first.record, first.structure, second.structure) == ("", "", "stout") and first.stage == "fault"
     asks = f"a fault of rocking in the trade (KeyError: 'planted'); please report it, with {log}."
