@@ -138,6 +138,15 @@ def test_all_defects_of_a_list_stand_in_one_message(load):
         ),
         ("- {type: block}", "name is missing, but must be a text of its own; give it"),
         ("[]", "the list is empty, but must hold one structure at least"),
+        (
+            "- {name: hollow, type: cavity_wall, height_m: 3, thickness_m: 0.3, leaves_m: []}",
+            "a cavity wall needs leaves_m; give it",
+        ),
+        (
+            "- {name: front, type: facade, storey_heights_m: [3], thicknesses_m: [0.5], unit_weight_kN_m3: 18, "
+            "anchor_width_m: 1}",
+            "tie_spacing_m is missing, but anchor_width_m needs",
+        ),
         ("", "holds nothing, but must hold a list"),
         ("- {name: a, type: block, height_m: 1, height_m: 4}", "key 'height_m' is given twice"),
         ("- !!python/object/apply:os.getcwd []", "line 1: a tag, .* is not read here; write the value alone"),

@@ -179,16 +179,17 @@ def test_every_file_that_is_read_counts_and_no_other(tmp_path, cells, content, f
     assert (_hash(record) != before) == counts
 
 
-def test_what_walls_are_taken_for_is_a_warning_of_the_study_that_asks_nothing_before_a_run(
+def test_what_structures_are_taken_for_is_a_warning_of_the_study_that_asks_nothing_before_a_run(
     tmp_path: Path,
 ) -> None:
     sizes = "height_m: 2.2, thickness_m: 0.3"
     entries = "".join(f"- {{name: w{number}, type: wall, {sizes}}}\n" for number in range(10))
-    free = f"- {{name: boundary, type: free_wall, {sizes}}}\n"
+    free = f"- {{name: boundary, type: free_wall, {sizes}}}\n- {{name: top, type: pinnacle, {sizes}}}\n"
     plan = make_plan(_write(tmp_path, f"a,a.AT2,{SHA256}\n", entries + free))
     told = study_warnings(plan.settings, plan.scenes)
     assert [(warning.kind, warning.about) for warning in told] == [
-        (AssessmentKind.HELD_AT_CEILING, f"w{number}") for number in range(10)
+        *((AssessmentKind.HELD_AT_CEILING, f"w{number}") for number in range(10)),
+        (AssessmentKind.ON_STILL_BASE, "top"),
     ]
     assert plan.warnings == ()
 
