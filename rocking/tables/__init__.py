@@ -19,12 +19,10 @@ from rocking.tables.files import Document as Document
 from rocking.tables.files import check_target as check_target
 from rocking.tables.files import read_start as read_start
 from rocking.tables.files import read_whole as read_whole
-from rocking.tables.files import regular_file as regular_file
 from rocking.tables.files import whole as whole
 from rocking.tables.files import write_whole as write_whole
 from rocking.tables.files import written_together as written_together
 from rocking.tables.rows import Row as Row
-from rocking.tables.rows import Table as Table
 from rocking.tables.rows import cell as cell
 from rocking.tables.rows import check_tables as check_tables
 from rocking.tables.rows import column as column
