@@ -68,7 +68,7 @@ class Study:
         return cls(scenes, settings, settings_sha256(settings, scenes))
 
     def __post_init__(self) -> None:
-        scenes = on_joints(self.scenes, self.settings.joints)
+        scenes = on_joints(self.scenes, self.settings.joints) if self.scenes else {}
         object.__setattr__(self, "scenes", scenes)
 
     @property
@@ -85,17 +85,22 @@ class Study:
     def assessment(self) -> AssessmentSettings:
         """The settings of the assessment: in full where a report or histories are made, which show every case."""
         settings = self.settings
-        own = {setting.name: getattr(settings, setting.name) for setting in fields(AssessmentSettings)}
-        if settings.fidelity == "quick" and (settings.reports or settings.histories):
+        own = {
+            setting.name: getattr(settings, setting.name)
+            for setting in fields(AssessmentSettings)
+            if settings.knows(setting.name)
+        }
+        if own.get("fidelity") == "quick" and (settings.reports or settings.histories):
             own["fidelity"] = "standard"
         return AssessmentSettings(**own)
 
     def assessor(self, store: Store | None, clock: Clock) -> Assessor:
         """Return what assesses a record, as far as the settings ask."""
+        settings = self.settings
         return Assessor(
             self.assessment,
-            self.settings.candidates,
-            self.settings.processing_variants,
+            settings.candidates if settings.knows("candidates") else 0,
+            settings.knows("processing_variants") and settings.processing_variants,
             motion_measures=True,
             version=computation_version() if store else "",
             store=store,

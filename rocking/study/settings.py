@@ -333,8 +333,15 @@ class Settings(AssessmentSettings):
                 raise ConfigurationError(str(error)) from None
 
     def only(self, names: Iterable[str]) -> "Settings":
-        """Return these settings with all others than `names`, of settings and sections, at their defaults."""
-        return Settings(**{name: getattr(self, name) for name in names})
+        """Return these settings with no others than `names`, of settings and sections: to read another one fails."""
+        known = frozenset(names)
+        made = _Handed(**{name: getattr(self, name) for name in known})
+        object.__setattr__(made, "_known", known)
+        return made
+
+    def knows(self, name: str) -> bool:
+        """Whether it holds the setting, or section of settings, of this name."""
+        return name in vars(self).get("_known", _NAMES)
 
     @property
     def joints(self) -> Joints:
@@ -538,6 +545,17 @@ def _meaning(description: Described) -> str:
 
 # What every row names -----------------------------------------------------------------------------------
 
+
+class _Handed(Settings):
+    """The settings that one step is handed. At its default another one would be read as if the study had set it so."""
+
+    def __getattribute__(self, name: str) -> Any:
+        if name in _NAMES and not self.knows(name):
+            raise LookupError(f"the setting {name} is read in a step that is not made from it (MADE_FROM).")
+        return super().__getattribute__(name)
+
+
+_NAMES = frozenset(setting.name for setting in fields(Settings))
 NUMBERS = tuple(Settings.changing_numbers())
 """The settings, and the sections of settings, that change a number of a table."""
 _SOURCE = {".py", ".csv", ".json", ".po", ".typ", ".yaml", ".mplstyle", ".html", ".css", ".js"}
@@ -550,7 +568,7 @@ def structure_hashes(scenes: Mapping[str, "Scene"]) -> dict[str, str]:
 
 def settings_sha256(settings: Settings, scenes: Mapping[str, "Scene"]) -> str:
     """Return the hash that every row names: of the settings that change a number, the structures and the package."""
-    numbers = settings.values_of(NUMBERS)
+    numbers = settings.values_of(filter(settings.knows, NUMBERS))
     return sha256_of(*numbers.items(), *structure_hashes(scenes).items(), package_sha256())
 
 

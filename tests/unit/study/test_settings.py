@@ -239,3 +239,13 @@ def test_what_a_study_is_told_by_stands_in_every_report_and_changes_no_number() 
 def test_a_key_in_a_section_beside_its_own_is_told_where_it_belongs() -> None:
     with pytest.raises(ConfigurationError, match=r"design_spectrum\.stations is 5, .*checks\.stations"):
         read_settings({"design_spectrum": {"stations": 5}})
+
+
+def test_a_step_cannot_read_a_setting_that_it_is_not_made_from() -> None:
+    """At its default it would be read as if the study had set it so."""
+    settings = replace(Settings(), language="it", tolerance=1e-7)
+    handed = settings.only(("tolerance",))
+    assert handed.tolerance == 1e-7 and handed.knows("tolerance") and not handed.knows("language")
+    with pytest.raises(LookupError, match="the setting language"):
+        _ = handed.language
+    assert settings.knows("language") and settings.language == "it"
