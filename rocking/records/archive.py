@@ -9,7 +9,6 @@ import io
 import os
 import tarfile
 import zipfile
-import zlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
@@ -43,17 +42,6 @@ _DEEPEST = 3
 """Archives one in another."""
 _LARGEST_TAR = 2**29
 """Bytes of a packed tar file, which is unpacked as one."""
-_DAMAGES = (
-    zipfile.BadZipFile,
-    tarfile.TarError,
-    zlib.error,
-    EOFError,
-    OSError,
-    ValueError,
-    KeyError,
-    RuntimeError,
-)
-"""What the libraries raise of an archive that is damaged."""
 
 
 def ending_of(name: str) -> str:
@@ -189,7 +177,9 @@ def _packed(archive: Path, place: str) -> _Packed:
     try:
         state = archive.stat()
         return _opened_once(str(archive), place, state.st_mtime_ns, state.st_size, os.getpid())
-    except _DAMAGES as error:
+    except (RecordError, MemoryError):
+        raise
+    except Exception as error:  # the libraries raise what they like of an archive that is damaged
         ending = ending_of(place or archive.name)
         kind = "HDF5" if ending in _WORKSPACES else "zip" if ending == ".zip" else "tar"
         raise RecordError(

@@ -27,7 +27,6 @@ from rocking.records.kinds import RecordKind
 from rocking.signal.accelerogram import Accelerogram
 from rocking.warnings import RockingWarning
 
-_UNAM_HEADER = 160  # lines of the longest header
 _UNAM = Layout("gal", {
     "place": r"^COORDENADAS DE LA ESTACION\s*:(.*\n.*)", "unit": key("UNIDADES DE LOS DATOS", WORD),
 } | keyed(
@@ -42,7 +41,7 @@ _REPEATED = 2  # surplus lines that some files of the network end in
 
 
 def _read_unam(content: bytes, options: Options) -> list[Accelerogram]:
-    head, rows = parted(content, re.compile(_DATA, re.I).match, f"begins with {_DATA}", _UNAM_HEADER)
+    head, rows = parted(content, re.compile(_DATA, re.I).match, f"begins with {_DATA}")
     rules = [i for i, line in enumerate(rows[:10]) if _RULE.match(line)]
     if len(rules) < 2:
         raise RecordError(f"no heading {_DATA} above two rules; the file is cut.", header=_DATA)

@@ -8,6 +8,7 @@ from rocking.quantities import NUMBER
 from rocking.records.direction import Direction
 from rocking.records.formats import text
 from rocking.records.formats.format import (
+    LONGEST_HEADER,
     Format,
     Layout,
     Options,
@@ -33,14 +34,10 @@ _DYNA = Layout("", keyed(
 _DYNA_END = re.compile(r"(?!AAD_|[A-Z][A-Z0-9_/^]*:)")
 _DYNA_FIRST = re.compile(r"(?:AAD_.*\n)*EVENT_NAME:(?:.*\n){1,100}?SAMPLING_INTERVAL_S:")
 """AFAD puts lines AAD_ above a header after filtering the samples anew (Kahramanmaraş 2023)."""
-_DYNA_HEADER = 200  # lines of the longest header, of this format and of the next three
-_AFAD_HEADER = 40
-_RESORCE_HEADER = 20
-_ESD_HEADER = 100
 
 
 def _read_dyna(content: bytes, options: Options) -> list[Accelerogram]:
-    head, rows = parted(content, _DYNA_END.match, "of numbers", _DYNA_HEADER)
+    head, rows = parted(content, _DYNA_END.match, "of numbers")
     is_filtered_anew = head.startswith("AAD_")
     head = re.sub("^AAD_", "", head, flags=re.M)
     date = iso_date(optional(key("EVENT_DATE_YYYYMMDD"), head))
@@ -67,7 +64,7 @@ def _directions(line: str) -> list[str]:
 
 
 def _read_afad(content: bytes, options: Options) -> list[Accelerogram]:
-    head, rows = parted(content, _directions, "names the columns (N-S, E-W, U-D)", _AFAD_HEADER)
+    head, rows = parted(content, _directions, "names the columns (N-S, E-W, U-D)")
     labels = _directions(rows[0])
     table = text.table(rows[1:], len(labels))
     line = optional(r"^(.*PGA.*:.*)", head)
@@ -77,9 +74,7 @@ def _read_afad(content: bytes, options: Options) -> list[Accelerogram]:
 
 
 _RESORCE_TITLE = re.compile(r"(Acc[a-z]*tion|Velocity|Displacement) time series in (\S+)", re.I)
-_RESORCE_FIRST = re.compile(
-    rf"Event Date & Time(?:.*\n){{1,{_RESORCE_HEADER}}}?(?i:{_RESORCE_TITLE.pattern})"
-)
+_RESORCE_FIRST = re.compile(rf"Event Date & Time(?:.*\n){{1,{LONGEST_HEADER}}}?(?i:{_RESORCE_TITLE.pattern})")
 _RESORCE = Layout("m/s2", {"network": r"^Network\s*:\s*(\S+)", "quantity": r"^(\w+) time series in \S"} | keyed(
     samples="NUMBER OF DATA", step="TIME INCREMENT (S)", component="ORIENTATION", station="STATION CODE / NAME",
     event="EVENT DATE & TIME", event_time="EVENT DATE & TIME", high_pass="FILTER CUT-OFF FREQUENCY (HZ)",
@@ -88,14 +83,13 @@ _RESORCE = Layout("m/s2", {"network": r"^Network\s*:\s*(\S+)", "quantity": r"^(\
 
 
 def _read_resorce(content: bytes, options: Options) -> list[Accelerogram]:
-    title = "names the time series and its unit"
-    head, rows = parted(content, _RESORCE_TITLE.match, title, _RESORCE_HEADER)
+    head, rows = parted(content, _RESORCE_TITLE.match, "names the time series and its unit")
     return _RESORCE.series(f"{head}\n{rows[0]}", rows[1:], options)
 
 
 _ESD_SECTION = re.compile(r"[ \t]*->[ \t]*(un)?corrected[ \t]+(\w+)", re.I)
 _ESD_FIRST = re.compile(
-    rf"[ \t]*file:.*\n[ \t]*earthquake code:(?:.*\n){{1,{_ESD_HEADER}}}?{_ESD_SECTION.pattern}", re.I
+    rf"[ \t]*file:.*\n[ \t]*earthquake code:(?:.*\n){{1,{LONGEST_HEADER}}}?{_ESD_SECTION.pattern}", re.I
 )
 _ESD = Layout("m/s2", {
     "unit": r"^[ \t]*units:[ \t]*([^,;\s]+)", "high_pass": r"band-?pass[ -]?filter[ ]*\(([\d.]+)",
@@ -108,7 +102,7 @@ _ESD_START = re.compile(r"(?im)^[ \t]*time of first sample:[ \t]*(\d\d)\.(\d\d)\
 
 
 def _read_esd(content: bytes, options: Options) -> list[Accelerogram]:
-    head, rows = parted(content, _ESD_SECTION.match, "that begins with ->", _ESD_HEADER)
+    head, rows = parted(content, _ESD_SECTION.match, "that begins with ->")
     begins = [at for at, row in enumerate(rows) if row.lstrip().startswith(("->", "STOP"))]
     ends = [*begins[1:], len(rows)]
     sections = [rows[begin:end] for begin, end in zip(begins, ends, strict=True)]

@@ -416,15 +416,19 @@ class Layout:
         }
 
 
-def parted(
-    content: bytes, end: int | Callable[[str], object], what: str = "", longest: int = 0
-) -> tuple[str, list[str]]:
+LONGEST_HEADER = 200
+"""Lines of the header of a format, at most; real ones have up to 160."""
+
+
+def parted(content: bytes, end: int | Callable[[str], object], what: str = "") -> tuple[str, list[str]]:
     """Return the header of a text and the lines below, as a number of lines or up to the first that is its `end`.
 
-    Raises RecordError when the `longest` header has no such line, described by `what`.
+    Raises RecordError when the longest header has no such line, described by `what`.
     """
     text = lines(content)
-    at = next((i for i, line in enumerate(text[:longest]) if end(line)), None) if callable(end) else end
+    at = (
+        next((i for i, line in enumerate(text[:LONGEST_HEADER]) if end(line)), None) if callable(end) else end
+    )
     if at is None:
         raise RecordError(f"no line {what}; the file is cut.", header=what)
     return "\n".join(text[:at]), text[at:]

@@ -23,7 +23,6 @@ from rocking.records.plausibility import agree_with_velocity
 from rocking.signal.accelerogram import Accelerogram
 from rocking.warnings import RockingWarning
 
-_CWB_HEADER = 60  # lines of the longest header
 _CWB = Layout("gal", {"unit": key("AMPLITUDEUNIT", WORD)} | keyed(
     duration="RECORDLENGTH(SEC)", rate="SAMPLERATE(HZ)", station="STATIONCODE",
     event_time="ORIGIN TIME(GMT+08)", latitude="STATIONLATITUDE(N)", longitude="STATIONLONGITUDE(E)",
@@ -32,7 +31,7 @@ _CWB = Layout("gal", {"unit": key("AMPLITUDEUNIT", WORD)} | keyed(
 
 
 def _read_cwb(content: bytes, options: Options) -> list[Accelerogram]:
-    head, rows = parted(content, re.compile("#Data:").match, "begins with #Data:", _CWB_HEADER)
+    head, rows = parted(content, re.compile("#Data:").match, "begins with #Data:")
     head = re.sub("^#", "", head, flags=re.M)
     labels = re.findall(r"([A-Z])\(", _CWB.required("channels", head))
     scales = re.findall(r"^Magnitude\((\w+)\)(:.*)", head, re.I | re.M)  # lines like "Magnitude(Mw):7.6"

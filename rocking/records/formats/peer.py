@@ -48,24 +48,23 @@ _IN_BRACKETS = re.compile(r"\([^()]*(?:\)|$)")
 A title may be cut within it, after 80 characters."""
 _HEADER_LINES = 8
 _LONGEST_COMPONENT = 16
-_FIRST = re.compile(
-    r"(?i)(?:.*\n){0,7}?(?:.{0,199}?NPTS[ \t]*=[ \t]*[^\s,]{1,40}[ \t]*,?[ \t]*DT[ \t]*=[ \t]*[0-9.+-]|"
-    r"[ \t]*\d{1,20}[ \t]{1,40}\S{1,40}[ \t]{1,40}NPTS[ \t]*,[ \t]*DT)"
-)
-"""The line by which a file is known, one of the first eight, as _STEPS; bounded, so that no text takes long."""
+
+
+def _head(content: bytes) -> tuple[list[str], re.Match[str] | None]:
+    """Return the first lines up to the one with NPTS and DT, by which a file is known, and what that holds."""
+    head = lines(content.lstrip(b"\n"), _HEADER_LINES)  # or a blank line above is taken for the title
+    for place, line in enumerate(head, 1):
+        if match := next(filter(None, (pattern.search(line[:200]) for pattern in _STEPS)), None):
+            return head[:place], match
+    return head, None
 
 
 def _read(content: bytes, options: Options) -> list[Accelerogram]:
-    content = content.lstrip(b"\n")  # or a blank line above is taken for the title
-    head = lines(content, _HEADER_LINES)
-    steps = ((place, pattern.search(line[:200])) for place, line in enumerate(head) for pattern in _STEPS)
-    found = next(((place, match) for place, match in steps if match), None)
-    if found is None:
+    head, size = _head(content)
+    if size is None:
         raise RecordError(
             "the header holds no line with NPTS and DT; give a PEER AT2 file.", header="NPTS, DT"
         )
-    place, size = found
-    head = head[: place + 1]
     text = "\n".join(head)
     # What a line of its own says counts more than a title that speaks of an accelerogram.
     if quantity := next((other for line in head if (other := other_quantity(line))), None):
@@ -76,7 +75,7 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
         said.append(Claim("unit", "g", Where.FORMAT, "an AT2 of PEER is in g"))
     unit = agreed("unit", said) or ""
     declared = count("NPTS", size["npts"])
-    values, warnings = whole(numbers(after_lines(content, len(head))), declared, per_line=8)
+    values, warnings = whole(numbers(after_lines(content.lstrip(b"\n"), len(head))), declared, per_line=8)
     parts = [part.strip() for part in head[1].split(",")] if len(head) > 1 else [""]
     while len(parts) > 1 and _IN_BRACKETS.fullmatch(parts[-1]):
         del parts[-1]
@@ -113,7 +112,7 @@ PEER_AT2 = Format(
     "PEER AT2",
     "PEER (NGA databases), USA",
     "line with NPTS and DT in the first 8 lines",
-    _FIRST,
+    lambda content: _head(content)[1] is not None,
     _read,
     "PEER_AT2",
 )

@@ -511,11 +511,9 @@ def _column(label: ColumnLabel, numbers: np.ndarray, said: Declarations) -> Colu
     if not label.unit and is_open and _is_clock(numbers[1:]):
         is_count = label.is_count or (numbers.size >= _FEWEST_ROWS and bool((np.diff(numbers) == 1).all()))
         return Column("other") if is_count else Column("time", seconds=label.seconds or 1.0)
-    if _climbs_evenly(numbers):
-        return Column("open", unit=label.unit or said.unit)  # its name and its numbers say two things
-    if label.unit or label.is_direction or label.is_plain_acceleration:
-        return Column("acceleration", unit=label.unit or said.unit)
-    return Column("open", unit=said.unit)
+    is_named = bool(label.unit) or label.is_direction or label.is_plain_acceleration
+    is_motion = is_named and not _climbs_evenly(numbers)  # or its name and its numbers say two things
+    return Column("acceleration" if is_motion else "open", unit=label.unit or said.unit)
 
 
 _LETTER = re.compile(r"(?i)[vdux]")
