@@ -1,4 +1,4 @@
-"""Write a study of synthetic records: python -m tests.workflow.write_study FOLDER RECORDS [DURATION_S [TIME_STEP_S]]."""
+"""Write a study of synthetic records: python -m tests.workflow.write_study FOLDER RECORDS [SECONDS [TIME_STEP_S]]."""
 
 import csv
 import hashlib
