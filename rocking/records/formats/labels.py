@@ -31,8 +31,10 @@ _TIMES = {
     "h": 3600.0, "hour": 3600.0, "hours": 3600.0, "utc": 1.0, "gmt": 1.0, "local": 1.0, "hh:mm:ss": 1.0,
     "с": 1.0, "сек": 1.0, "мс": 1e-3, "秒": 1.0, "毫秒": 1e-3,
 }  # fmt: skip
-_TIME_UNIT = re.compile(r"[(\[]\s*([^)\]]*?)\s*[)\]]\s*$|[\s,_/]([A-Za-zµ]+)\s*$")
+_TIME_UNIT = re.compile(r"[(\[]\s*([^)\]]*?)\s*[)\]]\s*$|(?:^|[\s,_/])([A-Za-zµ]+)\s*$")
 """The unit of times, in brackets or as the last word."""
+_NO_TIME_UNIT = re.compile(r"(?i)(samples?|points?|ticks?|(?<!\d)1/\d.*|[x×*]\s*\d.*|\d\s*[x×*].*)")
+"""A count, or a factor by which the times are still to be multiplied."""
 
 _PARTS = re.compile(r"[\s_.,:;()\[\]]+|(?<=[a-z])(?=[A-Z])|成分|方向")
 """The places at which the words of a label part."""
@@ -71,7 +73,7 @@ class ColumnLabel:
     @property
     def seconds(self) -> float | None:
         """The unit of times, s, None where it says none. Raises RecordError where it is in brackets and unknown."""
-        match = _TIME_UNIT.search(self.text)
+        match = _NO_TIME_UNIT.search(self.text) or _TIME_UNIT.search(self.text)
         if match and match[1]:
             return seconds_of(match[1])
         return _TIMES.get(match[2].lower()) if match and match[2] else None

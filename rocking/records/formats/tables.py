@@ -75,7 +75,7 @@ _FEWEST_ROWS = 8
 _FEWEST_OF_BOTH_SIGNS = 100
 """Samples from which on a motion has some of either sign."""
 LONGEST_STEP = 1.0
-"""The longest step of a record, s, by which two numbers are recognised as samples and step."""
+"""The longest step of a record, s: what is longer is in ms, and of two numbers no step above samples."""
 
 
 @dataclass(frozen=True)
@@ -767,6 +767,9 @@ def _channels(
             facts["event"] = table.words[0][:60]  # a title
         claims = _claims(table, label, column, layout, step, options)
         unit, agreed_step = agreed("unit", claims), agreed("time_step", claims)
+        if agreed_step and agreed_step > LONGEST_STEP:
+            must = f"time_step is {agreed_step!r} s, but must be at most {LONGEST_STEP:g} s; convert what is in ms."
+            raise UndeclaredError(must, time_step=agreed_step)  # as what is in ms is asked with the rest
         records.append(held.accelerogram(unit, numbers, agreed_step, processed=None, **facts))
     if not records:
         _refuse_all(labels)

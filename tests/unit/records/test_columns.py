@@ -83,6 +83,20 @@ def test_the_unit_of_times_is_read(tmp_path, label, factor):
     assert record.peak_acceleration == pytest.approx(np.abs(WAVES[0]).max() * 0.0980665, rel=1e-9)
 
 
+@pytest.mark.parametrize("label", ["time_s*10", "Time, samples", "t (days)", "time x0.01 s", "Time 1/100 s"])
+def test_times_in_another_unit_are_no_seconds(tmp_path, label):
+    path = written(tmp_path, np.transpose([TIMES, WAVES[0]]), f"{label};acc (g)\n", ";", ".12g")
+    with pytest.raises(RecordError, match="the times are in"):
+        read(path)
+
+
+@pytest.mark.parametrize("above", ["# dt = 5\n# units: g\n", "t;acc (g)\n"])
+def test_a_step_that_no_recorder_has_is_in_milliseconds(tmp_path, above):
+    columns = [WAVES[0]] if "dt" in above else [500 * TIMES, WAVES[0]]
+    with pytest.raises(AskedError, match="convert what is in ms"):
+        read(written(tmp_path, np.transpose(columns), above, ";", ".12g"))
+
+
 @pytest.mark.parametrize("above", [[600], [600, 0.01]])
 def test_a_count_above_the_samples_is_no_sample(tmp_path, above):
     path = written(tmp_path, [[value] for value in (*above, *WAVES[0])], digits=".9g")
