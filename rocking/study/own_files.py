@@ -157,7 +157,10 @@ def _named(paths: Sequence[Path]) -> tuple[list[Path], tuple[Path, ...]]:
         if path.is_dir():
             files += files_in(path)
         elif is_archive(path):
-            files += [path / name for name in members(path)]
+            try:
+                files += [path / name for name in members(path)]
+            except RecordError:
+                files.append(path)  # refused, with its name, where it is read
         else:
             files.append(path)
     described = [path for path in files if path.suffix.lower() == ".xml" and archive_of(path) is None]

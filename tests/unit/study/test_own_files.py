@@ -105,6 +105,15 @@ def test_a_stationxml_among_the_files_describes_the_others(tmp_path: Path) -> No
     assert own.channels[0].acceleration == pytest.approx((counts - counts.mean()) / gain, rel=1e-9, abs=1e-12)
 
 
+def test_a_damaged_archive_is_named_and_costs_the_others_nothing(folder: Path) -> None:
+    damaged = folder / "damaged.zip"
+    damaged.write_bytes(b"PK\x03\x04 and no more")
+    whole = next(path for path in sorted(folder.iterdir()) if path != damaged)
+    own = read_files([damaged, whole], Declared())
+    assert list(own.channels) == [whole]
+    assert [str(error).partition(":")[0] for error in own.refused] == ["damaged.zip"]
+
+
 def test_a_file_that_fails_costs_the_others_nothing(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (folder / "letter.txt").write_text("Dear Sir or Madam\n")
     arguments = [*map(str, paths(folder)), str(folder / "letter.txt")]
