@@ -14,6 +14,7 @@ from rocking.assessment.rows import (
     ExpectedFallsRow,
     VerdictRow,
     WarningRow,
+    falls_recorded,
     hardly_spread,
     worst_period_each,
 )
@@ -220,7 +221,7 @@ def falls_in_words(falls: Sequence[ExpectedFallsRow]) -> str:
     of_all = next((row for row in falls if not row.record), None)
     if of_all is None or of_all.structures < CLASS or of_all.without_share == of_all.structures:
         return ""
-    of_records = np.array([row.expected_falls for row in falls if row.record])
+    of_records = np.array([row.expected_falls for row in falls_recorded(falls)])
     records = of_records.size
     expected = f"{of_all.expected_falls:.0f} of {of_all.structures} structures are expected to fall"
     sentence = f"{expected} under the record" if records == 1 else f"{expected} under such a record"

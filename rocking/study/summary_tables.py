@@ -28,7 +28,6 @@ from rocking.assessment.rows import (
     sample_of_records,
     structure_rows,
 )
-from rocking.earthquakes.sample import ClusterSample
 from rocking.errors import RockingError, one_structure
 from rocking.study.job import Study
 from rocking.study.kept import Kept
@@ -73,11 +72,12 @@ def write_summary(
                 write[row_class](outcome.rows[row_class])
             for row_class in ON_PAGES:
                 kept[row_class] += outcome.rows[row_class]
-            read += rows_of(RecordRow, outcome.rows)[:1]
+            first = rows_of(RecordRow, outcome.rows)[:1]
+            read += first
             verdicts = rows_of(VerdictRow, outcome.rows)
             cases += counted_cases(rows_of(ComparisonRow, outcome.rows), verdicts)
             sums |= outcome.sums
-            if falls := falls_under(verdicts, variants):
+            if falls := falls_under(verdicts, variants, made_records(first)):
                 falls_of_records.append(falls)
             pages.append(outcome.page)
             spectra += outcome.spectra.values()
@@ -94,9 +94,7 @@ def write_summary(
         write[WarningRow](of_sample)
         kept[WarningRow] += of_sample
         names = dict(zip(identifiers, zip(sample.stations, sample.events, strict=True), strict=True))
-        of_all = falls_over(
-            falls_of_records, ClusterSample.named(names[falls.record] for falls in falls_of_records)
-        )
+        of_all = falls_over(falls_of_records, names)
         kept[ExpectedFallsRow] = [*falls_of_records, *([of_all] if of_all else [])]
         kept[AgreementRow] = list(agreement_rows(cases, names, made_records(read)))
         write_tables({row_class: rows for row_class, rows in kept.items() if row_class not in write}, target)

@@ -42,6 +42,7 @@ from rocking.assessment.rows.of_study import SpectrumRow as SpectrumRow
 from rocking.assessment.rows.of_study import agreement_rows as agreement_rows
 from rocking.assessment.rows.of_study import counted_apart as counted_apart
 from rocking.assessment.rows.of_study import falls_over as falls_over
+from rocking.assessment.rows.of_study import falls_recorded as falls_recorded
 from rocking.assessment.rows.of_study import falls_under as falls_under
 from rocking.assessment.rows.of_study import hardly_spread as hardly_spread
 from rocking.assessment.rows.of_study import interval_of_mean as interval_of_mean

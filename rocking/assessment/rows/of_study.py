@@ -197,7 +197,11 @@ class ExpectedFallsRow(Row):
     expected_falls_high: float = column("High end of that interval", default=math.nan)
     without_share: float = column("Number of structures that have no share")
     stations: int = column("Number of stations", default=1)
-    earthquakes: int = column("Number of earthquakes of these; what names none counts as of one", default=1)
+    earthquakes: int = column(
+        "Number of earthquakes of these; what names none counts as of one; 0 of a made record, which the mean over all "
+        "leaves out unless all are made",
+        default=1,
+    )
     still: int = column(
         "Number of these stations at which nothing lifts any structure, so that they say nothing about stronger "
         "shaking",
@@ -206,12 +210,12 @@ class ExpectedFallsRow(Row):
 
 
 def falls_under(
-    verdicts: Iterable["rows.VerdictRow"], variants: Collection[str] = ()
+    verdicts: Iterable["rows.VerdictRow"], variants: Collection[str] = (), made: Container[str] = ()
 ) -> ExpectedFallsRow | None:
     """Return how many structures are expected to fall under one record; None without a verdict.
 
     Expectations add whatever the structures have in common. variants: names of structures that stand for another one,
-    and are not counted.
+    and are not counted. made: the records that nobody recorded.
     """
     worst = [row for row in rows.worst_period_each(verdicts) if row.structure not in variants]
     if not worst:
@@ -226,18 +230,30 @@ def falls_under(
         structures=len(worst),
         expected_falls=float(np.nansum(shares)),
         without_share=without_share,
+        earthquakes=int(worst[0].record not in made),
         still=int(still),
     )
 
 
-def falls_over(records: Sequence[ExpectedFallsRow], sample: ClusterSample) -> ExpectedFallsRow | None:
+def falls_recorded(falls: Iterable[ExpectedFallsRow]) -> list[ExpectedFallsRow]:
+    """Return the rows of single records that an earthquake shook; where all records were made, of all of them."""
+    of_records = [row for row in falls if row.record]
+    return [row for row in of_records if row.earthquakes] or of_records
+
+
+def falls_over(
+    falls: Iterable[ExpectedFallsRow], names: Mapping[str, tuple[str, str]]
+) -> ExpectedFallsRow | None:
     """Return the mean over the stations, with the interval of `interval_of_mean`; None without any.
 
-    sample: of the records. What falls under one record falls together or not at all, so that each record is one
-    observation, however many structures there are; and the stations of one earthquake are no independent ones.
+    names: station and earthquake of each record. What falls under one record falls together or not at all, so that each
+    record is one observation, however many structures there are; and the stations of one earthquake are no independent
+    ones. Made records are counted as of `falls_recorded`.
     """
+    records = falls_recorded(falls)
     if not records:
         return None
+    sample = ClusterSample.named(names[row.record] for row in records)
     structures = max(row.structures for row in records)
     falls = sample.by_station(np.array([row.expected_falls for row in records]))
     still = sample.by_station(np.array([float(row.still) for row in records]))

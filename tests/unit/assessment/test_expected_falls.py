@@ -1,6 +1,7 @@
 """How many structures of a class are expected to fall, over records that they share."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from rocking.assessment.rows import (
     interval_of_mean,
     worst_period_each,
 )
-from rocking.earthquakes.sample import ClusterSample
+from rocking.earthquakes.sample import MADE, ClusterSample
 from tests.unit.assessment.made_rows import broken, case, station, verdicts
 
 
@@ -32,7 +33,7 @@ def under(shares: list[float], structures: int) -> list[ExpectedFallsRow]:
 
 def over(records: list[ExpectedFallsRow]) -> ExpectedFallsRow | None:
     """The mean over records of as many stations of as many earthquakes."""
-    return falls_over(records, ClusterSample.scattered([record.record for record in records]))
+    return falls_over(records, {record.record: (record.record, record.record) for record in records})
 
 
 def test_the_shares_of_those_that_have_one_are_added() -> None:
@@ -56,6 +57,22 @@ def test_one_record_has_no_interval() -> None:
     assert of_all is not None and of_all.expected_falls == pytest.approx(15)
     assert math.isnan(of_all.expected_falls_low) and math.isnan(of_all.expected_falls_high)
     assert over([]) is None
+
+
+def test_a_made_record_is_no_earthquake() -> None:
+    """The mean and the sentence are of the recorded ones; where all are made, they are of these."""
+    names = {"a": ("a", "Kobe"), "b": ("b", "Landers"), "sine": ("sine", MADE)}
+    rows = [
+        falls_under(verdicts([station(case("EW", 0.5, "pier", falls=falls))], record), made={"sine"})
+        for record, falls in (("a", 16), ("sine", 64), ("b", 32))
+    ]
+    falls = [replace(row, structures=CLASS) for row in rows if row is not None]
+    of_all = falls_over(falls, names)
+    assert of_all is not None
+    assert (of_all.expected_falls, of_all.stations, of_all.earthquakes) == (0.375, 2, 2)
+    assert falls_in_words([*falls, of_all]) == falls_in_words([falls[0], falls[2], of_all])
+    alone = falls_over(falls[1:2], names)
+    assert alone is not None and (alone.expected_falls, alone.earthquakes) == (1.0, 1)
 
 
 @pytest.mark.parametrize("records", [3, 10])
