@@ -289,9 +289,9 @@ def _cell_of_rate(rows: Sequence[Mapping[str, str]]) -> str:
         return "–"
     told = [float(row["told"]) for row in rows]
     if max(told) == 0:
-        return f"never told; ends hold {span('held_by_ends', 100, ' %')}"
+        return f"never given; ends hold {span('held_by_ends', 100, ' %')}"
     words = f"holds {span('held', 100, ' %')}, reach {span('reach', 1, '')}"
-    return words if min(told) == 1 else f"told {span('told', 100, ' %')}; {words}"
+    return words if min(told) == 1 else f"given {span('told', 100, ' %')}; {words}"
 
 
 def stands() -> str:
