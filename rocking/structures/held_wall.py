@@ -460,10 +460,7 @@ class HeldWall:
         drawn = [
             multiplier
             for opening, multiplier in replace(self, holds=held, row=self.row._replace(apart=False)).family()
-            if any(
-                hold.kind == "tie" and _moved(opening.kinks, hold.height) > _SAME * self.height
-                for hold in held
-            )
+            if any(hold.kind == "tie" and self.moved(opening.kinks, hold.height) > 0 for hold in held)
         ]
         return min(drawn, default=math.inf)
 
@@ -502,13 +499,18 @@ class HeldWall:
         lean = abs(sum(turn for _, turn in kinks))
         restoring += lean * sum(load.weight * load.slab for load in self.loads)
         for height, force in self.thrusts:
-            restoring -= force * _moved(kinks, height)
+            restoring -= force * self.moved(kinks, height)
         for hold in self.holds:
-            outwards = _moved(kinks, hold.height)
+            outwards = self.moved(kinks, hold.height)
             held = hold.outwards if outwards > 0 else hold.inwards
-            if held and abs(outwards) > _SAME * self.height:
+            if held and outwards:
                 restoring += held * abs(outwards)
         return restoring, pushed
+
+    def moved(self, kinks: Sequence[tuple[float, float]], height: float) -> float:
+        """Return u, how far a point at `height` [m] moves outwards; 0 where that is rounding."""
+        outwards = sum(turn * (height - joint) for joint, turn in kinks if height > joint)
+        return outwards if abs(outwards) > _SAME * self.height else 0.0
 
     def multiplier(self, opening: Opening) -> float:
         """λ of an opening by limit analysis; inf where a tie without a strength keeps it shut."""
@@ -550,13 +552,12 @@ class HeldWall:
 
     def admits(self, kinks: Sequence[tuple[float, float]]) -> bool:
         """Whether what stands behind the wall lets it move so."""
-        least = -_SAME * self.height
         floors = [hold.height for hold in self.holds if hold.inwards == np.inf]
         places = [self.height, *(height for height, _ in kinks)] if self.backed else []
-        if any(_moved(kinks, height) < least for height in (*floors, *places)):
+        if any(self.moved(kinks, height) < 0 for height in (*floors, *places)):
             return False
         ends = [hold.height for hold in self.holds if hold.outwards and not hold.gives]
-        return not any(_moved(kinks, height) > -least for height in ends)
+        return not any(self.moved(kinks, height) > 0 for height in ends)
 
     def openings(self, joints: Sequence[float], feet: Sequence[float]) -> Iterator[Opening]:
         """Return every mechanism of the family that can form, its joints among `joints`, m above the ground.
@@ -619,16 +620,13 @@ class HeldWall:
 
     def _yields(self, kinks: Sequence[tuple[float, float]]) -> bool:
         """Whether a tie is drawn out, or a top slips."""
-        moved = ((hold, _moved(kinks, hold.height)) for hold in self.holds)
-        return any(
-            (hold.outwards if way > 0 else hold.inwards) and abs(way) > _SAME * self.height
-            for hold, way in moved
-        )
+        moved = ((hold, self.moved(kinks, hold.height)) for hold in self.holds)
+        return any(way and (hold.outwards if way > 0 else hold.inwards) for hold, way in moved)
 
     def is_bonded(self, opening: Opening) -> bool:
         """Whether a bonder, which gives to neither side, keeps it shut."""
         heights = (hold.height for hold in self.holds if hold.kind == "bonder")
-        return any(abs(_moved(opening.kinks, height)) > _SAME * self.height for height in heights)
+        return any(self.moved(opening.kinks, height) for height in heights)
 
     @property
     def top_may_slip(self) -> bool:
@@ -637,8 +635,7 @@ class HeldWall:
 
     def slip(self, opening: Opening) -> float:
         """Return how far its top slips outwards under what lies on it, as the lowest body turns by 1; 0: it holds."""
-        moved = _moved(opening.kinks, self.height) if self.top_may_slip else 0.0
-        return moved if abs(moved) > _SAME * self.height else 0.0
+        return self.moved(opening.kinks, self.height) if self.top_may_slip else 0.0
 
     def other_way(self, opening: Opening) -> Opening | None:
         """Return what the wall does to the other side after an impact, or None where something stands there.
@@ -895,13 +892,11 @@ class HeldWall:
         for foot, share in self._strips(opening):
             shift = corner - self._edge(foot, turn)
             for place, piece in enumerate(moving):
-                low = max(piece.low, foot)
-                if low < piece.high:
-                    centre = self._seen((piece.left + piece.right) / 2, (low + piece.high) / 2) + shift
-                    mass = share * piece.weight * (piece.high - low)
-                    high = (piece.high - low) ** 2 * (1 + self.lean**2)
-                    own = (high + (piece.right - piece.left) ** 2) / 12
-                    moments[place] += mass, mass * centre, mass * (abs(centre - corner) ** 2 + own)
+                if foot < piece.high:
+                    above = piece.cut(max(piece.low, foot), piece.high)
+                    centre = self._seen((above.left + above.right) / 2, above.middle) + shift
+                    about = above.inertia(self.lean) + above.total * abs(centre - corner) ** 2
+                    moments[place] += share * np.array([above.total, above.total * centre, about])
             for place, load in enumerate(hung, start=len(moving)):
                 if load.start.imag > foot and not load.tie:
                     start = complex(turn * load.start.real, load.start.imag) + shift
@@ -934,8 +929,3 @@ class HeldWall:
             return self._edge(height, 1.0 if outwards else -1.0)
         storey = self._storey_at(height)
         return self._seen(storey.right if outwards else storey.left, height)
-
-
-def _moved(kinks: Sequence[tuple[float, float]], height: float) -> float:
-    """u: how far a point at `height` [m] moves outwards."""
-    return sum(turn * (height - joint) for joint, turn in kinks if height > joint)

@@ -72,6 +72,14 @@ def test_triangle_is_that_of_hand(held, expected):
         assert checked.participating_mass_ratio == pytest.approx(one_weight, rel=1e-12)
 
 
+def test_triangle_of_a_wall_that_narrows_starts_where_limit_analysis_says():
+    """A gable between ties every 6 m at half of its height: λ of its masses in motion is that of virtual work."""
+    gable = replace(FRONT, narrows=True, floor_loads=(), tie_heights=(1.6,))
+    found = triangle(gable)
+    assert found.side.uplift_multiplier == pytest.approx(found.uplift_multiplier, rel=1e-12)
+    assert found.uplift_multiplier > 1.05 * triangle(replace(gable, narrows=False)).uplift_multiplier
+
+
 def turned(levels, thicknesses, loads, weight, foot, top, half):
     """λ of the prism above the line from (0, foot) to (half, top) on the outer face, by turning a cloud of points.
 
