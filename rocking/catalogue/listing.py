@@ -39,7 +39,7 @@ _OF_UNIT = (
     RecordKind.MEAN_SQUARE_UNLIKE_HEADER,
 )
 """What says nothing where the unit is a stand-in."""
-_OF_DIRECTION = (RecordKind.DIRECTION_UNKNOWN, RecordKind.VERTICAL_BY_NAME, RecordKind.VERTICAL_IN_NAME)
+_OF_DIRECTION = (RecordKind.DIRECTION_UNKNOWN, RecordKind.VERTICAL_BY_NAME, RecordKind.DIRECTION_IN_NAME)
 """What is no longer in doubt where a row says the direction."""
 
 

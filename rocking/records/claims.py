@@ -7,7 +7,7 @@ vocabulary reads them all; `agreed` returns what holds, or asks, naming the two 
 import re
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
-from enum import Enum
+from enum import StrEnum
 from functools import cached_property, lru_cache
 from typing import Any, Literal, TypeVar
 
@@ -23,17 +23,17 @@ What = Literal["unit", "time_step", "rate", "samples", "peak", "direction"]
 """What a claim is about; rate: a step that is spoken of, which may be that of the recorder."""
 
 
-class Where(Enum):
-    """The place of a claim and its words; of two that agree the higher one gives the value. The first two give none."""
+class Where(StrEnum):
+    """The place of a claim, in words. Of two that agree the later one gives the value; the first two give none."""
 
-    FILE_NAME = 0, "its name"
-    SPOKEN = 1, "a rate in its header"
-    OPTION = 2, "declared"
-    FORMAT = 3, "its format"
-    HEAD = 4, "its header"
-    SAMPLES = 5, "its numbers"
-    COLUMN = 6, "the name of the column"
-    ANSWER = 7, "layouts.csv"
+    FILE_NAME = "its name"
+    SPOKEN = "a rate in its header"
+    OPTION = "declared"
+    FORMAT = "its format"
+    HEAD = "its header"
+    SAMPLES = "its numbers"
+    COLUMN = "the name of the column"
+    ANSWER = "layouts.csv"
 
 
 _PERSONS = (Where.OPTION, Where.ANSWER)
@@ -51,13 +51,15 @@ class Claim:
 
     def __str__(self) -> str:
         value = f"{self.value:g} s" if self.what == "time_step" else repr(self.value)
-        return f"{repr(self.text[:60]) if self.text else value} ({self.where.value[1]})"
+        return f"{repr(self.text[:60]) if self.text else value} ({self.where})"
 
 
 _SAME_STEP = 1e-3
 """Share by which two steps may differ that are one: a header rounds."""
 _SAME: dict[str, Callable[[Any, Any], bool]] = {
-    "unit": lambda one, other: acceleration_factor(one) == acceleration_factor(other),
+    "unit": lambda one, other: (
+        not {one, other} & _OTHER.keys() and acceleration_factor(one) == acceleration_factor(other)
+    ),
     "time_step": lambda one, other: abs(one - other) <= _SAME_STEP * min(one, other),
     "peak": lambda one, other: abs(one - other) <= 0.01 * max(one, other),
     "samples": lambda one, other: float(one) == float(other),
@@ -77,11 +79,11 @@ def agreed(what: What, claims: Collection[Claim]) -> Any:
 
     What a person says settles what a file says twice, and may not contradict all that it says, nor against another
     person. So do the name or the numbers of a column where a header says several things, one of them the same. The name
-    of a file is held against what a person says alone: of two words of one file that inside it counts. Raises
+    of a file gives no value, and may not contradict what it holds unless a person says the same as that. Raises
     RecordError where a person contradicts the file, UndeclaredError where it contradicts itself.
     """
-    own = (claim for claim in claims if claim.what == what and claim.value)
-    spoken = sorted(own, key=lambda claim: claim.where.value, reverse=True)
+    own = [claim for claim in claims if claim.what == what and claim.value]
+    spoken = [claim for where in reversed(Where) for claim in own if claim.where == where]
     by_person = [claim for claim in spoken if claim.where in _PERSONS]
     named = [claim for claim in spoken if claim.where in _WITHOUT_VALUE]
     inside = [claim for claim in spoken if claim.where not in (*_PERSONS, *_WITHOUT_VALUE)]
@@ -99,7 +101,8 @@ def agreed(what: What, claims: Collection[Claim]) -> Any:
                 f"{what} is {person}, but the file says {against[0]}; {_MEND[against is named]}.",
                 **{what: person.value},
             )
-    unlike = [(one, other) for one in inside for other in inside if not _same(one, other)]
+    of_file = [*inside, *(claim for claim in named if claim.where == Where.FILE_NAME)]
+    unlike = [(one, other) for one in inside for other in of_file if not _same(one, other)]
     if unlike and not by_person:
         one, other = unlike[0]
         wanted, error = "correct the file", RecordError
@@ -132,7 +135,7 @@ def point_apart(first: str, second: str) -> bool:
 # Quantities.
 
 _ACCELERATION = re.compile(r"(?i)(?<![a-z])(acc|acel|beschl|[iİ]vme|ускорени|επιτάχυνση)|加速度")
-_OTHER = {
+_OTHER: dict[str, re.Pattern[str]] = {
     "velocity": re.compile(
         r"(?i)(?<![a-z])(?:vel(?:oc?\w*|(?![a-z]))|vitesse|h[ıi]z[ıi]?(?![a-z]))|geschwindigkeit|скорость|速度|ταχύτητα|"
         r"(?<![\w/])(?:cm|m|mm|in|см|м)/(?:s(?:ec)?|с)\b(?!\s*[/^*²2])"
@@ -196,6 +199,10 @@ def _of_file(named: re.Pattern[str], file: str) -> str | None:
     return ("velocity" if match[1] else "displacement") if match else None
 
 
+def _quantity_in_name(file: str) -> str | None:
+    return _of_file(_SERIES_IN_NAME, file) or other_quantity(spaced(file))
+
+
 def refuse_other_quantity(file: str, text: str) -> None:
     """Raise RecordError when `text`, a header, or the ending of the name `file` speaks of another quantity."""
     if quantity := other_quantity(text) or _of_file(_SUFFIX, file):
@@ -229,7 +236,7 @@ def refuse_other_table(file: str, above: str, columns: Sequence[str], *, is_stat
     refuse_other_quantity(file, above)
     if (word := _OTHER_TITLE.search(above)) and not (_ACCELERATION.search(above) or "match" in above.lower()):
         raise of_another(word[1].lower())
-    if not is_stated and (quantity := _of_file(_SERIES_IN_NAME, file) or other_quantity(spaced(file))):
+    if not is_stated and (quantity := _quantity_in_name(file)):
         raise RecordError(
             f"its name speaks of {quantity}, and nothing in it of acceleration; use the acceleration of the same "
             "record, or rename the file if it is that.",
@@ -376,8 +383,12 @@ _UNIT_IN_NAME = re.compile(
 
 @lru_cache(maxsize=64)
 def claims_of_name(file: str) -> tuple[Claim, ...]:
-    """Return what the name of a file says of its unit and its step, "kobe_dt0.005", "x_100Hz", "acc_cm_s2"."""
-    stem = re.sub(r"(?i)\.(txt|csv|dat|at2|asc|acc|th|out|prn|xlsx)$", "", file.rpartition("/")[2])
+    """Return what the name of a file says of its unit and its step, "kobe_dt0.005", "x_100Hz", "acc_cm_s2".
+
+    The name of another quantity, as in "x.VT2", is no unit of acceleration.
+    """
+    name = file.rpartition("/")[2]
+    stem = re.sub(r"(?i)\.(txt|csv|dat|at2|asc|acc|th|out|prn|xlsx)$", "", name)
     found = [
         Claim("time_step", float(match[1]), Where.FILE_NAME, match[0])
         for match in _STEP_IN_NAME.finditer(stem)
@@ -392,6 +403,8 @@ def claims_of_name(file: str) -> tuple[Claim, ...]:
     for match in _UNIT_IN_NAME.finditer(stem):
         unit = f"{match[1]}/s2" if match[1] else match[2].lower().rstrip("s") if match[2] else "g"
         found.append(Claim("unit", unit, Where.FILE_NAME, match[0].strip("_")))
+    if quantity := _of_file(_SUFFIX, name) or _quantity_in_name(name):
+        found.append(Claim("unit", quantity, Where.FILE_NAME, quantity))
     return tuple(claim for claim in found if claim.value)
 
 
@@ -456,10 +469,10 @@ _OF_FILTER = re.compile(
 _FEWEST_PER_SECOND = 10.0
 """The lowest rate that a recorder has, Hz: below, a number of hertz is that of a motion."""
 _SAMPLES = re.compile(
-    r"(?:^|[\s,;(])(-?\d[\d.e]*)\s+(?:points|samples|values)\b(?!\s+(?:per|across|a|each|in)\b)|"
+    rf"(?:^|[\s,;(])({NUMBER})\s+(?:points|samples|values)\b(?!\s+(?:per|across|a|each|in)\b)|"
     r"\b(?:npts|(?:no\.?|number) (?:of )?(?:points|samples|data|values)|"
     r"n[uú]m(?:ero|\.)? (?:total )?de (?:datos|muestras|puntos))"
-    r"\s*[:=]\s*(-?\d[\d.e]*)",
+    rf"\s*[:=]\s*({NUMBER})",
     re.I,
 )
 _VALUE = r"\b\.?\s*(?:code|name)?\s*[:=]?\s*([^,;:=()\[\]]*?)\s*(?:$|[,;()\[\]]|\s-\s)"

@@ -122,7 +122,7 @@ class RecordKind(Kind):
     # The files of a folder, each compared with the others.
     COUNTS_WITHOUT_UNIT = auto(), """Without a unit its samples are taken as counts of the recorder: put the
         StationXML of the station in its folder, or name it in the column inventory."""
-    VERTICAL_IN_NAME = auto(), "The file's name says {word}, but {about} is taken as horizontal."
+    DIRECTION_IN_NAME = auto(), "The file's name says {word}, but it holds {about}, which is followed."
     STATIONS_UNLIKE = auto(), """The stream holds channels of {number} stations ({stations}): they are not a
         record of one place; read each station separately."""
     STEPS_OF_STREAM_UNLIKE = auto(), """The channels of the stream have time steps from {least_s:g} to

@@ -20,7 +20,14 @@ from rocking.errors import RecordError, UndeclaredError, UnknownFormatError, abo
 from rocking.hashes import sha256_of_bytes
 from rocking.quantities import listed, shown
 from rocking.records.archive import archive_of, is_archive, member_bytes, members
-from rocking.records.claims import refuse_spectrum, says_made, vertical_in_name, without_end
+from rocking.records.claims import (
+    direction_in_name,
+    point_apart,
+    refuse_spectrum,
+    says_made,
+    vertical_in_name,
+    without_end,
+)
 from rocking.records.direction import (
     contradiction,
     names_no_direction,
@@ -367,14 +374,16 @@ def printable(text: str) -> str:
 
 def _named_by_file(records: list[Accelerogram], name: str) -> list[Accelerogram]:
     """Return the channels of a file; a lone one that names no direction is vertical if the file's name is."""
-    word = vertical_in_name(name)
-    if not word or len(records) != 1:
+    upwards = vertical_in_name(name)
+    word = upwards or direction_in_name(name)[1]
+    if not word or word.isdigit() or len(records) != 1:  # digits may count files
         return records
     (record,) = records
-    if record.azimuth is not None and not record.vertical:
-        return [record.warned(RockingWarning.of(RecordKind.VERTICAL_IN_NAME, record.component, word=word))]
+    is_level = record.azimuth is not None and not record.vertical
+    if (upwards and is_level) or point_apart(word, record.component):
+        return [record.warned(RockingWarning.of(RecordKind.DIRECTION_IN_NAME, record.component, word=word))]
     is_open = record.azimuth is None and not record.vertical and not record.borehole
-    if not is_open or not names_no_direction(record.component):
+    if not (upwards and is_open and names_no_direction(record.component)):
         return records
     return [replace(record, vertical=True).warned(RockingWarning.of(RecordKind.VERTICAL_BY_NAME, word=word))]
 

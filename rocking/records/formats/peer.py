@@ -75,6 +75,7 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
         said.append(Claim("unit", "g", Where.FORMAT, "an AT2 of PEER is in g"))
     unit = agreed("unit", said) or ""
     declared = count("NPTS", size["npts"])
+    agreed("samples", declarations.claims)
     values, warnings = whole(numbers(after_lines(content.lstrip(b"\n"), len(head))), declared, per_line=8)
     parts = [part.strip() for part in head[1].split(",")] if len(head) > 1 else [""]
     while len(parts) > 1 and _IN_BRACKETS.fullmatch(parts[-1]):

@@ -748,7 +748,7 @@ def _channels(
     every = {at: rows[:, at] * column.seconds for at, column in enumerate(columns) if column.role == "time"}
     notes += () if every else _repeats(values)
     stated = above.get("dt") or (1 / above["hz"] if above.get("hz") else None)
-    held = replace(options, unit=None, time_step=None)
+    held = replace(options, unit=None, time_step=None, file="")
     records = []
     for place, (column, label) in enumerate(zip(columns, labels, strict=True)):
         if column.role not in ("acceleration", "open") or (layout.is_series and label.other):

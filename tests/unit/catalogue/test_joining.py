@@ -165,7 +165,7 @@ def test_a_vertical_by_its_name_acts_upwards(tmp_path: Path) -> None:
     (station,) = opened(tmp_path, unit="g")
     assert len(station.horizontal) == 2 and station.vertical.component == "UP"
     kinds = {warning.kind for file in catalogue_of_folder(tmp_path).files for warning in warnings_of(file)}
-    assert not kinds & {RecordKind.DIRECTION_UNKNOWN, RecordKind.VERTICAL_IN_NAME}
+    assert not kinds & {RecordKind.DIRECTION_UNKNOWN, RecordKind.DIRECTION_IN_NAME}
 
 
 @pytest.mark.parametrize("names", [

@@ -104,6 +104,9 @@ CASES: dict[str, tuple[Callable[[Path], Path], dict, tuple[str, ...]]] = {
     "unit: AT2, two heads": (of_peer(unit="UNITS OF G, UNITS OF GAL"), {}, ("UNITS OF G", "unit=")) ,
     "unit: AT2, brackets": (of_peer(first="RECORD (cm/s2)"), {}, ("RECORD (cm/s2)", "UNITS OF G", "unit=")),
     "unit: AT2, name and option": (of_peer("acc_m_s2.AT2", unit="HISTORY"), {"unit": "g"}, ("g", "m_s2")),
+    "unit: AT2, name and head": (of_peer("made_m_s2.AT2"), {}, ("m_s2", "UNITS OF G", "unit=")),
+    "unit: table, name and column": (text("", name="made_gal.csv"), {}, ("gal", "NS (m/s2)", "unit=")),
+    "unit: workbook, name and column": (book("", name="made_gal.xlsx"), {}, ("gal", "NS (m/s2)", "unit=")),
     "unit: table, head and column": (text("# units: mg\n"), {}, ("units: mg", "NS (m/s2)", "unit=")),
     "unit: table, column and option": (text(""), {"unit": "g"}, ("'g'", "NS (m/s2)")),
     "unit: table, head and option": (text("# units: mg\n", "t,NS"), {"unit": "g"}, ("'g'", "units: mg")),
@@ -122,6 +125,8 @@ CASES: dict[str, tuple[Callable[[Path], Path], dict, tuple[str, ...]]] = {
     "step: AT2, head and option": (of_peer(), {"time_step": 0.02}, ("0.02", "0.01")),
     "step: AT2, two heads": (of_peer(first="RECORD, dt = 0.003 s"), {}, ("dt = 0.003 s", "0.01 s", "time_step=")),
     "step: AT2, head and rate": (of_peer(first="RECORD. Sampling rate: 40 Hz"), {}, ("40 Hz", "0.01 s", "time_step=")),
+    "step: AT2, name and head": (of_peer("made_dt0.005.AT2"), {}, ("dt0.005", "0.01 s", "time_step=")),
+    "step: table, name and times": (text("", name="made_50Hz.csv"), {}, ("50Hz", "0.01 s", "time_step=")),
     "step: table, head and times": (text("# dt = 0.005\n"), {}, ("0.005", "0.01 s", "time_step=")),
     "step: table, column and answer": (answer(text("", "t (ms),Q1,"), "t, NS g"), {}, ("t (ms)", "t, NS g")),
     "step: table, times and option": (text(""), {"time_step": 0.02}, ("0.02", "0.01")),
@@ -148,6 +153,7 @@ CASES: dict[str, tuple[Callable[[Path], Path], dict, tuple[str, ...]]] = {
     "count: workbook, head and rows": (book("NPTS = 1000"), {}, ("1000", "600")),
     # quantity
     "quantity: AT2, title": (of_peer(first="PEER VELOCITY TIME SERIES"), {}, ("velocity",)),
+    "quantity: AT2, name": (of_peer("made.VT2"), {}, ("velocity", "UNITS OF G", "unit=")),
     "quantity: table, head": (text("# velocity in cm/s\n", "t,NS"), {"unit": "g"}, ("velocity",)),
     "quantity: table, column": (text("", "t,vel (cm/s)"), {}, ("velocity",)),
     "quantity: table, name": (text("", "t,NS", "made_vel.csv"), {"unit": "g"}, ("velocity",)),
@@ -176,7 +182,8 @@ def test_two_words_that_differ_are_asked_or_refused_with_both(tmp_path: Path, ca
 
 @pytest.mark.parametrize(("made", "kind", "named"), [
     (of_peer(first="COMPONENT AZIMUTH = 300"), RecordKind.DIRECTION_SAID_TWICE, ("300", "090")),
-    (of_peer("x_UP.AT2"), RecordKind.VERTICAL_IN_NAME, ("UP", "090")),
+    (of_peer("x_UP.AT2"), RecordKind.DIRECTION_IN_NAME, ("UP", "090")),
+    (text("", name="x_EW.csv"), RecordKind.DIRECTION_IN_NAME, ("EW", "NS")),
     (text("# Component: EW\n"), RecordKind.DIRECTION_SAID_TWICE, ("EW", "NS")),
     (book("Component: EW"), RecordKind.DIRECTION_SAID_TWICE, ("EW", "NS")),
     (of_instrument("HNN", "100"), RecordKind.DIRECTION_CONTRADICTED, ("HNN", "100")),
