@@ -1,10 +1,8 @@
 """Each text format from a small file made here: values, one recogniser, truncation, line ends, foreign characters."""
 
-import ast
 import inspect
 import re
 import time
-from pathlib import Path
 
 import made_files
 import numpy as np
@@ -23,7 +21,6 @@ from made_files import (
     read_text,
 )
 
-import rocking
 from rocking.errors import RecordError, UnknownFormatError
 from rocking.records import Accelerogram
 from rocking.records.formats import FORMATS, Format
@@ -184,15 +181,3 @@ def test_a_count_that_cannot_be_is_refused(name: str, declared: str) -> None:
     at = next(m for m in re.finditer(rf"(?<![\d.-]){N}(?![\d.])", text) if m.start() > 3)
     with pytest.raises(RecordError):
         read_made(name, text[: at.start()] + declared + text[at.end() :])
-
-
-def test_obspy_is_told_the_format_of_each_file_it_opens() -> None:
-    """obspy.read without a format tries every plug-in it has, and one of them unpickles."""
-    calls = []
-    for path in sorted(Path(rocking.__file__).parent.rglob("*.py")):
-        text = path.read_text(encoding="utf-8")
-        for node in ast.walk(ast.parse(text)) if "obspy" in text else ():
-            name = ast.unparse(node.func) if isinstance(node, ast.Call) else ""
-            if name.removeprefix("obspy.") in ("read_inventory", "read_events") or name == "obspy.read":
-                calls.append((path.name, {word.arg for word in node.keywords}))
-    assert len(calls) >= 3 and all("format" in words for _, words in calls), calls

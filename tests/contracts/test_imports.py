@@ -4,7 +4,6 @@ Every import of the package counts: at the top of a file, within a function and 
 """
 
 import ast
-import re
 import shutil
 import subprocess
 import sys
@@ -150,22 +149,6 @@ def test_an_assessment_knows_a_place_and_no_support():
     assert floors == {"rocking.floors.place"}
 
 
-def test_rows_are_imported_from_their_package():
-    """So that a file of rows may move; those whose methods take a while to load are imported by themselves."""
-    root = PACKAGE.parent
-    behind = imported("rocking.assessment.rows")
-    folders = [PACKAGE, root / "tests", root / "docs", root / "workflow"]
-    callers = {
-        path.relative_to(root).as_posix()
-        for folder in folders
-        for path in folder.rglob("*")
-        if path.suffix in (".py", ".smk") and any(name in path.read_text(encoding="utf-8") for name in behind)
-    }
-    within = {path for path in callers if path.startswith("rocking/assessment/rows/")}
-    assert "rocking/assessment/rows/__init__.py" in within
-    assert callers == within
-
-
 def test_heavy_libraries_stay_in_their_place():
     libraries = {name.split(".")[0] for module in MODULES for name in imported(module)}
     assert set(ONLY_IN) <= libraries, "a library of the list is imported nowhere"
@@ -232,27 +215,3 @@ def test_what_computes_nothing_loads_neither_what_compiles_nor_what_draws(code, 
 
 
 HEAVY = {"numba", "matplotlib", "pandas", "obspy", "snakemake"}
-
-
-READERS = ("americas", "europe", "pacific", "volumes", "by_obspy", "workspace")
-"""The readers of formats of agencies, each of which states its unit and quantity in words of its own."""
-
-
-def test_units_and_quantities_are_read_by_one_vocabulary():
-    """So that a word which one door learns is known at all."""
-    homes = {PACKAGE / "records" / "claims.py", PACKAGE / "quantities.py"}
-    homes |= {PACKAGE / "records" / "formats" / f"{reader}.py" for reader in READERS}
-    words = re.compile(r"cm/s|m\]\?m/s|gals\?|\bvel|velo[ck]|displ|acel|beschl|fourier|spectr|einheit|unidad")
-    for part in ("records", "catalogue", "signal"):
-        for path in (PACKAGE / part).rglob("*.py"):
-            calls = (
-                node
-                for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
-                if isinstance(node, ast.Call)
-            )
-            for call in calls:
-                is_pattern = ast.unparse(call.func).startswith("re.") and path not in homes
-                found = words.search(ast.unparse(call.args[0])) if is_pattern and call.args else None
-                assert not found, (
-                    f"{path.relative_to(PACKAGE)}:{call.lineno} reads {found[0]!r} outside records/claims.py"
-                )

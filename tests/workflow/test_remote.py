@@ -126,21 +126,3 @@ def test_jobs_that_share_no_folder_make_the_same_tables(start, tmp_path: Path) -
     assert not study.results.exists(), "nothing was made in the folder of the study"
     assert "report" not in machines.run(study, "-n").partition("Job stats:")[2].partition("total")[0]
     _compared(study, machines)
-
-
-@pytest.mark.slow
-def test_the_shipped_example_is_the_same_on_other_machines(tmp_path: Path) -> None:
-    folder = tmp_path / "study"
-    for name in ("records", "config"):
-        shutil.copytree(ROOT / name, folder / name)
-    shutil.move(folder / "config" / "config.yaml", folder / "config.yaml")
-    study = SmallStudy(folder, ROOT)
-    _by_git(study)
-    machines = Machines(tmp_path / "machines")
-    _to_storage(study, machines, ("records", "config"))
-    machines.run(study)
-    (folder / "config.yaml").write_text(
-        (folder / "config.yaml").read_text().replace("study: ''", "study: A town")
-    )
-    machines.run(study)
-    _compared(study, machines)

@@ -48,6 +48,7 @@ def test_the_status_of_a_run_is_that_of_its_jobs_and_of_what_failed(
     told = capsys.readouterr().out
     shown = not ended and "--until" not in options
     assert ("what came of it" in told) == (f"Open    {study / 'results' / 'a.pdf'}" in told) == shown
+    assert (f"--until read; what it wrote lies in {study / 'results'}" in told) == ("--until" in options)
 
 
 @pytest.mark.parametrize("ended", [None, 0, 5])
