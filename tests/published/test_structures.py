@@ -5,8 +5,6 @@ import pytest
 
 from rocking.quantities import GRAVITY
 from rocking.structures.arch import Arch
-from rocking.structures.arch_mechanism import TooThin, limiting_thickness
-from rocking.structures.arch_ring import Ring
 from rocking.structures.block import Block
 from rocking.structures.frame import Frame
 from rocking.structures.wall import Wall
@@ -43,14 +41,6 @@ def test_arch_table(row):
     at_uplift = mechanism.equivalent_block("uplift").acceleration_scale
     assert at_uplift == pytest.approx(alternative, abs=HALF_A_DIGIT)
     assert block.uplift_multiplier / mechanism.uplift_multiplier == pytest.approx(ratio, abs=HALF_A_DIGIT)
-
-
-@pytest.mark.slow  # the same number stands in a refusal of tests/unit/structures/test_refusals.py
-def test_minimum_thickness_of_the_semicircle():
-    """Milankovitch 1907 (radial joints); Makris and Alexakis 2013: t/r = 0.107478."""
-    assert limiting_thickness(Ring(thickness=1.0, embrace_angle=np.pi), TooThin) == pytest.approx(
-        0.107478038, abs=0.5e-9
-    )
 
 
 @pytest.mark.parametrize("ratio", [0.0, 0.5, 2.0, 20.0])

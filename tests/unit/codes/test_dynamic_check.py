@@ -171,25 +171,6 @@ def test_too_few_sets_call_nothing_met(records):
 
 
 @pytest.mark.slow
-def test_the_interval_of_the_share_covers_what_sets_of_other_stations_say():
-    """Twelve pools of other stations each: the interval of one holds the share of the next, in nine tenths of cases.
-
-    Of 12 a nine-tenths interval holds 9 or more with a probability of .97.
-    """
-    block = Block.of_size(0.5, 3.0)
-    found = []
-    for seed in range(12):
-        pool = select(made_pool(40, seed=100 + seed), SPECTRUM, 10, sets=200, **LIMITS)
-        found.append(rocking.check(block, SPECTRUM, records=pool).dynamic)
-    fresh = [trial.share for trial in found[1:]] + [found[0].share]
-    held = [
-        item.interval[0] - 1e-9 <= share <= item.interval[1] + 1e-9
-        for item, share in zip(found, fresh, strict=True)
-    ]
-    assert sum(held) >= 9, [(one_trial.share, one_trial.interval) for one_trial in found]
-
-
-@pytest.mark.slow
 @pytest.mark.parametrize(("stations", "events"), [(25, 12), (40, 15)])
 def test_the_interval_covers_the_sets_of_another_pool_of_stations_within_earthquakes(stations, events):
     """Pairs of pools without a station in common: nine tenths are covered, and one in twenty lies below at most.

@@ -5,12 +5,10 @@ import pytest
 from motion_cases import with_restitution
 from scipy.constants import g
 
-from rocking.errors import MotionError
 from rocking.motion import integrate
 from rocking.pulses.pulse import Pulse
 from rocking.signal.accelerogram import Accelerogram
 from rocking.structures import Arch, Block, EquivalentBlock, Outcome, Wall
-from tests.refusals import refused
 
 SHAPE = np.convolve(np.random.default_rng(0).normal(size=400), np.hanning(15), "same")
 SHAPE = SHAPE / np.abs(SHAPE).max()
@@ -96,13 +94,3 @@ def test_zeno_chain_of_a_hundred_thousand_impacts_ends_in_rest(structure):
     assert response.rotation[-1] == 0
     assert response.times[-1] < record.duration
     assert response.outcome is Outcome.ROCKS
-
-
-# Of the block, tests/unit/motion/test_members.py has one member that does so.
-@pytest.mark.slow  # test_members.py has the same of a member
-@pytest.mark.parametrize("structure", [BLOCK, LINEAR], ids=["block", "linear"])
-def test_rattling_without_loss_is_cut_short_with_a_reason(structure):
-    """η = 1 from 1e-6 rad: flights of 2 ms for a day would be 4e7 impacts; it stops and says so."""
-    lossless = with_restitution(structure, 1.0, 1.0)
-    with refused(MotionError, "impacts", 5_000_000):
-        integrate(lossless, Accelerogram(np.zeros(1001), 100.0), initial_rotation=1e-6)

@@ -15,8 +15,6 @@ from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.decide import Limit, Verdict
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.rows import VerdictRow, rows_of_record
-from rocking.assessment.scene import load_scenes, placed
-from rocking.catalogue import load_catalogue
 from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.dynamic_check import check
 from rocking.products.checks.report import structures_data
@@ -25,7 +23,6 @@ from rocking.reports.explore import explore_page, record_content
 from rocking.reports.printing import LOOKS, cell_text
 from rocking.reports.record import RecordReport
 from rocking.reports.summary import summary_data
-from rocking.study.job import Study, assess_catalogued, rows_of
 from rocking.study.own_files import _lines_of
 from rocking.study.terminal import record_line
 from rocking.tables import frame, write_rows
@@ -182,81 +179,6 @@ def test_the_page_to_sign_says_it(report, decisions):
             ]
         warnings = "; ".join(map(str, decision.warnings))
         assert not warnings or f"({warnings})" in share
-
-
-# The shipped example --------------------------------------------------------------------------------------------
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("record", load_catalogue(ROOT / "records" / "catalogue.csv"), ids=lambda row: row.id)
-def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undrawn):
-    """Each structure at each period of its support, in each table and on each page that names it."""
-    study = Study(load_scenes(ROOT / "config" / "structures.yaml"))
-    result = assess_catalogued(record, study)
-    tables = rows_of(result, record, study)
-    decided = {
-        (this_period.structure, this_period.support_period_s): this_period.decision
-        for this_period in result.periods
-    }
-    assert {name for name, _ in decided} == set(study.structures)
-
-    write_rows(VerdictRow, tables.verdicts, tmp_path / "verdicts.csv")
-    written = list(frame(VerdictRow, tmp_path / "verdicts.csv").itertuples())
-    periods = [None if math.isnan(row.support_period_s) else row.support_period_s for row in written]
-    of_rows = {(row.structure, period): printed(row) for row, period in zip(written, periods, strict=True)}
-    assert of_rows == {name: in_print(item) for name, item in decided.items()}
-    for row in (*tables.comparison, *tables.supports):
-        decision = decided[row.structure, row.support_period_s]
-        assert row.verdict is decision.verdict
-        assert row.overturning_share == pytest.approx(decision.share, nan_ok=True)
-
-    report = RecordReport(result, tables, study.structures, study.settings.for_pages)
-    data = report.page()
-    told = [line for other_period in result.periods for line in _lines_of(other_period, 1.0)]
-    lines = workbook_lines(tables)
-    stations = {row.record: (row.station, row.event) for row in tables.record}
-    for station in report.result.worst_first:
-        name = placed(station.structure, station.support_period_s)
-        decision = station.decision
-        share = decision.share_in_words
-        (own,) = (line for line in told if line.startswith(f"{name}: "))
-        assert own == f"{name}: {decision.verdict}{f' ({share})' if share else ''}; {decision.why}"
-        period = [] if station.support_period_s is None else [f"{station.support_period_s:g}"]
-        key = "|".join(["", station.structure, *period, decision.verdict, ""])
-        (line,) = (one_line for one_line in lines if key in one_line)
-        assert decision.why in line
-        assert all(warning.kind in line for warning in decision.warnings)
-        own_rows = [row for row in tables.verdicts if row.structure == station.structure]
-        there = [row for row in own_rows if row.support_period_s == station.support_period_s]
-        page = _checked(station.scene, station.support, partial(check, spectrum=SPECTRUM), there, stations)
-        (signed,) = structures_data([page], SPECTRUM, SETTINGS).sheets
-        assert f"{decision.verdict.predicate} under 1 station" in signed.answers[0].basis.share
-        assert all(
-            str(RockingWarning(warning.kind)) in signed.answers[0].basis.share
-            for warning in decision.warnings
-        )
-
-    worst = {one_period.structure: one_period for one_period in result.worst_periods}
-    content = record_content(result, tables, study.structures)
-    summary = summary_data(summarised(tables, study.structures), SETTINGS)
-    rows = {row.name: row for row in data.page_one.rows}
-    cells = {row.name: row.cells[0] for row in summary.matrix.rows}
-    table = {line[0].text: line for line in summary.structures.table.rows}
-    line = record_line(tables.verdicts, [])
-    page = explore_page([content], study.structures).decode()
-    assert data.conclusion == summary.conclusion and data.conclusion in page
-    for name, station in worst.items():
-        decision = station.decision
-        for row in (rows[name].chip, cells[name]):
-            assert row.verdict.removeprefix("? ") == decision.verdict
-            assert row.share in (decision.share_in_words, "" if row is cells[name] else None)
-        assert decision.share_in_words in table[name]
-        case = content["cases"][name]
-        assert (case["verdict"], case["cell"]) == (decision.verdict, cell_text(decision))
-        assert decision.why in case["text"]
-        assert all(str(warning) in case["text"].partition(" Warning: ")[2] for warning in decision.warnings)
-        if f"{decision.verdict}: " in line and f"{name} (" in line:  # it names eight, and gathers the others
-            assert f"{name} ({decision.share_in_words})" in line
 
 
 def in_print(decision):

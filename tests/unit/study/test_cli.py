@@ -8,7 +8,6 @@ import io
 import math
 import os
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
@@ -418,28 +417,6 @@ def test_what_yaml_1_1_would_turn_into_something_else_is_a_text(tmp_path, text):
     config = check_config_file(tmp_path / "config.yaml")
     with pytest.raises(ConfigurationError, match="setting friction_coefficient is"):
         make_plan(config)
-
-
-@pytest.mark.slow
-def test_an_installed_wheel_carries_the_workflow(study, tmp_path):
-    """Built and unpacked away from the clone, the package starts and plans a study from what it carries."""
-    pytest.importorskip("hatchling", reason="the wheel is built with hatchling, of the extra build")
-    pip = [sys.executable, "-m", "pip"]
-    wheels, site = tmp_path / "wheels", tmp_path / "site"
-    build = [*pip, "wheel", str(ROOT), "--no-deps", "--no-build-isolation", "-q", "-w", str(wheels)]
-    subprocess.run(build, check=True)
-    install = [*pip, "install", "-q", "--no-deps", "--target", str(site), *wheels.glob("*.whl")]
-    subprocess.run(install, check=True)
-    rocking_command = [sys.executable, "-m", "rocking.study.cli"]
-    environment = os.environ | {"PYTHONPATH": str(site)}
-    fresh = tmp_path / "fresh"
-    subprocess.run([*rocking_command, "start", str(fresh)], check=True, env=environment, cwd=tmp_path)
-    # The first line names the schema of the package that wrote it.
-    settings = [(folder / "config.yaml").read_bytes().split(b"\n", 1)[1] for folder in (fresh, study)]
-    assert settings[0] == settings[1]
-    run = [*rocking_command, "run", str(study), "--", "--dry-run"]
-    told = subprocess.run(run, check=True, env=environment, cwd=tmp_path, capture_output=True, text=True)
-    assert f"Snakefile: {site}" in told.stdout + told.stderr
 
 
 def test_without_a_verb_the_usage_says_that_one_is_missing(capsys):

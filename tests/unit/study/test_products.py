@@ -8,15 +8,11 @@ from pathlib import Path
 import pytest
 
 from rocking import Block
-from rocking.assessment.rows import FailureRow
 from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import EnsembleSettings
 from rocking.catalogue import CatalogueRecord
 from rocking.catalogue.catalogue import is_safe_id
 from rocking.study.job import Study
-from rocking.study.jobs import product as make_product
-from rocking.study.kept import kept_in
-from rocking.study.outputs import outputs_of
 from rocking.study.product import Product
 from rocking.study.products import PRODUCTS
 from rocking.study.results import open_results, rows_of_table
@@ -24,7 +20,7 @@ from rocking.study.settings import Settings, StudyDesign
 from rocking.study.work import Work, work_of
 from rocking.tables import write_rows
 from tests.synthetic import SyntheticRecord, at2_text
-from tests.unit.study.made_jobs import made_job, worked
+from tests.unit.study.made_jobs import worked
 
 HEAVY = {"numpy", "yaml", "pandas", "matplotlib", "numba", "scipy", "pydantic"}
 IDS = [product.name for product in PRODUCTS]
@@ -98,26 +94,3 @@ def assessed(tmp_path_factory: pytest.TempPathFactory) -> tuple[list[CatalogueRe
     study = Study(on_the_ground({"block": Block.of_size(0.5, 3.0)}), settings, "made")
     worked(records, study, folder / "results")
     return records, study, folder
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("product", PRODUCTS, ids=IDS)
-def test_its_job_writes_the_files_that_its_rule_declares(product: Product, assessed, monkeypatch) -> None:
-    """And keeps rows of every table that it shows something of, which are encoded and read again.
-
-    On demand, as runs of the workflow make the products of this package.
-    """
-    records, study, folder = assessed
-    monkeypatch.setattr("rocking.products.checks.work.load_catalogue", lambda _: tuple(records))
-    job = made_job(records, study, folder / "results", product.name)
-    work = work_of(product)
-    make_product(job)
-    files = set(outputs_of(product.name, job.plan.settings).values())
-    assert {path for path in files if path.stat().st_size} == files
-    kept = kept_in(job.kept, (*work.shown, FailureRow))
-    assert {*kept.opened} <= {f"{product.folder}/{name}" for name in product.files}
-    rows = kept.rows
-    panel = work.panel(rows)
-    assert panel is None or panel.title
-    assert {*work.notes(rows)} <= {*study.structures}
-    assert all(map(str.strip, kept.lines))
