@@ -186,6 +186,8 @@ def test_places_are_read_as_they_are_written(text):
         ("HNE", 0, 90, 0.0, False, True),
         ("HNZ", 0, 90, 0.0, False, True),
         ("HNE", 90, 0, None, True, True),
+        ("HNN", 360, 90, 0.0, False, False),
+        ("HN1", 360.5, 90, None, False, False),  # a number that is no angle, as of what is not known
     ],
 )
 def test_a_sac_header_that_contradicts_its_channel_code_is_told(

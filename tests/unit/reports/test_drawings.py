@@ -33,6 +33,7 @@ def test_a_structure_is_drawn_as_its_outline():
     drawn = [patch.get_xy()[:-1] for patch in axes.patches]
     for points, outline in zip(drawn, [*STRUCTURES[1].outline(0.1), *STRUCTURES[1].outline()], strict=True):
         assert np.array_equal(points, outline)
+    assert [patch.get_fill() for patch in axes.patches] == [True, True, False, False]
 
 
 def _lines(svg):

@@ -217,3 +217,5 @@ def test_each_restitution_that_is_typed_below_its_balance_is_asked_again_alone()
         expected.append(max(typed["inward_restitution"], balance))
         assert [side.restitution for side in livelier.mechanism().sides] == pytest.approx(expected)
         assert front.cautions[-1].kind is StructureKind.RESTITUTION_TYPED
+    near = (Facade((3.5, 3.0), (0.5, 0.5), 20e3, restitution=balance - apart) for apart in (0.049, 0.051))
+    assert [wall.restitution_of_geometry is None for wall in near] == [True, False]

@@ -8,6 +8,7 @@ from io import BytesIO
 
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from rocking import Block, DesignSpectrum, Facade, Wall, check
 from rocking.assessment.cracks import mechanisms_of
@@ -21,6 +22,7 @@ from rocking.codes.kinds import CheckKind
 from rocking.errors import ConfigurationError
 from rocking.motion.response import ModelCheck
 from rocking.products.checks.conclusion import code_conclusion_in_words, code_conclusions
+from rocking.products.checks.figures import bars_figure
 from rocking.products.checks.report import CheckedStructure, structures_data
 from rocking.products.checks.rows import CodeCheckRow, code_check_rows
 from rocking.products.checks.work import Checks, write_checks
@@ -481,6 +483,24 @@ def test_the_page_to_sign_carries_the_caveat_of_page_one(study, monkeypatch):
 def test_a_ratio_of_what_hardly_moves_says_that_it_is_large():
     assert found(True, demand=1e-9).ratio_in_words == found(True, demand=0.0).ratio_in_words == "> 100"
     assert found(True, demand=0.05).ratio_in_words == "2.00"
+
+
+@pytest.mark.parametrize("share", [0.03, 0.45, 1.3, 4.0])
+def test_a_ratio_is_white_within_its_bar_and_black_on_the_paper(share):
+    """Far above 1, above it, a little below, and far below: asked of the picture."""
+    spectrum = DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
+    checked = check(STRUCTURES["parapet"], spectrum.at(share * spectrum.level))
+    figure = bars_figure(STRUCTURES["parapet"], checked, None, Sentences("en"))
+    FigureCanvasAgg(figure).draw()
+    axes = figure.axes[1]
+    bars = [patch.get_window_extent() for patch in axes.patches[1:]]
+    ratios = {f"{one.ratio:.3g}" for one in checked.checks}
+    inks = [text for text in axes.texts if text.get_text() in ratios]
+    assert len(inks) == len(bars) == len(checked.checks)
+    for text, bar in zip(inks, bars, strict=True):
+        extent = text.get_window_extent()
+        within = bar.x0 < (extent.x0 + extent.x1) / 2 < bar.x1
+        assert text.get_color() == ("white" if within else "black")
 
 
 @pytest.mark.usefixtures("undrawn")
