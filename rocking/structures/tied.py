@@ -429,8 +429,7 @@ class Tied(CrackedAtHeight, Leaved):
     @property
     def lets_go(self) -> bool:
         """Whether no tie without a strength has to stretch for it to move outwards as it opens."""
-        crack = Opening(foot=self.crack_position) if self.opening is None else self.opening
-        return math.isfinite(self.held_wall.multiplier(crack))
+        return math.isfinite(self.held_wall.multiplier(self._opens))
 
     def reactions(self, state: MotionState | None = None) -> tuple[Reaction, ...]:
         """Return the force of everything that holds it sideways, N per metre, over k states.

@@ -93,6 +93,16 @@ def test_bulge_of_one_storey_by_hand():
     assert yields.mechanisms[0].onset_multiplier == pytest.approx((6.219 + 21.6) / 76.824, rel=BY_HAND)
 
 
+def test_a_tie_without_a_strength_below_the_hinge_keeps_it_shut_outwards():
+    """A wall between supports, h/2 tied: a hinge at .72 h would move the tie outwards; inwards it goes slack."""
+    wall = LoadedWall.of_size(5.0, 0.4, 18e3, top_load=20e3, restitution=0.6)
+    found = mechanisms(replace(wall, tie_heights=(2.5,), tie_stiffness=1e6))
+    hinge = f"hinge at {wall.crack_position:.4g} m"
+    assert f"{hinge}, inwards" in found
+    assert f"{hinge}, outwards" not in found
+    assert wall.crack_position > 2.5
+
+
 @pytest.mark.slow
 def test_stronger_and_more_ductile_ties_never_lower_a_capacity():
     """The linear one of the weakest of the family; the nonlinear one of the same mechanism, about the foot.
