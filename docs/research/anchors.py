@@ -16,7 +16,9 @@ and no station is new.
 
 Ties at a spacing are a part of their own: what an anchor grips along the wall (`anchor_width`) is compared there with
 what the tie holds over its spacing. All that stand or probably stand are followed there, with `fidelity: contact`, as
-stacks of other courses than those of the verdict.
+stacks of other courses than those of the verdict. The figure `anchors_spaced` is of stations that took part in no
+choice and are in no catalogue of the repository: sample files of the formats that are read, often weak motions, whose
+factors go from 0.6 to 14 000 (below 20 for 50 of the 94 fronts).
 """
 
 import warnings
