@@ -121,23 +121,6 @@ def test_a_unit_next_to_a_factor_or_another_is_asked(tmp_path: Path, unit: str) 
         read(at2(tmp_path, unit=unit))
 
 
-HEADS = {
-    "unit": ("# units: mg\nt NS(g)\n", "unit", "mg", "g"),
-    "step": ("# dt = 0.005\nt NS(g)\n", "time_step", "0.005", "0.01"),
-}
-
-
-@pytest.mark.parametrize(("head", "field", "one", "other"), HEADS.values(), ids=HEADS)
-def test_two_words_of_one_file_that_differ_are_asked_with_both(
-    tmp_path: Path, head: str, field: str, one: str, other: str
-) -> None:
-    path = tmp_path / "made.txt"
-    path.write_text(head + table(TIMES, 0.1 * MOTION))
-    with refused(UndeclaredError, field) as asked:
-        read(path)
-    assert one in str(asked.value) and other in str(asked.value) and f"{field}=" in str(asked.value)
-
-
 @pytest.mark.parametrize(("head", "kind"), [
     ("# PGA = 0.9 g\nt NS(g)\n", RecordKind.PEAK_UNLIKE_HEADER), ("# vertical\nt NS(g)\n",
     RecordKind.DIRECTION_SAID_TWICE),
@@ -150,13 +133,6 @@ def test_a_peak_or_a_direction_that_is_not_that_of_the_column_is_reported(
     assert kind in kinds(read(path)[0])
     path.write_text(head.partition("\n")[2] + table(TIMES, 0.1 * MOTION))
     assert not kinds(read(path)[0])
-
-
-def test_a_count_that_the_rows_do_not_have_is_refused_or_reported(tmp_path: Path) -> None:
-    path = tmp_path / "made.txt"
-    path.write_text("# NPTS = 1000\nt NS(g)\n" + table(TIMES, 0.1 * MOTION))
-    with pytest.raises(RecordError, match="1000"):
-        read(path)
 
 
 @pytest.mark.parametrize(("name", "word"), [

@@ -66,7 +66,10 @@ def test_names_and_units_in_a_comment_are_read(tmp_path):
     assert records[0].peak_acceleration == pytest.approx(np.abs(WAVES[0]).max() / 100, abs=1e-8)
 
 
-@pytest.mark.parametrize("head", ["Period (s),SA (g)\n", "Frequency [Hz], FAS [m/s]\n", "T (s),PSA (g)\n"])
+@pytest.mark.parametrize("head", [
+    "Period (s),SA (g)\n", "Frequency [Hz], FAS [m/s]\n", "T (s),PSA (g)\n", "f (Hz),A (g)\n", "f,A (m/s2)\n",
+    "Frequency [Hz],amplitude\n",
+])  # fmt: skip
 def test_a_spectrum_is_no_record(tmp_path, head):
     with refused(RecordError, "quantity", "spectrum"):
         read(written(tmp_path, np.transpose([TIMES, np.abs(WAVES[0])]), head, parted=","))

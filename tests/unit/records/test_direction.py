@@ -18,9 +18,11 @@ class Channel:
     vertical: bool = False
 
 
-@pytest.mark.parametrize(
-    "name", ["+V", "-V", "V+", "+UP", "Ver.", "ver", "L Z", "Düşey", "Dikey", "U_D", "V", "U-D", "HNZ", "-Up"]
-)
+@pytest.mark.parametrize("name", [
+    "+V", "-V", "V+", "+UP", "Ver.", "ver", "L Z", "Düşey", "Dikey", "U_D", "V", "U-D", "HNZ", "-Up", "BHZ00", "HNZ.00",
+    "HNZ--", "Z--", "VRT", "V1", "UPP", "UPWD", "DWN1", "Vertical Up", "hnz 10", "Vert up", "VERT1", "-Z", "UP 1",
+    "Vertical (up)", "UD2", "Upwards", "HNZ_20",
+])  # fmt: skip
 def test_verticals(name: str) -> None:
     assert Direction.of(name) == Direction(vertical=True)
 
@@ -29,10 +31,12 @@ def test_verticals(name: str) -> None:
     ("E-O", 90.0), ("Kuzey-Güney", 0.0), ("D-B", 90.0),
     ("EO", 90.0), ("Oeste", 270.0), ("N90O", 270.0), ("S14O", 194.0), ("N45O", 315.0), ("Az 90", 90.0),
     ("AZ=135", 135.0), ("azimuth: 270", 270.0), ("N120", 120.0), ("S E", 90.0), ("S N", 0.0), ("N05", None),
+    ("BH210", None), ("HNE.00", 90.0), ("BHN00", 0.0), ("V90", None), ("HNR", None), ("WE", 90.0), ("UPLAND", None),
+    ("X", None),
 ])  # fmt: skip
 def test_azimuths(name: str, along: float | None) -> None:
     """O is oeste; a bearing counts from its pole to its side: S14O is 180 + 14. "N05" is the number of a station."""
-    assert Direction.of(name).azimuth == along
+    assert Direction.of(name).azimuth == along and not Direction.of(name).vertical
 
 
 @pytest.mark.parametrize(("name", "axis"), [

@@ -208,17 +208,6 @@ def test_a_stream_is_told_what_its_stationxml_says_of_its_direction(
     assert RecordKind.DIRECTION_CONTRADICTED in {warning.kind for warning in record.warnings}
 
 
-def test_the_pieces_of_a_stream_that_say_two_steps_are_refused_with_both() -> None:
-    """Also where they would not overlap: the later one may be resampled."""
-    one = trace()
-    other = one.copy()
-    other.stats.sampling_rate = 2 * one.stats.sampling_rate
-    other.stats.starttime = one.stats.endtime + one.stats.delta
-    with pytest.raises(RecordError) as said:
-        rocking.from_obspy(obspy.Stream([one, other]), unit="g")
-    assert all(f"{piece.stats.sampling_rate:g}" in str(said.value) for piece in (one, other))
-
-
 def test_what_a_header_calls_synthetic_is_made_in_every_catalogue(tmp_path: Path) -> None:
     """Else it counted as recorded where a row does not say it."""
     at2(tmp_path, first="SYNTHETIC ACCELEROGRAM, NOT RECORDED")
@@ -242,32 +231,6 @@ def test_what_is_typed_stands_against_no_format(name: str, typed: dict) -> None:
         read_content(content_of(name), "made", Options(**typed))
     ((field, value),) = typed.items()
     assert said.value.field == field and f"{value}" in str(said.value)
-
-
-def epoch(text: str, **facts: str) -> str:
-    """A StationXML with a second channel element that differs in some facts."""
-    begin, end = text.index("<Channel "), text.index("</Channel>") + len("</Channel>")
-    other = text[begin:end]
-    for fact, value in facts.items():
-        old = {"azimuth": "<Azimuth>72</Azimuth>", "gain": "<Value>200000</Value>"}[fact]
-        other = other.replace(old, old.replace("72" if fact == "azimuth" else "200000", value))
-    return text[:end] + other + text[end:]
-
-
-@pytest.mark.parametrize(("facts", "named"), [
-    ({"gain": "100000"}, ("200000", "100000")), ({"azimuth": "90"}, ("azimuth 72", "azimuth 90")),
-])  # fmt: skip
-def test_two_epochs_of_a_stationxml_are_refused_with_both(tmp_path: Path, facts: dict, named: tuple) -> None:
-    trace().write(str(tmp_path / "record.mseed"), format="MSEED")
-    xml = XML.format(units="M/S**2")
-    (tmp_path / "station.xml").write_text(epoch(xml, **facts))
-    for one in (
-        lambda: read(tmp_path / "record.mseed"),
-        lambda: rocking.from_obspy(trace(), inventory(tmp_path)),
-    ):
-        with pytest.raises(RecordError) as said:
-            one()
-        assert all(word in str(said.value) for word in named)
 
 
 def inventory(folder: Path) -> object:

@@ -353,22 +353,6 @@ def test_the_full_removal_asks_the_stages_alone() -> None:
     assert np.allclose(record.acceleration, right.acceleration, atol=1e-9)
 
 
-@pytest.mark.parametrize(
-    "name",
-    ["BHZ00", "HNZ.00", "HNZ--", "Z--", "VRT", "V1", "UPP", "UPWD", "DWN1", "Vertical Up", "hnz 10", "V"],
-)
-def test_names_of_verticals(name: str) -> None:
-    assert Direction.of(name).vertical and Direction.of(name).azimuth is None
-
-
-@pytest.mark.parametrize(
-    ("name", "along"), [("BH210", None), ("HNE.00", 90.0), ("BHN00", 0.0), ("V90", None), ("HNR", None)]
-)
-def test_names_that_are_no_verticals(name: str, along: float | None) -> None:
-    assert Direction.of(name).azimuth == along
-    assert not Direction.of(name).vertical
-
-
 def test_a_direction_that_nobody_states_is_told() -> None:
     (record,) = rocking.from_obspy(trace(COUNTS / 1e5, channel="QQX"), unit="m/s2")
     assert RockingWarning(RecordKind.LONE_MAY_BE_VERTICAL, "QQX") in record.warnings

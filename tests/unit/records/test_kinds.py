@@ -10,7 +10,6 @@ from obspy.io.sac import SACTrace
 import rocking
 from rocking.errors import RecordError
 from rocking.records import read
-from rocking.records.direction import Direction
 from rocking.records.formats.format import coordinates
 from rocking.records.formats.layouts import AskedError
 from rocking.records.kinds import RecordKind
@@ -154,18 +153,6 @@ def test_a_unit_that_is_given_wins_where_obspy_differentiated_what_nobody_named(
     assert np.allclose(record.acceleration, trace.data)
     with refused(RecordError, "quantity", "velocity"):
         rocking.from_obspy(Trace(WAVE / 10, {"channel": "HNE", "delta": 0.01}).integrate(), unit="m/s2")
-
-
-@pytest.mark.parametrize(
-    "name", ["Vert up", "VERT1", "-Z", "UP 1", "Vertical (up)", "UD2", "Upwards", "HNZ_20"]
-)
-def test_more_names_of_verticals(name):
-    assert Direction.of(name).vertical
-
-
-@pytest.mark.parametrize(("name", "along"), [("WE", 90.0), ("HNE.00", 90.0), ("UPLAND", None), ("X", None)])
-def test_names_of_horizontals(name, along):
-    assert not Direction.of(name).vertical and Direction.of(name).azimuth == along
 
 
 @pytest.mark.parametrize("text", ["31.86 LAT. N\n 116.60 LONG. W", "31.86 N / 116.60 O", "31.86 N; 116.60 W"])

@@ -303,11 +303,6 @@ def test_three_channels_of_which_none_is_called_vertical_are_told(tmp_path):
     }
 
 
-def test_numbers_none_of_which_is_negative_are_told(tmp_path):
-    (record,) = opened(tmp_path, table("", TIMES, np.abs(FIRST) + 0.01), unit="m/s2")
-    assert RecordKind.NEVER_NEGATIVE in {warning.kind for warning in record.warnings}
-
-
 def test_a_column_of_a_floor_is_told(tmp_path):
     _, roof = opened(tmp_path, table("time (s),ground (g),roof (g)\n", TIMES, FIRST, WAVES[1]))
     assert RockingWarning.of(RecordKind.IN_A_STRUCTURE, place="roof") in roof.warnings
@@ -435,12 +430,6 @@ def test_the_filling_of_the_last_row_is_left_out(tmp_path):
     assert RecordKind.ROW_FILLED_UP in {warning.kind for warning in record.warnings}
     with refused(RecordError, "samples", "NaN"):
         opened(tmp_path, "# units: m/s2, dt = 0.01 s\n" + rows.replace(numbers[300], "NaN", 1))
-
-
-@pytest.mark.parametrize("head", ["f (Hz),A (g)\n", "f,A (m/s2)\n", "Frequency [Hz],amplitude\n"])
-def test_numbers_over_frequency_are_a_spectrum(tmp_path, head):
-    with refused(RecordError, "quantity", "spectrum"):
-        opened(tmp_path, table(head, TIMES, FIRST), unit="g", time_step=0.01)
 
 
 @pytest.mark.parametrize(
