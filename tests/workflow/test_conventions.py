@@ -1,6 +1,7 @@
 """What a user of snakemake expects of a workflow, each on the real command in the folder of a study of one's own."""
 
 import csv
+import errno
 import os
 import shutil
 import subprocess
@@ -15,6 +16,7 @@ import pytest
 import yaml
 
 from rocking.study.cli import main
+from rocking.study.outputs import STEPS
 from tests.workflow.conftest import ROOT, SmallStudy
 from tests.workflow.forked import PLANNING, run_snakemake
 
@@ -121,6 +123,16 @@ def test_a_run_until_a_step_gives_the_files_of_that_step_and_goes_on_from_there(
     assert (own / "pulses.csv").read_bytes() == (done.results / "good_1" / "pulses.csv").read_bytes()
 
 
+@pytest.mark.slow
+def test_rocking_run_until_a_step_says_where_its_files_lie(begun, done, tmp_path) -> None:
+    study = begun.copy_to(tmp_path / "study")
+    told = study.rocking("run", str(study.folder), "--until", "predict").stdout
+    assert f"Finished: --until predict; what it wrote lies in {study.results}" in told
+    own = Path("good_1", "predictions.csv")
+    assert (study.results / own).read_bytes() == (done.results / own).read_bytes()
+    assert study.planned() == ["integrate", "report", "summary"]
+
+
 def test_the_graph_of_the_readme_is_that_of_the_rules() -> None:
     command = [sys.executable, "-m", "snakemake", "--rulegraph", "mermaid-js", "summary"]
     drawn = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
@@ -139,6 +151,32 @@ def test_outputs_dated_ahead_of_the_clock_stop_nothing(done, tmp_path) -> None:
     snakemake(study)
     assert study.tables() == done.tables()
     assert study.planned() == []
+
+
+@pytest.mark.slow
+def test_a_link_to_itself_among_the_results_stops_nothing(done, tmp_path) -> None:
+    study = done.copy_to(tmp_path / "study")
+    (study.results / "summary" / "verdicts.csv").unlink()
+    (study.results / "again").symlink_to(study.results)
+    snakemake(study)
+    assert study.tables() == done.tables()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", [errno.ENOLCK, errno.ENOSYS])
+def test_a_file_system_without_locks_is_a_warning(done, tmp_path, number) -> None:
+    study = done.copy_to(tmp_path / "study")
+    code = (
+        "import fcntl, os, sys\n"
+        f"def flock(*_): raise OSError({number}, os.strerror({number}))\n"
+        "fcntl.flock = flock\n"
+        "from rocking.study.cli import main\n"
+        "sys.exit(main(['run', sys.argv[1]]))"
+    )
+    command = [sys.executable, "-c", code, str(study.folder)]
+    ended = subprocess.run(command, capture_output=True, text=True, check=False, **study.surroundings)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    assert f"not locked, {os.strerror(number)}" in ended.stdout
 
 
 @pytest.mark.slow
@@ -191,3 +229,36 @@ def test_an_archive_unpacks_to_a_study_that_runs(begun, done, tmp_path) -> None:
     study = SmallStudy(tmp_path / "unpacked", ROOT)
     snakemake(study, "--cores", "2")
     assert study.tables() == done.tables()
+
+
+@pytest.mark.slow
+def test_every_generated_unit_test_parses(done, tmp_path) -> None:
+    study = done.copy_to(tmp_path / "study")
+    command = [sys.executable, "-m", "snakemake", "--generate-unit-tests", "tests"]  # where it was imported
+    subprocess.run(command, capture_output=True, check=True, **study.surroundings)
+    written = list((study.folder / "tests").rglob("test_*.py"))
+    assert {*(f"test_{step}.py" for step in STEPS), "test_summary.py"} <= {path.name for path in written}
+    for path in written:
+        compile(path.read_text(encoding="utf-8"), path, "exec")
+
+
+@pytest.mark.slow
+def test_the_rules_are_free_of_lint() -> None:
+    command = [sys.executable, "-m", "snakemake", "--lint"]
+    ended = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert not ended.returncode and "Lints for" not in ended.stdout + ended.stderr, ended.stderr
+
+
+@pytest.mark.slow
+def test_the_catalogue_of_workflows_finds_the_main_file_and_how_it_is_used() -> None:
+    assert (ROOT / "workflow" / "Snakefile").is_file()
+    usage = yaml.safe_load((ROOT / ".snakemake-workflow-catalog.yml").read_text())["usage"]
+    assert set(usage) == {"software-stack-deployment", "report"}, "no flag is mandatory"
+    assert (ROOT / "profiles" / "default" / "config.yaml").samefile(
+        ROOT / "workflow" / "profiles" / "default" / "config.yaml"
+    )
+    told = subprocess.run(
+        [sys.executable, "-m", "snakemake", "-n"], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    assert told.returncode == 0 and "profiles/default" in told.stdout + told.stderr
+    assert Path(ROOT / "Snakefile").read_text().count("\n") < 20

@@ -5,9 +5,17 @@ import shutil
 import subprocess
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
+
+from rocking.assessment.rows import FailureRow
+from rocking.products.fragility.rows import FragilitySummaryRow
+from rocking.products.trade.rows import TradeRow
+from rocking.study.kept import kept_in
+from rocking.study.outputs import kept_of
+from rocking.tables import read_table
 
 HEAD = "MADE FOR A TEST\nNowhere, 1/1/2000, A, H1\nACCELERATION TIME SERIES IN UNITS OF G\n"
 
@@ -62,6 +70,49 @@ def test_broken_records_change_no_byte_of_the_good_ones(with_broken, finished) -
         assert with_broken.rows_of(name) == expected
 
 
+@pytest.mark.slow
+def test_a_fault_in_the_trade_or_the_fragility_stops_nothing_and_is_kept_as_a_row(start, tmp_path) -> None:
+    """Planted in a copy of the package: under one record in the trade, and of one structure in the fragility."""
+    tree = shutil.copytree(start.tree, tmp_path / "tree")
+    for file, before, planted in (
+        (
+            "products/trade/measure.py",
+            "    case = case.held_against(motions)\n",
+            "[0 for record in motions.horizontal.values() if 'good_1' in record.source.path and record.dt_min]",
+        ),
+        (
+            "fragility/curves.py",
+            "    check_name(intensity_measure)\n",
+            "structure.hinge_height is None and 1 // 0",
+        ),
+    ):
+        path = tree / "rocking" / file
+        source = path.read_text()
+        assert source.count(before) == 1
+        path.write_text(source.replace(before, f"    {planted}\n{before}"))
+    study = replace(start.copy_to(tmp_path / "study"), tree=tree)
+    study.run("trade", "fragility", "--config", "fragility={members: false}")
+    rows = {
+        name: kept_in(kept_of(study.results, name), [FailureRow]).rows[FailureRow]
+        for name in ("trade", "fragility")
+    }
+    told = {(name, row.record, row.structure): row.message for name in rows for row in rows[name]}
+    assert set(told) == {
+        ("trade", "good_1", "block"),
+        ("trade", "good_1", "wall"),
+        ("fragility", "", "block"),
+    }
+    for (name, *_), message in told.items():
+        assert message.startswith("a fault of rocking") and f"results/summary/logs/{name}.log" in message
+        assert "Traceback" in (study.results / "summary" / "logs" / f"{name}.log").read_text()
+    (trade,) = {
+        row.cases for row in read_table(TradeRow, study.results / "summary") if row.structure == "wall"
+    }
+    assert trade == 2, "records"
+    curves = read_table(FragilitySummaryRow, study.results / "fragility")
+    assert {row.structure for row in curves} == {"wall"}
+
+
 def test_bad_input_is_refused_at_once_before_anything_is_written(start, tmp_path: Path) -> None:
     study = start.copy_to(tmp_path / "study")
     rows = study.rows()
@@ -101,3 +152,15 @@ def test_a_full_disk_is_said_and_leaves_nothing_half_written(finished, start, tm
         study.run()
         assert study.rows_of("good_1") == expected
         assert (study.results / "summary" / "record.csv").read_text().count("\n") == 2, "head and one record"
+
+
+@pytest.mark.slow
+def test_a_limit_on_the_size_of_files_is_said_and_harms_nothing(finished, start, tmp_path) -> None:
+    """Of 6 kB, in blocks of 512 bytes: a job writes more than that into one table."""
+    study = start.copy_to(tmp_path / "study")
+    limit = ("sh", "-c", 'ulimit -f 12; exec "$@"', "sh")
+    done = study.rocking("run", str(study.folder), before=limit, status=1)
+    assert "File too large" in done.stdout + done.stderr
+    assert not study.unfinished()
+    study.rocking("run", str(study.folder))
+    assert study.tables() == finished.tables()
