@@ -43,6 +43,11 @@ def triangle(wall):
     return next(mechanism for mechanism in wall.mechanisms() if mechanism.name == TRIANGLE)
 
 
+@pytest.mark.parametrize(("behind", "stopped"), [("nothing", False), ("floors", True), ("cross_walls", True)])
+def test_what_stands_behind_its_top_lets_a_triangle_fall_outwards_only(behind, stopped):
+    assert triangle(replace(FRONT, behind=behind)).structure.one_sided == stopped
+
+
 @pytest.mark.parametrize(("held", "expected"), [(True, 0.268880), (False, 0.162855)])
 def test_triangle_is_that_of_hand(held, expected):
     """Section 13.2: λ, u_cr and p² of a wall of 3.2 × .4 m with 5 kN/m; W and N of half a span, per metre of span."""
