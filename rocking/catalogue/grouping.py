@@ -11,7 +11,7 @@ import numpy as np
 from rocking.catalogue.joining import SQUARE, why_apart
 from rocking.catalogue.listing import ListedChannel, ListedFile
 from rocking.records.claims import direction_in_name, without_ending
-from rocking.records.direction import Direction, angle_between, names_no_direction
+from rocking.records.direction import angle_between, directed, names_no_direction
 from rocking.records.formats.text import day_of
 from rocking.records.kinds import RecordKind
 from rocking.warnings import RockingWarning
@@ -120,10 +120,9 @@ def named_channel(file: ListedFile) -> ListedChannel:
     """Return the one channel of a file, called as the file's name says where its header does not."""
     (channel,) = file.channels
     if direction := _direction(file):
-        channel = replace(channel, component=direction)
-        if channel.azimuth is None and not channel.vertical:
-            by_name = Direction.of(direction)
-            return replace(channel, azimuth=by_name.azimuth, vertical=by_name.vertical)
+        named = {"component": direction}
+        is_open = channel.azimuth is None and not channel.vertical
+        return replace(channel, **(directed(named) if is_open else named))
     return channel
 
 

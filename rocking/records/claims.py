@@ -6,7 +6,7 @@ vocabulary reads them all; `agreed` returns what holds, or asks, naming the two 
 
 import re
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property, lru_cache
 from typing import Any, Literal, TypeVar
@@ -19,12 +19,14 @@ from rocking.records.kinds import RecordKind
 from rocking.signal.accelerogram import Accelerogram
 from rocking.warnings import RockingWarning
 
-What = Literal["unit", "time_step", "rate", "samples", "peak", "direction"]
-"""What a claim is about; rate: a step that is spoken of, which may be that of the recorder."""
+What = Literal["unit", "time_step", "samples", "peak", "direction"]
 
 
 class Where(StrEnum):
-    """The place of a claim, in words. Of two that agree the later one gives the value; the first two give none."""
+    """The place of a claim, in words. Of two that agree the later one gives the value; the first two give none.
+
+    SPOKEN: of a rate, which may be that of the recorder.
+    """
 
     FILE_NAME = "its name"
     SPOKEN = "a rate in its header"
@@ -80,13 +82,20 @@ def agreed(what: What, claims: Collection[Claim]) -> Any:
     What a person says settles what a file says twice, and may not contradict all that it says, nor against another
     person. So do the name or the numbers of a column where a header says several things, one of them the same. The name
     of a file gives no value, and may not contradict what it holds unless a person says the same as that. Raises
-    RecordError where a person contradicts the file, UndeclaredError where it contradicts itself.
+    RecordError where a person contradicts the file, or its name alone speaks, of another quantity; UndeclaredError
+    where it contradicts itself.
     """
     own = [claim for claim in claims if claim.what == what and claim.value]
     spoken = [claim for where in reversed(Where) for claim in own if claim.where == where]
     by_person = [claim for claim in spoken if claim.where in _PERSONS]
     named = [claim for claim in spoken if claim.where in _WITHOUT_VALUE]
     inside = [claim for claim in spoken if claim.where not in (*_PERSONS, *_WITHOUT_VALUE)]
+    if not inside and (quantity := next((claim.value for claim in named if claim.value in _OTHER), "")):
+        raise RecordError(
+            f"its name speaks of {quantity}, and nothing in it of acceleration; use the acceleration of the same "
+            "record, or rename the file if it is that.",
+            quantity=quantity,
+        )
     nearest = [claim for claim in inside if claim.where in (Where.COLUMN, Where.SAMPLES)]
     if nearest and any(claim.where == Where.HEAD and _same(claim, nearest[0]) for claim in inside):
         inside = nearest
@@ -149,8 +158,9 @@ _OF_NO_MOTION = re.compile(
     r"(?i)shear|wave|vs[ _,]?30|\bond[ae]s?\b|welle|\bdalga\b|muestreo|chantillon|abtast|örnekle|campion"
 )
 """The velocity of a site, or of a recorder, is no record."""
-_SUFFIX = re.compile(r"(?i)\.(?:(vt2|vel|vtx|semv)|dt2|disp?|semd)$")
-_SERIES_IN_NAME = re.compile(r"(?i)(?<![a-z])(?:(vt2)|dt2)(?![a-z\d])")
+_SERIES_IN_NAME = re.compile(
+    r"(?i)\.(?:(vt2|vel|vtx|semv)|dt2|disp?|semd)$|(?<![a-z])(?:(vt2)|dt2)(?![a-z\d])"
+)
 _SPECTRUM = re.compile(
     r"(?i)(?<![a-z])((?:response|fourier|power|design|pseudo|spectral|elastic|amplitude|hazard)\w*[ _-]+(?:\w+[ _-]+)?"
     r"spectr(?:um|a|al)|spectr(?:um|a) of|(?:pseudo[ -]?)?spectral acceleration|espectro de respuesta|"
@@ -193,19 +203,9 @@ def _of_spectrum(said: str) -> RecordError:
     )
 
 
-def _of_file(named: re.Pattern[str], file: str) -> str | None:
-    """Return "velocity" or "displacement" where the name of a file holds a word for it."""
-    match = named.search(file)
-    return ("velocity" if match[1] else "displacement") if match else None
-
-
-def _quantity_in_name(file: str) -> str | None:
-    return _of_file(_SERIES_IN_NAME, file) or other_quantity(spaced(file))
-
-
-def refuse_other_quantity(file: str, text: str) -> None:
-    """Raise RecordError when `text`, a header, or the ending of the name `file` speaks of another quantity."""
-    if quantity := other_quantity(text) or _of_file(_SUFFIX, file):
+def refuse_other_quantity(text: str) -> None:
+    """Raise RecordError when `text`, a header, speaks of another quantity."""
+    if quantity := other_quantity(text):
         raise of_another(quantity)
 
 
@@ -225,23 +225,16 @@ _OTHER_TITLE = re.compile(
 )
 
 
-def refuse_other_table(file: str, above: str, columns: Sequence[str], *, is_stated: bool) -> None:
-    """Raise RecordError when names of columns, the text above them or the name of the file are of another quantity.
+def refuse_other_table(above: str, columns: Sequence[str]) -> None:
+    """Raise RecordError when names of columns, or the text above them, are of another quantity.
 
-    Of a column that states a unit of acceleration (is_stated) the name of the file does not count, and of a text that
-    speaks of acceleration no other word.
+    Of a text that speaks of acceleration no other word counts.
     """
     if columns and (_ABSCISSA.fullmatch(columns[0]) or any(map(_ORDINATE.fullmatch, columns[1:]))):
         raise _of_spectrum(", ".join(columns[:4]))
-    refuse_other_quantity(file, above)
+    refuse_other_quantity(above)
     if (word := _OTHER_TITLE.search(above)) and not (_ACCELERATION.search(above) or "match" in above.lower()):
         raise of_another(word[1].lower())
-    if not is_stated and (quantity := _quantity_in_name(file)):
-        raise RecordError(
-            f"its name speaks of {quantity}, and nothing in it of acceleration; use the acceleration of the same "
-            "record, or rename the file if it is that.",
-            quantity=quantity,
-        )
 
 
 # The name of a column.
@@ -403,8 +396,11 @@ def claims_of_name(file: str) -> tuple[Claim, ...]:
     for match in _UNIT_IN_NAME.finditer(stem):
         unit = f"{match[1]}/s2" if match[1] else match[2].lower().rstrip("s") if match[2] else "g"
         found.append(Claim("unit", unit, Where.FILE_NAME, match[0].strip("_")))
-    if quantity := _of_file(_SUFFIX, name) or _quantity_in_name(name):
-        found.append(Claim("unit", quantity, Where.FILE_NAME, quantity))
+    series = _SERIES_IN_NAME.search(name)
+    quantity = (
+        ("velocity" if series[1] or series[2] else "displacement") if series else other_quantity(spaced(name))
+    )
+    found.append(Claim("unit", quantity, Where.FILE_NAME, quantity or ""))
     return tuple(claim for claim in found if claim.value)
 
 
@@ -513,6 +509,7 @@ _MEANING = re.compile(
 def _claims_of(line: str) -> tuple[Claim, ...]:
     """Return what a line of text says of the numbers that it accompanies; agencies write the same one above each."""
     found: list[tuple[What, Any]] = [("samples", match[1] or match[2]) for match in _SAMPLES.finditer(line)]
+    of_rates: list[float] = []
     for match in _PEAK.finditer(line):
         if unit := acceleration_unit(match[2]):
             found.append(("peak", float(match[1]) * acceleration_factor(unit)))
@@ -526,9 +523,10 @@ def _claims_of(line: str) -> tuple[Claim, ...]:
             spoken = [] if _OF_FILTER.search(text) else map(float, _RATE_STATED.findall(text))
             found += [("time_step", step) for step in steps if step > 0]
             found += [("time_step", 1 / rate) for rate in rates if rate > 0]
-            found += [("rate", rate) for rate in spoken if rate >= _FEWEST_PER_SECOND]
             found += [("direction", name) for name in _components(text)]
-    return tuple(Claim(what, value, Where.HEAD, line.strip()) for what, value in found)
+            of_rates += [1 / rate for rate in spoken if rate >= _FEWEST_PER_SECOND]
+    claims = [Claim(what, value, Where.HEAD, line.strip()) for what, value in found]
+    return (*claims, *(Claim("time_step", step, Where.SPOKEN, line.strip()) for step in of_rates))
 
 
 T = TypeVar("T")
@@ -546,16 +544,20 @@ def azimuth_of_sensor(lines: Sequence[str]) -> str:
 
 @dataclass(frozen=True)
 class Declarations:
-    """All that one text says. is_resampled: whether it speaks of sampling, so that a rate may be another's."""
+    """All that one text says."""
 
     claims: tuple[Claim, ...] = ()
-    is_resampled: bool = False
 
     @classmethod
     def of(cls, lines: Sequence[str]) -> "Declarations":
-        """Return what the `lines` of a text, without their marks, declare."""
-        claims = tuple(claim for line in lines for claim in _claims_of(line))
-        return cls(claims, any(_SAMPLED.search(line) for line in lines if not _OF_PEAK.search(line)))
+        """Return what the `lines` of a text, without their marks, declare: of several steps those of all rates."""
+        said = cls(tuple(claim for line in lines for claim in _claims_of(line)))
+        steps = said.stated_steps
+        is_resampled = any(_SAMPLED.search(line) for line in lines if not _OF_PEAK.search(line))
+        is_apart = is_resampled and bool(steps) and steps[-1] > steps[0] * (1 + _SAME_STEP)
+        if is_apart or (len(steps) > 1 and said.time_step is None):
+            return cls(tuple(replace(claim, where=Where.HEAD) for claim in said.claims))
+        return said
 
     def _values(self, what: What) -> list[Any]:
         return list(dict.fromkeys(claim.value for claim in self.claims if claim.what == what))
@@ -568,28 +570,20 @@ class Declarations:
     @cached_property
     def stated_steps(self) -> tuple[float, ...]:
         """The steps [s] of every rate that is spoken of, but for those of filters, the least first."""
-        return tuple(sorted({1 / rate for rate in self._values("rate")} | set(self._values("time_step"))))
+        return tuple(sorted(self._values("time_step")))
 
     @cached_property
     def time_step(self) -> float | None:
         """The step, s, None where it says none, or several: one of two rates is that of the recorder."""
-        steps = self.stated_steps
-        is_twice = bool(steps) and steps[-1] > steps[0] * (1 + _SAME_STEP) and self.is_resampled
-        return None if is_twice else _the_only(self._values("time_step"))
+        head = {
+            claim.value for claim in self.claims if (claim.what, claim.where) == ("time_step", Where.HEAD)
+        }
+        return _the_only(head)
 
     @cached_property
     def component(self) -> str:
         """Where the only channel points, "" where it says nothing, or several things."""
         return _the_only({name.upper(): name for name in self._values("direction")}.values()) or ""
-
-    def of_numbers(self) -> tuple[Claim, ...]:
-        """Return the claims on the unit and the step; of several steps those of all rates."""
-        is_twice = self.time_step is None and len(self.stated_steps) > 1
-        return tuple(
-            Claim("time_step", 1 / claim.value, claim.where, claim.text) if claim.what == "rate" else claim
-            for claim in self.claims
-            if claim.what in ("unit", "time_step") or (claim.what == "rate" and is_twice)
-        )
 
     def count(self, held: int) -> str:
         """Return the number of samples that a text declares, of several that which is `held`; "" where it says none."""

@@ -10,10 +10,8 @@ from rocking.records.kinds import RecordKind
 from rocking.warnings import RockingWarning
 
 _VERTICAL = {
-    "UP", "DOWN", "DN", "DWN", "V", "Z", "UD", "U-D", "U", "VER", "VERT", "VERTICAL", "UPDO", "U/D", "UPWARD",
-    "UP-DOWN", "UP/DOWN", "VERT.", "VER.", "VRT", "VRTL", "UPP", "UPWD", "DWNW", "VERTICAL UP", "VERTICAL DOWN", "V-UP",
-    "DÜŞEY", "DUSEY", "DIKEY", "DİKEY", "U_D", "上下", "上下動", "鉛直", "竖向",
-    "竖直", "垂直", "ВЕРТ", "ВЕРТИКАЛЬНАЯ", "ΚΑΤΑΚΟΡΥΦΗ", "ΚΑΤΑΚΌΡΥΦΗ",
+    "V", "U-D", "U", "VER", "UPDO", "U/D", "VER.", "V-UP", "DÜŞEY", "DUSEY", "DIKEY", "DİKEY", "U_D", "上下", "上下動",
+    "鉛直", "竖向", "竖直", "垂直", "ВЕРТ", "ВЕРТИКАЛЬНАЯ", "ΚΑΤΑΚΟΡΥΦΗ", "ΚΑΤΑΚΌΡΥΦΗ",
     "400", "500", "600",  # codes of vertical, up and down in the headers of USC, SMC and COSMOS
 }  # fmt: skip
 _NAMED = {

@@ -5,14 +5,12 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from rocking.described import number_hint
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY, VELOCITY_UNITS, acceleration_factor, is_number, shown
 from rocking.signal.accelerogram import RARE_PEAK, Accelerogram
 from rocking.signal.kinds import SignalKind
-from rocking.signal.processing import velocity
+from rocking.signal.measures import peak_velocity
 from rocking.warnings import RockingWarning
 
 FORM = "a measure, pga or pgv, a number and its unit, as in pga 0.35 g or pgv 50 cm/s"
@@ -23,7 +21,7 @@ LARGEST_FACTOR = 10.0
 
 _MEASURES: dict[str, Callable[[Accelerogram], float]] = {
     "pga": lambda record: record.peak_acceleration,
-    "pgv": lambda record: float(np.abs(velocity(record)).max()),
+    "pgv": peak_velocity,
 }
 
 

@@ -81,10 +81,11 @@ class Options:
                 f"response is {self.response!r}, but must be 'sensitivity' or 'full'.", response=self.response
             )
 
-    def said(self, what: Literal["unit", "time_step"], in_file: str | float | None = None) -> list[Claim]:
-        """Return what the head of a file, its caller and its name say of one fact."""
-        claims = [Claim(what, in_file, Where.HEAD), Claim(what, getattr(self, what), Where.OPTION)]
-        return claims if self.is_stand_in else [*claims, *claims_of_name(self.file)]
+    @property
+    def said(self) -> tuple[Claim, ...]:
+        """What the caller and the name of the file say."""
+        own = Claim("unit", self.unit, Where.OPTION), Claim("time_step", self.time_step, Where.OPTION)
+        return own if self.is_stand_in else (*own, *claims_of_name(self.file))
 
     def unit_in(self, words: Iterable[str], place: str) -> str | None:
         """Return the unit of acceleration that words in the file are, None of counts and of none.
@@ -94,7 +95,7 @@ class Options:
         """
         units = []
         for word in dict.fromkeys(word for word in words if word.upper() not in _NO_UNIT):
-            refuse_other_quantity("", word)
+            refuse_other_quantity(word)
             units.append(acceleration_unit(word))
             if units[-1] is None and self.unit is None:
                 raise UndeclaredError(
@@ -109,7 +110,7 @@ class Options:
 
         Raises RecordError when none or two are declared, or one that is not known.
         """
-        unit = agreed("unit", self.said("unit", in_file))
+        unit = agreed("unit", (Claim("unit", in_file, Where.HEAD), *self.said))
         if unit is None:
             raise UndeclaredError(_UNDECLARED.format("unit", advice("unit")), unit=None)
         acceleration_factor(unit)
@@ -119,7 +120,7 @@ class Options:
         """Return the time step [s] the file declares, else the caller's; the two may differ by 0.1 %."""
         if in_file is not None:
             _check_step(in_file)
-        step = agreed("time_step", self.said("time_step", in_file))
+        step = agreed("time_step", (Claim("time_step", in_file, Where.HEAD), *self.said))
         if step is None:
             raise UndeclaredError(_UNDECLARED.format("time_step", advice("time_step")), time_step=None)
         return _check_step(step)
@@ -392,7 +393,7 @@ class Layout:
         if "unit" not in self.patterns:
             return self.unit
         unit = self.required("unit", head)
-        refuse_other_quantity("", unit)
+        refuse_other_quantity(unit)
         if acceleration_factor(unit) != acceleration_factor(self.unit or unit):
             raise RecordError(f"unit is {unit!r}, but must be {self.unit!r} in this format.", unit=unit)
         return self.unit or unit

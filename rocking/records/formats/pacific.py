@@ -139,7 +139,7 @@ _EMOD3D = Layout("", {
 
 def _read_emod3d(content: bytes, options: Options) -> list[Accelerogram]:
     head, rows = parted(content, 2)
-    refuse_other_quantity(options.file, head)
+    refuse_other_quantity(head)
     return _EMOD3D.series(head, rows, options, processed=None)
 
 

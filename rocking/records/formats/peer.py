@@ -1,7 +1,6 @@
 """PEER AT2 in every spelling of its header; VT2 and DT2 files, which are not acceleration, are refused."""
 
 import re
-from typing import Any
 
 from rocking.errors import RecordError
 from rocking.quantities import is_number
@@ -12,10 +11,10 @@ from rocking.records.claims import (
     agreed,
     azimuth_of_sensor,
     factor_warnings,
-    of_another,
-    other_quantity,
     point_apart,
+    refuse_other_quantity,
 )
+from rocking.records.direction import directed
 from rocking.records.formats.format import Format, Layout, Options
 from rocking.records.formats.text import after_lines, count, lines, number, numbers, whole
 from rocking.records.kinds import RecordKind
@@ -67,10 +66,10 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
         )
     text = "\n".join(head)
     # What a line of its own says counts more than a title that speaks of an accelerogram.
-    if quantity := next((other for line in head if (other := other_quantity(line))), None):
-        raise of_another(quantity)
+    for line in head:
+        refuse_other_quantity(line)
     declarations = Declarations.of(head)
-    said = [*declarations.claims, *options.said("unit")]
+    said = [*declarations.claims, *options.said]
     if any(claim.what == "unit" for claim in declarations.claims):
         said.append(Claim("unit", "g", Where.FORMAT, "an AT2 of PEER is in g"))
     unit = agreed("unit", said) or ""
@@ -88,7 +87,10 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     component = azimuth_of_sensor(head) or named
     if other := next((said for said in (named, declarations.component) if point_apart(said, component)), ""):
         warnings += (RockingWarning.of(RecordKind.DIRECTION_SAID_TWICE, component, other=other),)
-    facts: dict[str, Any] = {"component": component, "processed": True, "warnings": warnings}
+    facts = directed(
+        {"component": component or declarations.component}
+    )  # which names no channel by its sentence
+    facts |= {"component": component, "processed": True, "warnings": warnings}
     if re.search(r"\bmatched\b", head[0], re.I):
         facts["warnings"] += (RockingWarning(RecordKind.MATCHED_TO_SPECTRUM),)
     facts["warnings"] += factor_warnings(head)
@@ -97,7 +99,7 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
         facts |= {"station": parts[-2], "event": undated or parts[0]}
     facts["high_pass_frequency"] = float(corner) or None if is_number(corner) else None
     step = number("DT", size["dt"]) * (1e-3 if size.groupdict().get("milli") else 1.0)
-    step = agreed("time_step", (*options.said("time_step", step), *declarations.claims)) or step
+    step = agreed("time_step", (Claim("time_step", step, Where.HEAD), *said)) or step
     return [_LAYOUT.channel(text, values, options, unit=unit, step=step, **facts)]
 
 

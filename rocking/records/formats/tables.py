@@ -298,14 +298,9 @@ class _Seen:
         clocks = [rows[:, place] for place, column in enumerate(columns) if column.role == "time"]
         if page.is_bare and clocks and len(rows) > 1:
             page = replace(page, time_step_s=f"{np.median(np.diff(clocks[0])):.4g}")
-        elif page.is_bare and len(named := _steps_of_name(file)) == 1:
+        elif page.is_bare and len(named := Declarations(claims_of_name(file)).stated_steps) == 1:
             page = replace(page, time_step_s=f"{named[0]:.4g}")
         return page
-
-
-def _steps_of_name(file: str) -> list[float]:
-    """The steps [s] that the name of a file says."""
-    return [claim.value for claim in claims_of_name(file) if claim.what == "time_step"]
 
 
 @lru_cache(maxsize=2)
@@ -335,9 +330,7 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     if seen is None or not seen.content:
         raise (seen and seen.fault) or RecordError("this is no table of numbers.", rows=0)
     table = seen.table
-    above_them = "\n".join((*table.comments, *table.words))
-    is_stated = any(label.unit for label in table.labels)
-    refuse_other_table(options.file, above_them, [label.text for label in table.labels], is_stated=is_stated)
+    refuse_other_table("\n".join((*table.comments, *table.words)), [label.text for label in table.labels])
 
     layouts = options.layouts or Layouts(options.folder)
     signature = seen.signature(options.file, layouts.place)
@@ -352,11 +345,8 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     table, body, values, drawn = seen.table, seen.body, seen.values, seen.drawn
 
     has_step = bool(above or options.time_step or table.said.time_step)
-    question = Question(
-        signature,
-        _holds(table, drawn, values),
-        drawn.proposal(has_step, table.said.stated_steps or _steps_of_name(options.file)),
-    )
+    steps = table.said.stated_steps or Declarations(claims_of_name(options.file)).stated_steps
+    question = Question(signature, _holds(table, drawn, values), drawn.proposal(has_step, steps))
     notes = (*seen.notes, *factor_warnings((*table.comments, *table.words, *table.tail)))
     if table.below:
         notes += (RockingWarning.of(RecordKind.TAIL_PASSED_OVER, text=table.below[:80]),)
@@ -604,6 +594,10 @@ def _ask_where_open(
         why = f"the first row of numbers, {first!r}, is of whole numbers and seems to be a header"
     else:
         return
+    if not any(column.unit for column in drawn.columns):
+        agreed(
+            "unit", claims_of_name(options.file)
+        )  # nobody is asked about a file that is called one of velocity
     raise AskedError(f"{why} ({question.holds}); {_ANSWER_IT}", "layout", question)
 
 
@@ -646,17 +640,14 @@ def _claims(
     options: Options,
 ) -> tuple[Claim, ...]:
     """Return all that is said of the unit and the step of one column, step: of its times or above it."""
-    said = table.said
     is_answer = layout.is_answer
     return (
         Claim("unit", column.unit if is_answer else None, Where.ANSWER),
         Claim("unit", label.unit, Where.COLUMN, label.text),
         Claim("time_step", layout.time_step if is_answer else None, Where.ANSWER),
         Claim("time_step", step, Where.SAMPLES),
-        *(Claim("time_step", spoken, Where.SPOKEN) for spoken in said.stated_steps if is_answer),
-        *said.of_numbers(),
-        *options.said("unit"),
-        *options.said("time_step"),
+        *(claim for claim in table.said.claims if is_answer or claim.where == Where.HEAD),
+        *options.said,
     )
 
 

@@ -53,6 +53,16 @@ def test_the_title_of_an_at2_may_be_cut_within_its_bracket(
     assert (record.vertical, record.azimuth) == (vertical, azimuth)
 
 
+@pytest.mark.parametrize(("line", "vertical", "azimuth"), [
+    ("vertical component", True, None), ("North-South component", False, 0.0), ("no word of it", False, None),
+])  # fmt: skip
+def test_a_line_of_an_at2_says_where_its_channel_points_where_its_title_does_not(
+    tmp_path: Path, line: str, vertical: bool, azimuth: float | None
+) -> None:
+    (record,) = read(at2(tmp_path, f"QUAKE\n{line}"))
+    assert (record.component, record.vertical, record.azimuth) == ("channel 1", vertical, azimuth)
+
+
 def test_blank_lines_above_an_at2_leave_its_title_where_it_is(tmp_path: Path) -> None:
     path = at2(tmp_path, "QUAKE, STATION, UP")
     path.write_bytes(b"\n\n\n" + path.read_bytes())
