@@ -99,10 +99,8 @@ def answers_of(record: CatalogueRecord, mirror: str | Path | None = None) -> dic
     for file in record.files if layouts.rows else ():
         with suppress(RecordError):
             if path := in_catalogue_folder(record, file.name, mirror):
-                place = PurePosixPath(file.name).parent.as_posix()
-                answers[file.name] = layouts.text_of(
-                    signature_in(bytes_of(path), path.name, place if place != "." else "")
-                )
+                own = layouts.at(PurePosixPath(file.name).parent.as_posix())
+                answers[file.name] = own.text_of(signature_in(bytes_of(path), path.name, own.place))
     return {f"{NAME} of {name}": sha256_of_bytes(text.encode()) for name, text in answers.items() if text}
 
 

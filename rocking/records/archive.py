@@ -22,10 +22,8 @@ from rocking.tables import read_start
 
 _WORKSPACES = ".h5", ".hdf5", ".hdf", ".asdf"
 ENDINGS = ".zip", ".tar", ".tar.gz", ".tgz", *_WORKSPACES
-ZIPPED = b"PK\x03\x04"
-"""The begin of a zip file."""
 _MARKS: Mapping[str, tuple[int, bytes]] = {
-    ".zip": (0, ZIPPED),
+    ".zip": (0, b"PK\x03\x04"),
     ".tar": (257, b"ustar"),
     ".tar.gz": (0, b"\x1f\x8b"),
     ".tgz": (0, b"\x1f\x8b"),
@@ -113,7 +111,7 @@ def member_bytes(path: Path, archive: Path, largest: int) -> bytes:
         raise RecordError(f"{called}: the archive holds no such file; correct the name.", file=name)
     content = packed.whole(rest, largest, called)
     ending = ending_of(rest)
-    if (ending and _is_marked(ending, content[:512])) or (content.startswith(ZIPPED) and ending == ".zip"):
+    if ending and _is_marked(ending, content[:512]):
         raise RecordError(f"{called}: this is an archive, {_DEEPEST} deep in others; unpack it.", file=name)
     return content
 

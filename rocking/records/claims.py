@@ -158,9 +158,7 @@ _OF_NO_MOTION = re.compile(
     r"(?i)shear|wave|vs[ _,]?30|\bond[ae]s?\b|welle|\bdalga\b|muestreo|chantillon|abtast|örnekle|campion"
 )
 """The velocity of a site, or of a recorder, is no record."""
-_SERIES_IN_NAME = re.compile(
-    r"(?i)\.(?:(vt2|vel|vtx|semv)|dt2|disp?|semd)$|(?<![a-z])(?:(vt2)|dt2)(?![a-z\d])"
-)
+_SERIES_IN_NAME = re.compile(r"(?i)(?<![a-z])(?:(vt2)|dt2)(?![a-z\d])|\.(?:(vel|vtx|semv)|disp?|semd)$")
 _SPECTRUM = re.compile(
     r"(?i)(?<![a-z])((?:response|fourier|power|design|pseudo|spectral|elastic|amplitude|hazard)\w*[ _-]+(?:\w+[ _-]+)?"
     r"spectr(?:um|a|al)|spectr(?:um|a) of|(?:pseudo[ -]?)?spectral acceleration|espectro de respuesta|"
@@ -396,10 +394,9 @@ def claims_of_name(file: str) -> tuple[Claim, ...]:
     for match in _UNIT_IN_NAME.finditer(stem):
         unit = f"{match[1]}/s2" if match[1] else match[2].lower().rstrip("s") if match[2] else "g"
         found.append(Claim("unit", unit, Where.FILE_NAME, match[0].strip("_")))
-    series = _SERIES_IN_NAME.search(name)
-    quantity = (
-        ("velocity" if series[1] or series[2] else "displacement") if series else other_quantity(spaced(name))
-    )
+    quantity = other_quantity(spaced(name))
+    if series := _SERIES_IN_NAME.search(name):
+        quantity = "velocity" if series.lastindex else "displacement"
     found.append(Claim("unit", quantity, Where.FILE_NAME, quantity or ""))
     return tuple(claim for claim in found if claim.value)
 
@@ -509,7 +506,6 @@ _MEANING = re.compile(
 def _claims_of(line: str) -> tuple[Claim, ...]:
     """Return what a line of text says of the numbers that it accompanies; agencies write the same one above each."""
     found: list[tuple[What, Any]] = [("samples", match[1] or match[2]) for match in _SAMPLES.finditer(line)]
-    of_rates: list[float] = []
     for match in _PEAK.finditer(line):
         if unit := acceleration_unit(match[2]):
             found.append(("peak", float(match[1]) * acceleration_factor(unit)))
@@ -520,13 +516,14 @@ def _claims_of(line: str) -> tuple[Claim, ...]:
         if not _OF_PEAK.search(text):
             steps = [float(match[1] or match[2]) for match in _STEP.finditer(text)]
             rates = [float(match[1] or match[2]) for match in _RATE.finditer(text)]
-            spoken = [] if _OF_FILTER.search(text) else map(float, _RATE_STATED.findall(text))
             found += [("time_step", step) for step in steps if step > 0]
             found += [("time_step", 1 / rate) for rate in rates if rate > 0]
             found += [("direction", name) for name in _components(text)]
-            of_rates += [1 / rate for rate in spoken if rate >= _FEWEST_PER_SECOND]
     claims = [Claim(what, value, Where.HEAD, line.strip()) for what, value in found]
-    return (*claims, *(Claim("time_step", step, Where.SPOKEN, line.strip()) for step in of_rates))
+    if not (_OF_FILTER.search(line) or _OF_PEAK.search(line)):
+        rates = [rate for rate in map(float, _RATE_STATED.findall(line)) if rate >= _FEWEST_PER_SECOND]
+        claims += [Claim("time_step", 1 / rate, Where.SPOKEN, line.strip()) for rate in rates]
+    return tuple(claims)
 
 
 T = TypeVar("T")
@@ -575,10 +572,8 @@ class Declarations:
     @cached_property
     def time_step(self) -> float | None:
         """The step, s, None where it says none, or several: one of two rates is that of the recorder."""
-        head = {
-            claim.value for claim in self.claims if (claim.what, claim.where) == ("time_step", Where.HEAD)
-        }
-        return _the_only(head)
+        declared = Declarations(tuple(claim for claim in self.claims if claim.where != Where.SPOKEN))
+        return _the_only(declared.stated_steps)
 
     @cached_property
     def component(self) -> str:

@@ -138,10 +138,8 @@ def _azimuth(word: str) -> float | None:
     """Return the azimuth that a word in capitals says, degrees, or None."""
     if angle := _DEGREES.fullmatch(word):
         return float(angle[1]) % 360 if float(angle[1]) <= 360 else None
-    if band := _BAND.fullmatch(word):
-        word = band[1][2]
-    elif axis := _BAND_AND_AXIS.fullmatch(word):
-        word = axis[1]
+    if band := _BAND.fullmatch(word) or _BAND_AND_AXIS.fullmatch(word):
+        word = band[1][-1]
     if quadrant := _QUADRANT.fullmatch(word):
         pole, degrees, side = quadrant.groups()
         turn = int(degrees) if (pole == "N") == (side == "E") else -int(degrees)

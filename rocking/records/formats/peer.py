@@ -87,9 +87,8 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     component = azimuth_of_sensor(head) or named
     if other := next((said for said in (named, declarations.component) if point_apart(said, component)), ""):
         warnings += (RockingWarning.of(RecordKind.DIRECTION_SAID_TWICE, component, other=other),)
-    facts = directed(
-        {"component": component or declarations.component}
-    )  # which names no channel by its sentence
+    # A sentence says where a channel points, and does not name it.
+    facts = directed({"component": component or declarations.component})
     facts |= {"component": component, "processed": True, "warnings": warnings}
     if re.search(r"\bmatched\b", head[0], re.I):
         facts["warnings"] += (RockingWarning(RecordKind.MATCHED_TO_SPECTRUM),)

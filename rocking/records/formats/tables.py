@@ -241,11 +241,6 @@ def _labels(line: str) -> tuple[str, ...]:
     return tuple(part.strip().strip("\"'") for part in parts)
 
 
-def is_table(content: bytes) -> bool:
-    """Whether a content is a table, by its first lines."""
-    return _seen_of(content) is not None
-
-
 def signature_of(content: bytes, file: str, folder: str) -> Signature | None:
     """Return the signature of the table `content` of a `file` called so in a `folder`, None of another content."""
     seen = _seen_of(content)
@@ -594,10 +589,10 @@ def _ask_where_open(
         why = f"the first row of numbers, {first!r}, is of whole numbers and seems to be a header"
     else:
         return
-    if not any(column.unit for column in drawn.columns):
-        agreed(
-            "unit", claims_of_name(options.file)
-        )  # nobody is asked about a file that is called one of velocity
+    if not any(
+        column.unit for column in drawn.columns
+    ):  # nobody is asked about a file that is called velocity
+        agreed("unit", claims_of_name(options.file))
     raise AskedError(f"{why} ({question.holds}); {_ANSWER_IT}", "layout", question)
 
 
@@ -810,7 +805,7 @@ COLUMNS = Format(
     "columns of numbers",
     "spreadsheets, OpenSees and scripts",
     "lines that hold numbers only, below names that leave nothing open",
-    is_table,
+    lambda content: _seen_of(content) is not None,
     _read_columns,
     yields=True,
 )
