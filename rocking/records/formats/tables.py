@@ -626,26 +626,6 @@ def _fitted(answer: LayoutAnswer, layout: TableLayout, table: NumberTable, drawn
     return replace(layout, is_answer=True)
 
 
-def _claims(
-    table: NumberTable,
-    label: ColumnLabel,
-    column: Column,
-    layout: TableLayout,
-    step: float | None,
-    options: Options,
-) -> tuple[Claim, ...]:
-    """Return all that is said of the unit and the step of one column, step: of its times or above it."""
-    is_answer = layout.is_answer
-    return (
-        Claim("unit", column.unit if is_answer else None, Where.ANSWER),
-        Claim("unit", label.unit, Where.COLUMN, label.text),
-        Claim("time_step", layout.time_step if is_answer else None, Where.ANSWER),
-        Claim("time_step", step, Where.SAMPLES),
-        *(claim for claim in table.said.claims if is_answer or claim.where == Where.HEAD),
-        *options.said,
-    )
-
-
 _MEANT = {"n": "the number of samples", "dt": "the time step", "hz": "the rate", "-": "the number of series"}
 
 
@@ -751,7 +731,14 @@ def _channels(
         facts["processing"] = tuple(map(str, uneven))
         if layout.is_series and table.counts and len(table.words) == 1:
             facts["event"] = table.words[0][:60]  # a title
-        claims = _claims(table, label, column, layout, step, options)
+        claims = (
+            Claim("unit", column.unit if layout.is_answer else None, Where.ANSWER),
+            Claim("unit", label.unit, Where.COLUMN, label.text),
+            Claim("time_step", layout.time_step if layout.is_answer else None, Where.ANSWER),
+            Claim("time_step", step, Where.SAMPLES),
+            *(claim for claim in table.said.claims if layout.is_answer or claim.where == Where.HEAD),
+            *options.said,
+        )
         unit, agreed_step = agreed("unit", claims), agreed("time_step", claims)
         if agreed_step and agreed_step > LONGEST_STEP:
             must = f"time_step is {agreed_step!r} s, but must be at most {LONGEST_STEP:g} s; convert what is in ms."
