@@ -104,6 +104,7 @@ STOREYS = {"name": "roof", "period_s": 0.3, "storeys": 3, "height_m": 6.0, "buil
         (ROOF | {"damping_ratio": -0.1}, "damping_ratio is -0.1, but must be a share of the critical one"),
         (ROOF | {"mass_ratio": -1}, "mass_ratio is -1, but must be 0 or more"),
         (ROOF | {"perod_s": 1}, "perod_s is not a key of a support; did you mean period_s?"),
+        (ROOF | {"mass": 1}, "mass is not a key of a support; did you mean mass_ratio?"),
         (ROOF | {"modes": []}, "a support is given participation, period_s together with modes"),
         ({"name": "roof", "modes": []}, "modes is [], but must be a list of at least one mode"),
         (STOREYS | {"height_m": 9.5}, "height_m is 9.5 m, but must lie between 0 and building_height_m, 9 m"),

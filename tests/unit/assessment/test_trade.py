@@ -170,12 +170,13 @@ def test_the_report_says_what_the_table_says_in_percent_and_milliseconds(tmp_pat
     monkeypatch.setattr(
         "rocking.reports.printing.compile_document", lambda page: documents.append(page) or b"%PDF"
     )
-    tables = {TradeRow: [ONE_SINE, MECHANISM, replace(MECHANISM, structure="pier")]}
+    coarse = made(TradeMethod.COARSE, wrong_verdicts=7)
+    tables = {TradeRow: [ONE_SINE, MECHANISM, coarse, replace(MECHANISM, structure="pier")]}
     write_trade_report(tables, tmp_path / "trade.pdf", tmp_path / "trade.svg")
     said, picture, table = documents[0].parts
     assert said.text == next(what_follows([ONE_SINE, MECHANISM])) and len(picture.pictures) == 1
     assert "20 stations of 8 earthquakes" in table.caption
-    assert len(table.table.rows) == 2, "of each structure there is trade.csv"
+    assert len(table.table.rows) == 3, "of each structure there is trade.csv"
     assert table.table.rows[1] == (
         TradeMethod.MECHANISM,
         "200",
@@ -191,7 +192,7 @@ def test_the_report_says_what_the_table_says_in_percent_and_milliseconds(tmp_pat
     )
     assert "Abacus" in documents[0].subtitle
     drawn = (tmp_path / "trade.svg").read_text(encoding="utf-8")
-    assert "45 structures" in drawn and "8 of 200, error 1.2 %" in drawn
+    assert "45 structures" in drawn and "8 of 200, error 1.2 %" in drawn and "7 of 200" not in drawn
 
 
 def test_what_was_measured_is_told_on_the_terminal():

@@ -105,6 +105,8 @@ def test_the_same_seed_gives_the_same_sets(pool, selection):
 def test_factors_stay_within_their_limits_and_scale_what_is_followed(pool):
     narrow = select(pool, SPECTRUM, 10, sets=5, factors=(0.8, 1.25), below=0.9, above=2.0)
     assert narrow.factors.min() >= 0.8 and narrow.factors.max() <= 1.25
+    every = np.ones(narrow.sample.count, dtype=int)
+    assert len(narrow.redrawn(every, np.random.default_rng(0), tries=3000, most=2500)) == 2500
     place = int(narrow.chosen[0])
     first = narrow.scaled(place)[0]
     np.testing.assert_allclose(

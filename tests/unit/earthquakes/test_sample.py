@@ -31,6 +31,7 @@ class Named:
         (["Kobe Japan 1995-01-16 M6.9", "KOBE 01/16/95 2046"], 1),
         (["LANDERS 06/28/92 1158", "LANDERS 7/23/92 18:49"], 1),  # headers of one earthquake, one misdated
         (["Erzincan Turkey 1992-03-13", "Erzican Turkey"], 1),
+        (["Norcia 2016-10-30T06:40", "Norcia 2016-10-30"], 1),
         (["Van 2011", "VAN TURKEY 10/23/11"], 1),
         (["Imperial Valley-06", "Imperial Valley-02", "IMPERIAL VALLEY 10/15/79 2316"], 2),
         (["Imperial Valley 1979", "Imperial Valley 1940"], 2),

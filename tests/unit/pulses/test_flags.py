@@ -92,8 +92,8 @@ def test_the_middle_of_an_oscillation_shows_in_the_gains_of_its_twins(share, osc
 
 def test_a_filter_that_reduces_the_pulse_is_told():
     samples = cycle(2, 3.0, 8.003)
-    assert PulseKind.PULSE_FILTERED in flags(samples, high_pass_frequency=0.1)  # 3.0 s > 0.2 / 0.1 Hz
-    assert PulseKind.PULSE_FILTERED not in flags(samples, high_pass_frequency=0.05)
+    assert PulseKind.PULSE_FILTERED in flags(samples, high_pass_frequency=0.07)  # 3.0 s > 0.2 / 0.07 Hz
+    assert PulseKind.PULSE_FILTERED not in flags(samples, high_pass_frequency=0.06)
     assert PulseKind.PULSE_FILTERED not in flags(samples)
 
 

@@ -8,8 +8,8 @@ from kinematic_onset import kinematic_onset
 
 from rocking.errors import StructureWarning
 from rocking.structures.arch import Arch
-from rocking.structures.arch_mechanism import NoMechanism, TooThin, limiting_thickness, static_onset
-from rocking.structures.arch_ring import Ring
+from rocking.structures.arch_mechanism import FourBar, NoMechanism, TooThin, limiting_thickness, static_onset
+from rocking.structures.arch_ring import Bars, Ring
 
 SMOOTH = itertools.product((0.108, 0.12, 0.15, 0.2, 0.28, 0.31, 0.35), (120, 135, 150, 165, 180), [None])
 BLOCKS = itertools.product([0.15], [120, 157.5], [5, 7, 12, 31, 40])
@@ -73,6 +73,14 @@ def test_momentum_balance_against_a_sum_over_many_small_masses():
     with pytest.warns(StructureWarning, match="leaves the ring"):
         balance = arch._momentum_balance(False)
     assert balance == pytest.approx(expected, rel=1e-3)  # midpoint rule, hinges inside cells
+
+
+def test_bars_that_lock_before_they_are_in_line_are_followed_until_just_before():
+    """B turns about A at 1 m and away from D, as far from A: |BD|² = 2 + 2 sin φ, and no longer than BC + CD."""
+    hinges = np.array([0, 1j, -0.8 + 0.5j, -1])
+    bars = Bars(np.ones(3), (hinges[1:] + hinges[:-1]) / 2, np.full(3, 0.1))
+    locked = np.arcsin(np.abs(np.diff(hinges)[1:]).sum() ** 2 / 2 - 1)
+    assert 0.95 * locked < FourBar(hinges, bars, 1.0, 3.0, np.zeros(4)).end_rotation < locked
 
 
 @pytest.mark.slow

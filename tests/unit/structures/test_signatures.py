@@ -35,6 +35,10 @@ def test_the_signature_of_a_structure_is_its_parameters_and_their_types(kind: ty
     assert "meaning=" not in str(inspect.signature(kind.__init__))
 
 
+def test_a_parameter_is_stated_with_its_letter_and_its_unit_in_si() -> None:
+    assert "    thickness : float\n        Thickness, t, m.\n" in (rocking.Wall.__doc__ or "")
+
+
 def test_a_list_is_read_from_python_without_what_stands_on_a_support() -> None:
     scenes = load_scenes(LIST)
     with pytest.warns(StructureWarning, match="structures on a support are left out, parapet"):

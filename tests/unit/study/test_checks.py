@@ -112,7 +112,7 @@ def test_every_structure_has_its_checks_and_its_page(study):
         assert one_row.level_capacity_m_s2 == alone.capacity and one_row.ratio == alone.ratio
         assert one_row.passed == alone.passed and one_row.clause == alone.clause
     assert (folder / "structures.pdf").read_bytes().startswith(b"%PDF")
-    assert len(told) == 2 and told[0].startswith("parapet: linear")
+    assert len(told) == 2 and told[0].startswith("parapet: linear") and "None" not in told[0]
 
 
 def test_a_page_lists_the_mechanisms_of_its_own_structure(study, monkeypatch):
@@ -483,6 +483,16 @@ def test_the_page_to_sign_carries_the_caveat_of_page_one(study, monkeypatch):
 def test_a_ratio_of_what_hardly_moves_says_that_it_is_large():
     assert found(True, demand=1e-9).ratio_in_words == found(True, demand=0.0).ratio_in_words == "> 100"
     assert found(True, demand=0.05).ratio_in_words == "2.00"
+
+
+def test_a_front_that_falls_between_two_ties_is_drawn_below_its_bay():
+    front = Facade(
+        (3.2,), (0.4,), 18e3, floor_loads=(5e3,), restitution=0.6, behind="cross_walls", tie_heights=(3.2,),
+        tie_stiffness=2e7, tie_spacing=6.0, unit_length=0.5,
+    )  # fmt: skip
+    figure = bars_figure(front, check(front, DesignSpectrum.ntc(2.0, 2.5, 0.35)), None, Sentences("en"))
+    drawn, bay, _ = (axes.get_position() for axes in figure.axes)
+    assert 0 < drawn.y0 < drawn.y1 < bay.y0 < bay.y1 < 1
 
 
 @pytest.mark.parametrize("share", [0.03, 0.45, 1.3, 4.0])

@@ -193,6 +193,7 @@ def test_a_summary_draws_the_trade_where_its_study_measures_it(tmp_path, monkeyp
     keep_nothing(results, "map")
     summarise(job)
     assert len(trades[0]) == in_summary
+    assert kept_in(job.kept, ()).opened[0] == "summary/summary.pdf"
     told = read_rows(FailureRow, results / "summary" / "failures.csv")
     assert [(fault.structure, fault.message) for fault in told] == [("pier", "a fault.")] * in_summary
 
