@@ -225,3 +225,5 @@ def test_supports_that_cannot_be():
         Support((Mode(period=0.3, damping_ratio=0.05, participation=1.0),)).motions(
             (noise(), noise(2, size=100))
         )
+    with pytest.raises(RecordError, match="samples, but may take 5000000; cut the record"):
+        Support((Mode(period=0.02, damping_ratio=0.05, participation=1.0),)).motion(noise(size=100_000))
