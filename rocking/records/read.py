@@ -314,13 +314,13 @@ def recognise(content: bytes) -> Format:
 
 def _is_pickle(content: bytes) -> bool:
     """Whether `content` begins with the opcodes of a pickle of any protocol, of which none is run, and ends as one."""
+    if not content.endswith((b".", b".\n")):
+        return False
     try:
         first = [opcode.name for opcode, _, _ in islice(genops(content), _OPCODES)]
     except ValueError:
         return False
-    return content.endswith((b".", b".\n")) and (
-        len(first) == _OPCODES or (first[-1] == "STOP" and len(first) > 2)
-    )
+    return len(first) == _OPCODES or (first[-1] == "STOP" and len(first) > 2)
 
 
 _OPCODES = 12

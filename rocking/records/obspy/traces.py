@@ -60,8 +60,8 @@ def _level_rates(result: Any) -> None:
     first: dict[str, Any] = {}
     for trace in result:
         rate = first.setdefault(trace.id, trace).stats.sampling_rate
-        drift = abs(trace.stats.sampling_rate / rate - 1) * trace.stats.npts
-        if 0 < drift < _DRIFT:
+        drift = abs(trace.stats.sampling_rate - rate) * trace.stats.npts  # times the rate, which may be 0
+        if 0 < drift < _DRIFT * rate:
             trace.stats.sampling_rate = rate
 
 

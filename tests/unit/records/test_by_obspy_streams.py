@@ -1,6 +1,7 @@
 """Streams of obspy: what lets their channels be none of one record, and what their responses leave open."""
 
 import io
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -134,6 +135,14 @@ def test_pieces_whose_rates_differ_by_their_rounding_are_one_channel() -> None:
     (record,) = rocking.from_obspy(Stream([first, second]), unit="nm/s2")
     assert record.acceleration.size == 6000 and record.time_step == 0.01
     assert second.stats.sampling_rate == 99.9999  # that of the caller
+
+
+def test_a_channel_without_a_rate_is_refused(tmp_path: Path) -> None:
+    """As of a log that a recorder writes into its miniSEED."""
+    log = Trace(COUNTS.copy(), {"sampling_rate": 0.0, "channel": "LOG"})
+    log.write(str(tmp_path / "log.mseed"), format="MSEED")
+    with pytest.raises(RecordError, match=r"^log\.mseed: "):
+        rocking.read(tmp_path / "log.mseed", unit="m/s2")
 
 
 def test_a_log_of_text_next_to_the_channels_is_passed_over() -> None:
