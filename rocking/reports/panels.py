@@ -44,8 +44,6 @@ TIME = "time [s]"
 ACCELERATION = "ground acceleration [m/s²]"
 ZERO: dict[str, Any] = {"color": "0.8", "linewidth": 0.6, "zorder": 0}
 _POINTS = 400
-_PAPER = {"facecolor": "white", "edgecolor": "none", "pad": 0.4, "alpha": 0.85}
-"""Behind a text that stands on a dark picture."""
 _STILL = 0.01
 """Share of its largest rotation up to which a structure is still."""
 
