@@ -589,9 +589,8 @@ def _ask_where_open(
         why = f"the first row of numbers, {first!r}, is of whole numbers and seems to be a header"
     else:
         return
-    if not any(
-        column.unit for column in drawn.columns
-    ):  # nobody is asked about a file that is called velocity
+    # Nobody is asked about a file that is called velocity.
+    if not any(column.unit for column in drawn.columns):
         agreed("unit", claims_of_name(options.file))
     raise AskedError(f"{why} ({question.holds}); {_ANSWER_IT}", "layout", question)
 
