@@ -214,8 +214,6 @@ def _crossings(
     logs: (n,) of the amplitudes. falls: (n,) whether the run of each overturns, 1 or 0; nan where it was not followed.
     lowest: of the logarithms at which any falls. width: of the amplitudes that count for a factor, to both sides.
     """
-    from scipy.optimize import isotonic_regression  # half a second, which every summary would pay
-
     followed = np.flatnonzero(np.isfinite(falls))
     between = (logs[followed][1:] + logs[followed][:-1]) / 2
     edges = np.exp([lowest, *between, logs[followed[-1]]])
@@ -223,7 +221,7 @@ def _crossings(
     overturning = np.append(0.0, np.cumsum(falls[followed] * np.diff(edges)))
     factors = np.exp(log_factors)
     low, high = (np.interp(factors * side, edges, overturning) for side in (1 - width, 1 + width))
-    rising = isotonic_regression((high - low) / (2 * width * factors)).x
+    rising = rising_curve((high - low) / (2 * width * factors), np.ones(factors.size))
     crossings = []
     for share in SHARES:
         above = int(np.searchsorted(rising, share - 1e-9))  # but for rounding
@@ -236,3 +234,22 @@ def _crossings(
             part = (share - rising[above - 1]) / (rising[above] - rising[above - 1])
             crossings.append(math.exp(below + part * (log_factors[above] - below)))
     return crossings
+
+
+def rising_curve(values: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    """Return the curve (n,) that never falls and is nearest to `values` (n,) in squares weighted by `weights` (n,).
+
+    By pooling adjacent violators (Barlow et al. 1972), as scipy.optimize.isotonic_regression, whose import takes longer
+    than the rest of the reserve.
+    """
+    pools: list[tuple[float, float, int]] = []  # the mean, the weight and the number of values of each
+    for value, weight in zip(values, weights, strict=True):
+        mean, total, number = value, weight, 1
+        while pools and pools[-1][0] >= mean:
+            mean_before, weight_before, number_before = pools.pop()
+            mean = (mean_before * weight_before + mean * total) / (weight_before + total)
+            total += weight_before
+            number += number_before
+        pools.append((mean, total, number))
+    means, _, numbers = zip(*pools, strict=True)
+    return np.repeat(means, numbers)

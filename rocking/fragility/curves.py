@@ -21,6 +21,7 @@ from rocking.assessment.cracks import cracks, never_overturns_because, sliding_f
 from rocking.assessment.ensemble import drawn, lattice
 from rocking.assessment.falls import Falls, Model, falls_along
 from rocking.assessment.motions import GroundMotions
+from rocking.assessment.reserve import rising_curve
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.drawn import Drawn
 from rocking.earthquakes.sample import ClusterSample, interval_words
@@ -283,9 +284,7 @@ def crossing(levels: np.ndarray, over: np.ndarray, trials: np.ndarray) -> float:
     """
     tried = trials > 0
     logs = np.log(levels[tried])
-    from scipy.optimize import isotonic_regression  # half a second, which every summary would pay
-
-    rising = isotonic_regression(over[tried] / trials[tried], weights=trials[tried]).x
+    rising = rising_curve(over[tried] / trials[tried], trials[tried])
     rising[np.abs(rising - 0.5) < 1e-12] = 0.5  # but for rounding
     places = []
     for above in (int(np.searchsorted(rising, 0.5, side)) for side in ("left", "right")):

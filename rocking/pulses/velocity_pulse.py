@@ -15,7 +15,7 @@ import numpy as np
 from rocking.errors import PulseError
 from rocking.pulses.pulse import Pulse
 from rocking.signal.accelerogram import Accelerogram
-from rocking.signal.processing import integral
+from rocking.signal.processing import fast_length, integral
 from rocking.signal.rotation import paired
 
 SUPPORT = 7.0
@@ -276,23 +276,20 @@ def coefficients(velocities: np.ndarray, scale: int, low: int, high: int) -> np.
 
 def transform(velocities: np.ndarray, scale: float) -> np.ndarray:
     """Coefficient of the wavelet of one scale centred at each sample of (n,) velocities, real or complex."""
-    from scipy import fft
-
     half = math.floor(SUPPORT / 2 * scale)
-    size = fft.next_fast_len(velocities.size + 2 * half)
+    size = fast_length(velocities.size + 2 * half)
     spectrum = _kept_spectrum(scale, size) if size <= LARGEST_KEPT else _spectrum(scale, size)
+    full: np.ndarray
     if np.iscomplexobj(velocities):
-        full = fft.ifft(fft.fft(velocities, size) * spectrum)
+        full = np.fft.ifft(np.fft.fft(velocities, size) * spectrum)
     else:
-        full = fft.irfft(fft.rfft(velocities, size) * spectrum[: size // 2 + 1], size)
+        full = np.fft.irfft(np.fft.rfft(velocities, size) * spectrum[: size // 2 + 1], size)
     return np.concatenate([full[size - half :], full[: velocities.size]])[: velocities.size]
 
 
 def _spectrum(scale: float, size: int) -> np.ndarray:
     """Fourier transform of the wavelet read backwards: the conjugate of its own, as it is real."""
-    from scipy import fft
-
-    result: np.ndarray = np.conj(fft.fft(_wavelet(scale), size))
+    result: np.ndarray = np.conj(np.fft.fft(_wavelet(scale), size))
     return result
 
 

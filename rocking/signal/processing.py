@@ -151,9 +151,11 @@ def _room(order: int, corner: float, record: Accelerogram) -> int:
 def _butterworth(
     values: np.ndarray, time_step: float, kind: str, corner: float, order: int, margin: int
 ) -> np.ndarray:
-    """Return `values` (n,) run both ways through a filter, its end values continued over `margin` samples."""
-    from scipy.signal import butter, sosfiltfilt  # which takes half a second to import
+    """Return `values` (n,) run both ways through a Butterworth filter, its end values continued over `margin` samples.
 
+    The spectrum is multiplied by the square of the gain of one run, 1/√(1 + (tan πfΔt / tan πf_cΔt)^±2 order) by the
+    bilinear transform, without a phase (Oppenheim & Schafer 2010, section 7.2).
+    """
     nyquist = 0.5 / time_step
     if not corner < nyquist:
         raise RecordError(
@@ -161,8 +163,21 @@ def _butterworth(
             **{kind: corner},
         )
     whole = np.pad(values, margin, mode="edge")
-    filtered = sosfiltfilt(butter(order, corner / nyquist, kind, output="sos"), whole, padlen=0)
+    count = fast_length(whole.size)
+    frequencies = np.fft.rfftfreq(count, time_step)
+    ratio = np.tan(np.pi * frequencies * time_step) / np.tan(np.pi * corner * time_step)
+    with np.errstate(divide="ignore", over="ignore"):
+        gain = 1 / (1 + ratio ** (-2 * order if kind == "highpass" else 2 * order))
+    filtered = np.fft.irfft(np.fft.rfft(whole, count) * gain, count)
     return np.asarray(filtered[margin : margin + values.size])
+
+
+def fast_length(count: int) -> int:
+    """Return a number of samples from `count` on, at most a quarter more, with no prime factor above 5.
+
+    A Fourier transform is fast at such a number, and takes some six times as long at a prime one.
+    """
+    return min(base << (-(-count // base) - 1).bit_length() for base in (1, 3, 5, 9, 15))
 
 
 def _resampled(record: Accelerogram, processing: Processing) -> Accelerogram:

@@ -5,13 +5,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.optimize import isotonic_regression
 
 import rocking
 from rocking.assessment.assessor import Assessor
 from rocking.assessment.case import PeriodResult
 from rocking.assessment.ensemble import CAUSES, lattice
 from rocking.assessment.motions import GroundMotions
-from rocking.assessment.reserve import Reserve, Stage, _worth_following, reserve_of_members
+from rocking.assessment.reserve import Reserve, Stage, _worth_following, reserve_of_members, rising_curve
 from rocking.assessment.scene import Scene
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.store import RecordStore
@@ -197,6 +198,15 @@ def test_what_falls_as_soon_as_it_lifts_has_the_factors_at_which_it_lifts():
         own = reserve_of_members(BLOCK.mechanism(), GroundMotions.of(record), settings)
         expected = [lifts / (1 + spread * (1 - 2 * share)) for share in (0.05, 0.5, 0.95)]
         assert [own.low, own.median, own.high] == pytest.approx(expected, rel=2e-3)
+
+
+@pytest.mark.parametrize("count", [1, 2, 7, 200])
+def test_the_rising_curve_is_the_isotonic_regression_of_scipy(count):
+    generator = np.random.default_rng(count)
+    values = np.round(generator.normal(size=count) + np.linspace(0, 2, count), 1)  # with some that are equal
+    weights = generator.integers(1, 9, count)
+    expected = isotonic_regression(values, weights=weights).x
+    assert rising_curve(values, weights) == pytest.approx(expected, rel=1e-12, abs=1e-12)
 
 
 def test_rungs_are_followed_about_what_falls_below_the_median_or_stands_above_it():
