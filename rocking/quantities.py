@@ -6,6 +6,7 @@ Inside, everything is SI and radians. Each check returns the value as a float or
 import math
 import re
 from collections.abc import Sequence
+from functools import lru_cache
 
 from rocking.errors import RecordError, RockingError, StructureError
 
@@ -77,46 +78,35 @@ ACCELERATION_UNITS = {
 """Factor from each unit of acceleration to m/s²; one g = 9.80665 m/s² for units and gravity alike."""
 
 
-_SPELLINGS = (
-    ("sec", "s"),
-    ("cms/", "cm/"),
-    ("⁻²", "-2"),
-    ("²", "2"),
-    ("см", "cm"),
-    ("/с", "/s"),
-    ("^2", "2"),
-    ("**2", "2"),
-    ("/s/s", "/s2"),
-    ("/s*s", "/s2"),
-    ("/(s*s)", "/s2"),
-    ("_per_", "/"),
-    (" per ", "/"),
-    ("_s_2", "/s2"),
-    ("_s2", "/s2"),
-    ("µ", "u"),
+_SPELLINGS = tuple(
+    (re.compile(pattern), short)
+    for pattern, short in (
+        (r"[\s_]+per[\s_]+", "/"),
+        (r"\s*([/%])\s*", r"\1"),
+        (r"/\(([^()]*)\)?$", r"/\1"),
+        ("[⁻−]", "-"),
+        ("²|squared", "2"),
+        ("[µμ]", "u"),
+        ("centi(?=m)|с(?=м)", "c"),
+        ("met(?:er|re)s?|м", "m"),
+        ("cms(?=/)", "cm"),
+        ("sec(?:ond)?s?|seg|sn|с(?:ек)?", "s"),
+        (r"[.^*·_ ]+(?=-?2|s)|\.$", ""),
+        (r"^((?:[cmun]?m)|ft|in)(?:ch)?(?:/s/?s|/?s2|s-2)$", r"\1/s2"),
+        ("^(?:gals|гал|ガル|伽)$", "gal"),
+        ("^(?:g'?s|gravity)$", "g"),
+        ("^milli[ -]?g$", "mg"),
+    )
 )
-_NEGATIVE_POWER = re.compile(r"((?:[cmun]?m)|ft|in)[ .·*]?s(?:\*\*|\^)?[-−]2")
-"""A unit like "m s-2", "cm.s^-2"."""
-_WORDS = {
-    "gals": "gal",
-    "gs": "g",
-    "g's": "g",
-    "milli-g": "mg",
-    "milli g": "mg",
-    "millig": "mg",
-    "ms2": "m/s2",
-    "cms2": "cm/s2",
-}
+"""Each pattern of a spelling in small letters, and what it becomes, one after another."""
 
 
+@lru_cache(maxsize=1024)
 def acceleration_unit(text: str) -> str | None:
     """Return the unit that `text` spells ("cm/sec/sec", "M/S²") as ACCELERATION_UNITS calls it; None for another."""
-    name = str(text).strip().lower()
-    for spelt, short in _SPELLINGS:
-        name = name.replace(spelt, short)
-    if power := _NEGATIVE_POWER.fullmatch(name):
-        name = f"{power[1]}/s2"
-    name = _WORDS.get(name, name)
+    name = text.strip().lower()
+    for pattern, short in _SPELLINGS:
+        name = pattern.sub(short, name)
     return name if name in ACCELERATION_UNITS else None
 
 
@@ -137,7 +127,7 @@ def acceleration_factor(unit: str) -> float:
     """
     of_count = _OF_COUNT.fullmatch(str(unit).strip())
     count = float(of_count["number"]) if of_count else 1.0
-    name = acceleration_unit(of_count["unit"] if of_count else unit)
+    name = acceleration_unit(of_count["unit"] if of_count else str(unit))
     if name is None or not 0 < count < math.inf:
         raise RecordError(
             f"unit is {shown(unit)}, but must be one of {', '.join(ACCELERATION_UNITS)}, for counts behind the "

@@ -143,7 +143,8 @@ def point_apart(first: str, second: str) -> bool:
 
 # Quantities.
 
-_ACCELERATION = re.compile(r"(?i)(?<![a-z])(acc|acel|beschl|[iİ]vme|ускорени|επιτάχυνση)|加速度")
+WORDS_OF_ACCELERATION = r"(?:(?<![a-z])(?:acc|acel|beschl|[iİ]vme|ускорени|επιτάχυνση)\w*|加速度)"
+_ACCELERATION = re.compile(rf"(?i){WORDS_OF_ACCELERATION}")
 _OTHER: dict[str, re.Pattern[str]] = {
     "velocity": re.compile(
         r"(?i)(?<![a-z])(?:vel(?:oc?\w*|(?![a-z]))|vitesse|h[ıi]z[ıi]?(?![a-z]))|geschwindigkeit|скорость|速度|ταχύτητα|"
@@ -237,7 +238,6 @@ def refuse_other_table(above: str, columns: Sequence[str]) -> None:
 
 # The name of a column.
 
-WORDS_OF_ACCELERATION = r"acc\w*|acel\w*|beschl\w*|ivme\w*|加速度|ускорени\w*|επιτάχυνση"
 PLAIN_ACCELERATION = re.compile(r"(?i)ag?|a_g|ac|acc(el(eration)?)?|aceleraci[oó]n|accelerazione|επιτάχυνση")
 
 IN_BRACKETS = re.compile(r"[(\[]\s*([^)\]]+?)\s*[)\]]\s*$")
@@ -403,53 +403,83 @@ def claims_of_name(file: str) -> tuple[Claim, ...]:
 
 # Sentences.
 
+SECONDS = {
+    "s": 1.0, "sec": 1.0, "secs": 1.0, "second": 1.0, "seconds": 1.0, "ms": 1e-3, "msec": 1e-3, "millisecond": 1e-3,
+    "seg": 1.0, "segundos": 1.0, "sek": 1.0, "sekunden": 1.0, "sn": 1.0, "saniye": 1.0, "secondi": 1.0, "secondes": 1.0,
+    "milliseconds": 1e-3, "us": 1e-6, "µs": 1e-6, "microseconds": 1e-6, "min": 60.0, "minute": 60.0, "minutes": 60.0,
+    "h": 3600.0, "hour": 3600.0, "hours": 3600.0, "utc": 1.0, "gmt": 1.0, "local": 1.0, "hh:mm:ss": 1.0,
+    "с": 1.0, "сек": 1.0, "мс": 1e-3, "秒": 1.0, "毫秒": 1e-3, "μs": 1e-6,
+}  # fmt: skip
+"""The units of time, s."""
+
+
+def seconds_of(unit: str) -> float:
+    """Return a unit of times, s. Raises RecordError for a word that is none."""
+    if unit.lower() not in SECONDS:
+        raise RecordError(
+            f"the times are in {unit[:20]!r}, but must be in s, ms or min; convert them.", unit=unit
+        )
+    return SECONDS[unit.lower()]
+
+
 _TIMES = re.compile(
     r"(?i)(?:(?<!\*)[x×*]|\btimes|\b(?:multiplied|divided) by)\s*\d|\d\s*[x×*]\s*(?:acc|g\b)|[(\[]\s*%\s*[)\]]"
 )
 """A factor by which numbers are multiplied, as in "cm/s2 * 100": the unit next to it is not that of the numbers."""
 _SCALED = re.compile(
-    r"(?i)\b(s[ck]al\w*|fa[ck]?t+(?:eu|[eo])re?\w*|m[uo]ltipl\w*|gain|guadagno|ganancia|sensitivity|counts|conteggi|"
-    r"cuentas|çarpan\w*|katsayı\w*|ölçek\w*)\b|倍率|係数|系数|カウント"
+    r"(?i)\b(s[ck]al\w*|fa[ck]?t+(?:eu|[eo])re?\w*|m[uo]ltipl\w*|amplif\w*|normali[sz]\w*|sf(?= ?=)|gain|"
+    r"guadagno|ganancia|sensitivity|counts|conteggi|cuentas|çarpan\w*|katsayı\w*|ölçek\w*|коэффициент\w*|συντελεστής)\b|"
+    r"倍率|係数|系数|カウント"
 )
 """Words that speak of a factor by which numbers may still have to be multiplied."""
 _SCALED_TO = re.compile(r"(?i)\(\s*scaled to [^)]*\)")
 _CELLS = re.compile(r"^\s*([^:=,;\t]+?)\s*[,;\t]\s*([^:=,;\t]+?)[\s,;]*$")
 """A comment of two cells, as "Unit,gal"."""
 _CLAUSE = re.compile(r"[;,]\s+|\.\s+(?=[A-Z])")
-_OF_PEAK = re.compile(r"(?i)\b(pga|peak|max\w*|scale\w*|factor|picco|pico)\b")
+_PEAKS = (
+    r"(?<![a-z])(?:(?:pga|peak|picco|pico|amax)(?![a-z])|max\w*|m[aá]xim\w*|massim\w*|spitzen\w*|en büyük|maks\w*|"
+    r"максимал\w*|μέγιστ\w*)|最大|峰值"
+)
+_OF_PEAK = re.compile(rf"(?i){_PEAKS}|\b(?:scale\w*|factor)\b")
 """The subjects of a comment whose unit need not be that of the numbers."""
-_PEAK = re.compile(rf"(?i)\bpga\s*[:=]?\s*({NUMBER})\s*[(\[]?([a-z%][\w/^*²]*)")
-_OF_ACCELERATION = re.compile(r"(?i)(?<![a-z])(acc|acel|beschl|amplitud)")
+_PEAK = re.compile(
+    rf"(?i)(?:{_PEAKS})[^\d:=：,;(\[]*(?:[(\[]\s*(?P<in>[^)\]]+)[)\]])?\s*[:=：]?\s*(?P<value>{NUMBER})\s*[(\[]?"
+    r"(?P<unit>[^\W\d_][\w/^*²]*|%g)?"
+)
+_OF_VALUES = re.compile(
+    rf"(?i){WORDS_OF_ACCELERATION}|(?<![a-z])(amplitud|values?\b|valor[ei]|werte|valeurs)"
+)
 """Words next to which a unit in brackets is that of the numbers: elsewhere "(G)" may be the code of a network."""
-_UNIT_WORD = r"[A-Za-zµ%][\w/^*²·⁻'%]*(?:\.s(?:ec)?)?(?:-2)?"
-_UNIT = re.compile(
-    r"(?:\b(?:units?|unidad(?:es)?|unit[aà]|unités?|einheit(?:en)?|birim(?:i|ler)?)\b|単位|单位)[^:=：.]*[:=：]\s*[(\[]?\s*([^\s,;()\[\]]+)|"
-    r"\b(?:acc|accel|acceleration|acel|aceleraci[oó]n)\s*[:=]\s*([a-z][\w/^*²]*)|"
-    rf"(?:\bunits?(?: of| are| is)?\s+[(\[]?|(?:\bin\s+|[(\[]\s*)(?=[a-z]+/))({_UNIT_WORD})|"  # a network has no sign
-    rf"(?:\bin\s+(?!units?\b)|[(\[]\s*)({_UNIT_WORD})",
-    re.I,
+_UNITS = (
+    r"(?:(?<![a-z])(?:units?|unidade?s?|unit[aà]|unités?|einheit(?:en)?|birim(?:i|ler)?|ед(?:иниц\w*|\. ?изм\.?)|"
+    r"μονάδ\w*)(?![a-z])|単位|单位)"
 )
-_SECONDS = r"(?:s|seg|secs?|segundos?|seconds?)"
-_END = r"\s*(?:\.?\s*$|,(?!\d)|[;)\]]|\s/\s)"
-_STEP = re.compile(
-    r"(?:\b(?:dt|delta|time[ _-]?(?:step|interval|increment)|(?:sampling|sample)[ _-]?(?:interval|period|step)|"
-    r"(?:equal )?spacing|intervals|intervalo(?: de muestreo)?|(?:passo|intervallo) (?:di campionamento|temporale)|"
-    r"(?:pas|intervalle) (?:de temps|d.échantillonnage)|abtastintervall|zeitschritt|"
-    r"(?:örnekleme|zaman) (?:aralığı|adımı))|サンプリング間隔|采样间隔)"
-    rf"\s*(?:[(\[]\s*{_SECONDS}\s*[)\]])?\s*(?:[:=：]|is|of)?\s*({NUMBER})\s*\(?{_SECONDS}?{_END}|"
-    rf"^\s*(?:sampling|muestreo)\s*[:=]\s*({NUMBER})\s*{_SECONDS}\s*$",
-    re.I,
+_LEAD = re.compile(
+    rf"(?i)(?P<sure>{_UNITS}(?:[^:=：.]*[:=：]|\s+(?:of|are|is|in|-))?\s*[(\[]?\s*|{WORDS_OF_ACCELERATION}\s*[:=,：]\s*)|"
+    r"\b(?:in|en|em|σε|в)\s+(?!units?\b)|[(\[（]\s*"
 )
-_RATE = re.compile(
-    r"(?:\b(?:fs|(?:sampling|sample)[ _-]?(?:rate|frequency)|tasa de muestreo|frecuencia de muestreo|"
-    r"frequenza di campionamento|fréquence d.échantillonnage|abtast(?:rate|frequenz)|örnekleme (?:frekansı|hızı))\b|"
-    r"サンプリング周波数|采样频率)"
-    rf"\s*(?:[(\[]\s*hz\s*[)\]])?\s*(?:[:=：]|is|of)\s*({NUMBER})\s*(?:hz|sps)?{_END}|"
-    rf"\bsampled at ({NUMBER})\s*(?:hz|sps){_END}",
-    re.I,
+"""The words that a unit may follow, and whether what follows them is one whatever the line speaks of."""
+_OF_SAMPLING = (
+    r"(?:d[eioa] |d['’]|по |)(?:muestreo|campionamento|[eé]chantillonnage|amostragem|дискретизации|δειγματοληψίας|"
+    r"tiempo|tempo|temporale|temps|времени|χρόνου)"
 )
+_TIMING = re.compile(
+    r"(?i)(?<![a-z])(?:(?P<step>dt|δt|delta(?: ?t)?|time[ _-]?(?:step|interval|increment)|"
+    r"(?:sampl|digiti)\w*[ _-](?:interval|period|step|time)|(?:equal(?:ly)? )?spac(?:ing|ed)(?: at)?|intervals?|every|"
+    rf"intervalo|(?:paso|passo|pas|intervall?[oe]|per[ií]odo|шаг|βήμα) {_OF_SAMPLING}|интервал|"
+    r"abtast(?:intervall|schritt)|zeitschritt|(?:örnekleme|zaman) (?:aralığı|adımı)|(?:采样|时间)间隔|"
+    r"(?:サンプリング|時間)間隔)|"
+    r"(?P<rate>fs|(?:sampl\w*|data|digiti\w*)[ _-](?:rate|freq\w*)|samples ?(?:per|/) ?s(?:ec(?:ond)?)?|"
+    r"(?:tasa|frecuencia|velocidad|razón|taxa|frequência|frequenza|fréquence|частота|συχνότητα|ρυθμός) "
+    rf"{_OF_SAMPLING}|muestras por segundo|abtast(?:rate|frequenz)|örnekleme (?:frekansı|hızı)|"
+    r"(?:サンプリング周波数|采样频?率))|sampl(?:ing|ed at)|digiti[sz]ed at|muestreo)"
+    r"(?:\s*[(\[_]\s*(?P<in>[^\W\d_]+)\s*[)\]]?)?\s*(?:[:=：]|is|of)?\s*"
+    rf"(?P<of>1/)?(?P<value>\d+,\d+|{NUMBER})\s*\(?(?P<unit>[^\W\d_]+)?(?:\s*\.?\s*$|,(?!\d)|[;)\]]|\s/\s)"
+)
+"""A step or a rate: which of the two it is its unit says, and its name where it has none."""
+_HERTZ = {"hz": 1.0, "гц": 1.0, "sps": 1.0, "mps": 1.0, "khz": 1e3}
 _RATE_STATED = re.compile(
-    rf"(?<![\w.])({NUMBER})\s*(?:hz|sps|samples? ?(?:/|per) ?s(?:ec(?:ond)?)?)(?![a-z])", re.I
+    rf"(?i)(?<![\w.])({NUMBER})\s*(?:hz|гц|sps|(?:samples?|times) ?(?:/|per) ?s(?:ec(?:ond)?)?)(?![a-z])"
 )
 _SAMPLED = re.compile(
     r"(?i)sampl|decimat|interpol|digiti|muestr|abtast|chantill|campion|örnekle|サンプリング|采样|rate|frecuencia de m"
@@ -462,23 +492,22 @@ _OF_FILTER = re.compile(
 _FEWEST_PER_SECOND = 10.0
 """The lowest rate that a recorder has, Hz: below, a number of hertz is that of a motion."""
 _SAMPLES = re.compile(
-    rf"(?:^|[\s,;(])({NUMBER})\s+(?:points|samples|values)\b(?!\s+(?:per|across|a|each|in)\b)|"
-    r"\b(?:npts|(?:no\.?|number) (?:of )?(?:points|samples|data|values)|"
-    r"n[uú]m(?:ero|\.)? (?:total )?de (?:datos|muestras|puntos))"
-    rf"\s*[:=]\s*({NUMBER})",
-    re.I,
+    rf"(?i)(?:^|[\s,;(])({NUMBER})\s+(?:data )?(?:points|samples|values)\b(?!\s+(?:per|across|a|each|in)\b|/)|"
+    r"(?<![a-z])(?:(?:npts|ndata|(?:#|(?:n[or]?|num(?:ber|ero)?|n[uú]mero|total|nombre|anzahl|число|количество|αριθμός)\b)"
+    r"[.º]? ?(?:total )?(?:of |de |di |d['’]|der )?(?:data )?(?:points|samples|data|values|datos|muestras|puntos|"
+    r"campioni|punti|échantillons|(?:abtast)?werte|punkte|amostras|точек|отсч[её]тов|σημείων)|"
+    r"(?:veri|nokta|örnek) sayısı|"
+    r"(?:データ|采样|数据)?点数|データ数)\s*[:=：]?|(?:data )?(?:points|samples)\s*[:=])\s*(\d{2,})(?:\.0*)?(?![\d.])"
 )
-_VALUE = r"\b\.?\s*(?:code|name)?\s*[:=]?\s*([^,;:=()\[\]]*?)\s*(?:$|[,;()\[\]]|\s-\s)"
+_VALUE = r"\.?\s*(?:code|name)?\s*[:=：]?\s*([^,;:=()\[\]]*?)\s*(?:$|[,;()\[\]]|\s-\s)"
+_COMPONENT = (
+    r"(?:\bcomp(?:onent[ea]?|osante)?\b|\bkomponente?\b|\bbileşen\w*|\bdirection\b|\bdirecci[oó]n\b|\bdirezione\b|\brichtung\b|"
+    r"\byön\w*|компонент\w*|συνιστώσα|成分|分量|方向)"
+)
 _DIRECTIONS = (
-    re.compile(
-        rf"\b(?:comp(?:onent[ea]?)?|direction|orientation|direcci[oó]n|orientaci[oó]n){_VALUE}",
-        re.I,
-    ),
-    re.compile(
-        r"(?<!class )(?<!type )(?<!site )(?<!soil )\b([\w/-]+)\s+(?:comp(?:onent)?|direction)\b",
-        re.I,
-    ),
-    re.compile(r"\b([\w/-]{2,})\s+(?:acc(?:el(?:eration)?)?|(?:ground )?motion|record)\b", re.I),
+    re.compile(rf"(?i)(?:{_COMPONENT}|\borient\w+|\baxis\b|\beje\b|\brumbo\b){_VALUE}"),
+    re.compile(rf"(?i)(?<!class )(?<!type )(?<!site )(?<!soil )(?<![\w/-])([\w/-]+?)\s*{_COMPONENT}"),
+    re.compile(r"(?i)\b([\w/-]{2,})\s+(?:acc(?:el(?:eration)?)?|(?:ground )?motion|record)\b"),
     re.compile(
         r"(?:^|[\s,_-])([NS]\d{1,2}[EW]|UP|UD|U-D|NS|N-S|EW|E-W|[BCHS]N[NEZ]|[BH]H[NEZ]|VERT|(?i:vertical))"
         r"\s*(?:$|,)"
@@ -507,23 +536,30 @@ def _claims_of(line: str) -> tuple[Claim, ...]:
     """Return what a line of text says of the numbers that it accompanies; agencies write the same one above each."""
     found: list[tuple[What, Any]] = [("samples", match[1] or match[2]) for match in _SAMPLES.finditer(line)]
     for match in _PEAK.finditer(line):
-        if unit := acceleration_unit(match[2]):
-            found.append(("peak", float(match[1]) * acceleration_factor(unit)))
+        if unit := acceleration_unit(match["in"] or match["unit"] or ""):
+            found.append(("peak", float(match["value"]) * acceleration_factor(unit)))
     for text in dict.fromkeys((line, _CELLS.sub(r"\1: \2", line))):
         bare = _SCALED_TO.sub("", text)
         if not (_TIMES.search(bare) or _SCALED.search(bare)):
             found += [("unit", unit) for unit in _units(bare)]
         if not _OF_PEAK.search(text):
-            steps = [float(match[1] or match[2]) for match in _STEP.finditer(text)]
-            rates = [float(match[1] or match[2]) for match in _RATE.finditer(text)]
-            found += [("time_step", step) for step in steps if step > 0]
-            found += [("time_step", 1 / rate) for rate in rates if rate > 0]
+            found += [("time_step", step) for match in _TIMING.finditer(text) if (step := _step_of(match))]
             found += [("direction", name) for name in _components(text)]
     claims = [Claim(what, value, Where.HEAD, line.strip()) for what, value in found]
     if not (_OF_FILTER.search(line) or _OF_PEAK.search(line)):
         rates = [rate for rate in map(float, _RATE_STATED.findall(line)) if rate >= _FEWEST_PER_SECOND]
         claims += [Claim("time_step", 1 / rate, Where.SPOKEN, line.strip()) for rate in rates]
     return tuple(claims)
+
+
+def _step_of(match: re.Match[str]) -> float | None:
+    """Return the step [s] that a step or a rate says, None where its unit is of neither."""
+    value = float(match["value"].replace(",", "."))
+    value = 1 / value if match["of"] and value else value
+    unit = (match["in"] or match["unit"] or "").lower()
+    if value > 0 and (unit in _HERTZ or (match["rate"] and not unit)):
+        return 1 / (value * _HERTZ.get(unit, 1.0))
+    return value * SECONDS.get(unit, 1.0) if unit in SECONDS or (match["step"] and not unit) else None
 
 
 T = TypeVar("T")
@@ -612,7 +648,7 @@ def meaning(comment: str) -> str:
 
 def speaks_of_factor(line: str) -> bool:
     """Whether a line speaks of a factor by which the numbers may still have to be multiplied."""
-    return bool(_SCALED.search(line) or (_TIMES.search(line) and _OF_ACCELERATION.search(line)))
+    return bool(_SCALED.search(line) or (_TIMES.search(line) and _OF_VALUES.search(line)))
 
 
 def factor_warnings(lines: Sequence[str]) -> tuple[RockingWarning, ...]:
@@ -623,14 +659,15 @@ def factor_warnings(lines: Sequence[str]) -> tuple[RockingWarning, ...]:
 
 def _units(line: str) -> set[str]:
     """The units of acceleration that a line declares for the numbers: no clause of a peak does."""
-    clauses = [clause for clause in _CLAUSE.split(line) if not _OF_PEAK.search(clause)]
-    of_line = not _OF_PEAK.search(line) and bool(_OF_ACCELERATION.search(line))
-    found = [
-        match[1] or match[2] or match[3] or (match[4] if of_line or _OF_ACCELERATION.search(clause) else "")
-        for clause in clauses
-        for match in _UNIT.finditer(clause)
-    ]
-    return {unit for word in found if word and (unit := acceleration_unit(word))}
+    of_line = not _OF_PEAK.search(line) and bool(_OF_VALUES.search(line))
+    found: list[str] = []
+    for clause in (clause for clause in _CLAUSE.split(line) if not _OF_PEAK.search(clause)):
+        for lead in _LEAD.finditer(clause):
+            words = clause[lead.end() :].split()
+            is_sure = lead["sure"] or "/" in "".join(words[:1]) or of_line or _OF_VALUES.search(clause)
+            spelt = (" ".join(words[:count]).rstrip(".,;)]") for count in (3, 2, 1)) if is_sure else ()
+            found += [unit for word in spelt if (unit := acceleration_unit(word))][:1]
+    return set(found)
 
 
 def _components(line: str) -> list[str]:

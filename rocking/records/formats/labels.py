@@ -5,13 +5,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from rocking.errors import RecordError
 from rocking.records.claims import (
     IN_BRACKETS,
     MULTIPLIED,
     PLAIN_ACCELERATION,
+    SECONDS,
     WORDS_OF_ACCELERATION,
     other_of_column,
+    seconds_of,
     unit_of_column,
     without_unit,
 )
@@ -24,13 +25,6 @@ _TIME = re.compile(
 _COUNT = re.compile(
     r"(?i)(no|nr|n|i|id|#|index|count|counter|sample|samples|point|points|step|row|line)\b\.?.*"
 )
-_TIMES = {
-    "s": 1.0, "sec": 1.0, "secs": 1.0, "second": 1.0, "seconds": 1.0, "ms": 1e-3, "msec": 1e-3, "millisecond": 1e-3,
-    "seg": 1.0, "segundos": 1.0, "sek": 1.0, "sekunden": 1.0, "sn": 1.0, "saniye": 1.0, "secondi": 1.0, "secondes": 1.0,
-    "milliseconds": 1e-3, "us": 1e-6, "µs": 1e-6, "microseconds": 1e-6, "min": 60.0, "minute": 60.0, "minutes": 60.0,
-    "h": 3600.0, "hour": 3600.0, "hours": 3600.0, "utc": 1.0, "gmt": 1.0, "local": 1.0, "hh:mm:ss": 1.0,
-    "с": 1.0, "сек": 1.0, "мс": 1e-3, "秒": 1.0, "毫秒": 1e-3,
-}  # fmt: skip
 _TIME_UNIT = re.compile(r"[(\[]\s*([^)\]]*?)\s*[)\]]\s*$|(?:^|[\s,_/])([A-Za-zµ]+)\s*$")
 """The unit of times, in brackets or as the last word."""
 _NO_TIME_UNIT = re.compile(r"(?i)(samples?|points?|ticks?|(?<!\d)1/\d.*|[x×*]\s*\d.*|\d\s*[x×*].*)")
@@ -76,7 +70,7 @@ class ColumnLabel:
         match = _NO_TIME_UNIT.search(self.text) or _TIME_UNIT.search(self.text)
         if match and match[1]:
             return seconds_of(match[1])
-        return _TIMES.get(match[2].lower()) if match and match[2] else None
+        return SECONDS.get(match[2].lower()) if match and match[2] else None
 
     @cached_property
     def unit(self) -> str | None:
@@ -141,15 +135,6 @@ class ColumnLabel:
             )
         is_named = any(not _NO_DIRECTION.fullmatch(word) for word in _PARTS.split(before) if word)
         return not is_named and Direction.of(brackets[1]).is_known
-
-
-def seconds_of(unit: str) -> float:
-    """Return a unit of times, s. Raises RecordError for a word that is none."""
-    if unit.lower() not in _TIMES:
-        raise RecordError(
-            f"the times are in {unit[:20]!r}, but must be in s, ms or min; convert them.", unit=unit
-        )
-    return _TIMES[unit.lower()]
 
 
 def with_units(names: Sequence[str], units: Sequence[str]) -> tuple[str, ...]:
