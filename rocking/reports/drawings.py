@@ -23,7 +23,6 @@ from rocking.structures.tied import Tied
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.transforms import Transform
 
     from rocking.pulses import Pulse
     from rocking.signal.accelerogram import Accelerogram
@@ -211,72 +210,65 @@ def draw_structure(
     rotation: float = 0.0,
     *,
     values: bool = False,
-    look: dict[str, Any] | None = None,
-    place: Transform | None = None,
     rest: Sequence[np.ndarray] = (),
 ) -> None:
     """Draw the parts at a signed `rotation` [rad], and the loads, thrusts (arrows) and ties (lines) that act on them.
 
     Displaced, it is drawn also at rest (dashed), and with the hinges (circles). values: write the value of each load
-    and tie next to it. look: of the filled parts, as matplotlib.patches.Polygon takes it. place: from m to the units of
-    the axes. rest: the others of the wall of which it is a leaf, drawn lightly.
+    and tie next to it. rest: the others of the wall of which it is a leaf, drawn lightly.
     """
     from matplotlib.patches import Polygon
 
-    where = axes.transData if place is None else place + axes.transData
-    filled = {"facecolor": "0.85", "edgecolor": "0.3", "linewidth": 0.8, "transform": where} | (look or {})
     parts = structure.outline(rotation)
     at_rest = structure.outline() if rotation else []
     for outline in rest:
-        axes.add_patch(Polygon(outline, closed=True, transform=where, **_BESIDE.on_axes))
+        axes.add_patch(Polygon(outline, closed=True, **_BESIDE.on_axes))
     for outline in parts:
-        axes.add_patch(Polygon(outline, closed=True, **filled))
+        axes.add_patch(Polygon(outline, closed=True, facecolor="0.85", edgecolor="0.3", linewidth=0.8))
     for outline in at_rest:
-        axes.add_patch(Polygon(outline, closed=True, transform=where, **_AT_REST))
+        axes.add_patch(Polygon(outline, closed=True, **_AT_REST))
     if rotation:
-        axes.plot(*structure.hinges(rotation).T, "o", transform=where, **_HINGE)
+        axes.plot(*structure.hinges(rotation).T, "o", **_HINGE)
     left = min(float(part[:, 0].min()) for part in (*parts, *at_rest))
     top = max(float(part[:, 1].max()) for part in parts)
     for mark in structure.marks(rotation):
-        _draw_mark(axes, mark, where, (left, top) if values else None)
+        _draw_mark(axes, mark, (left, top) if values else None)
 
 
-def _draw_mark(axes: Axes, mark: Mark, where: Transform, corner: tuple[float, float] | None) -> None:
+def _draw_mark(axes: Axes, mark: Mark, corner: tuple[float, float] | None) -> None:
     """Draw a load or thrust as an arrow, a tie as a line to its anchorage, a support as the edge of a floor.
 
     corner: left end and top of the structure, m, next to which values stand; None draws no values.
     """
     tail, tip = mark.line
     if mark.kind == "support":
-        axes.plot(*mark.line.T, transform=where, **_SUPPORT)
+        axes.plot(*mark.line.T, **_SUPPORT)
         if corner is not None:
-            axes.text(tail[0], tail[1], f" {mark.text}", ha="left", va="center", transform=where)
+            axes.text(tail[0], tail[1], f" {mark.text}", ha="left", va="center")
         return
     if mark.kind in _LEAVES:
-        axes.plot(*mark.line.T, transform=where, **_LEAVES[mark.kind].on_axes)
+        axes.plot(*mark.line.T, **_LEAVES[mark.kind].on_axes)
         return
     if mark.kind == "tie":
-        axes.plot(*mark.line.T, color=_TIE, linewidth=1.0, zorder=3, transform=where)
+        axes.plot(*mark.line.T, color=_TIE, linewidth=1.0, zorder=3)
         for end, size in zip(mark.line, (7, 5), strict=True):
-            axes.plot(*end, marker="|", color=_TIE, markersize=size, markeredgewidth=1.6, transform=where)
+            axes.plot(*end, marker="|", color=_TIE, markersize=size, markeredgewidth=1.6)
     else:
-        axes.annotate("", tip, tail, xycoords=where, textcoords=where, arrowprops=_LOAD, zorder=5)
-        axes.plot(*tail, alpha=0, transform=where)  # arrows do not widen the limits of the axes
+        axes.annotate("", tip, tail, arrowprops=_LOAD, zorder=5)
+        axes.plot(*tail, alpha=0)  # arrows do not widen the limits of the axes
     if corner is None:
         return
     left, top = corner
     if mark.kind == "tie":
         text = mark.text.replace(", ", " \n") + " "
         # Below the line of the tie; a thrust is written above it.
-        axes.annotate(
-            text, (left, tail[1]), (0, -3), xycoords=where, textcoords="offset points", ha="right", va="top"
-        )
+        axes.annotate(text, (left, tail[1]), (0, -3), textcoords="offset points", ha="right", va="top")
     elif mark.kind == "load" and tail[1] < top:
         # Of a floor: above the arrow stands the next storey, with its thickness.
-        axes.text(left, tip[1], f"{mark.text} ", ha="right", va="bottom", transform=where)
+        axes.text(left, tip[1], f"{mark.text} ", ha="right", va="bottom")
     else:
         ha, va = _SIDES[mark.kind]
-        axes.text(tail[0], tail[1], f" {mark.text} ", ha=ha, va=va, zorder=4, bbox=_PAPER, transform=where)
+        axes.text(tail[0], tail[1], f" {mark.text} ", ha=ha, va=va, zorder=4, bbox=_PAPER)
 
 
 def draw_dimensions(
