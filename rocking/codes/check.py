@@ -1,7 +1,7 @@
 """The checks of a structure by the Italian code: on what terms they are made, and what each one finds."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import StrEnum
 
 from rocking.codes.code_capacity import LIMIT_STATES, CodeCapacity, LimitPoint
@@ -297,11 +297,11 @@ class StructureCheck:
     nonlinear: Check | None = None
     dynamic: DynamicCheck | None = None
     damage_level: float
-    mechanisms: tuple[CodeCapacity, ...] = field(repr=False)
-    governing: CodeCapacity = field(repr=False)
-    restraints: tuple[Restraint, ...] = field(default=(), repr=False)
+    mechanisms: tuple[CodeCapacity, ...]
+    governing: CodeCapacity
+    restraints: tuple[Restraint, ...] = ()
     warning: RockingWarning | None = None
-    were_it_unknown: "StructureCheck | None" = field(default=None, repr=False)
+    were_it_unknown: "StructureCheck | None" = None
 
     def __repr__(self) -> str:
         """The verdict and the ratio of each check, and what the limit state leaves to say."""

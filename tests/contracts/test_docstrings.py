@@ -1,5 +1,7 @@
 """The docstrings of the public names have the sections of numpydoc: checked by numpydoc's own validator."""
 
+import inspect
+import re
 from enum import Enum
 
 import pytest
@@ -27,3 +29,14 @@ def test_the_docstring_has_the_sections_of_numpydoc(name: str) -> None:
     if isinstance(public, type) and issubclass(public, Enum | BaseException):
         found.pop("PR01", None)  # the arguments of Enum itself, and those of RockingError.__init__
     assert {code: message for code, message in found.items() if code not in PASSED_OVER} == {}
+
+
+@pytest.mark.parametrize("name", sorted(rocking.__all__))
+def test_a_default_is_the_one_that_the_docstring_says(name: str) -> None:
+    public = getattr(rocking, name)
+    methods = inspect.getmembers(public, callable) if isinstance(public, type) else []
+    for documented in (public, *(method for called, method in methods if not called.startswith("_"))):
+        parameters = re.findall(r"^(\w+) : .*, default (.+)$", inspect.getdoc(documented) or "", re.M)
+        for parameter, said in parameters:
+            default = inspect.signature(documented).parameters[parameter].default
+            assert said in (str(default), repr(default), f'"{default}"'), (documented, parameter)

@@ -159,13 +159,10 @@ def test_a_file_that_is_no_spectrum_is_refused_in_a_sentence(tmp_path, text, sen
 @pytest.mark.parametrize(
     "values",
     [
-        {"soil": "F"},
         {"ag": -1.0},
         {"ag": 150.0},
         {"f0": "2.5"},
         {"tc_star": 0},
-        {"topography": 2.0},
-        {"damping": 5},
     ],
 )
 def test_parameters_out_of_range_are_refused(values):

@@ -430,10 +430,6 @@ def test_every_crack_that_may_open_is_checked():
 
 def test_what_cannot_be_checked_is_refused_in_a_sentence():
     block = Block.of_size(0.3, 1.6)
-    with refused(ConfigurationError, "confidence_factor", 0.9):
-        kinematic_check(block, SPECTRUM, CodeTerms(confidence_factor=0.9))
-    with refused(ConfigurationError, "limit_state", "SLX"):
-        kinematic_check(block, SPECTRUM, CodeTerms(limit_state="SLX"))
     with refused(StructureError, "structure"):
         kinematic_check(block.mechanism(), SPECTRUM)
     with refused(RecordError, "damping_ratio of the support", 0.0):

@@ -175,7 +175,6 @@ def test_spectrum_equals_the_responses():
         (([0.0], [0.2], 0.9), "frequency_parameters", [0.0]),
         (([[1.0]], [0.2], 0.9), "frequency_parameters", [[1.0]]),
         (([2.0], [np.nan], 0.9), "uplift_multipliers", [np.nan]),
-        (([2.0], [0.2], 1.5), "restitution", 1.5),
         (([6000.0], [0.2], 0.9), "frequency_parameters", 6000.0),
     ],
 )

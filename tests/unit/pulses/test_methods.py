@@ -5,11 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from rocking.errors import PulseError
 from rocking.pulses import PULSE_METHODS, Pulse, extract_pulses, predicting_pulse
 from rocking.pulses.velocity_pulse import largest_velocity_pulse
 from rocking.signal.accelerogram import Accelerogram
-from tests.refusals import refused
 
 TIMES = np.arange(3000) * 0.01
 SHORT, LONG = (
@@ -67,16 +65,3 @@ def test_one_cycle_and_nothing_outside():
     times = np.array([0.99, 1.0, 1.5, 2.0, 2.5, 3.0, 3.01])
     assert pulse.acceleration(times) == pytest.approx([0, 0, -2, 0, 2, 0, 0], abs=1e-15)
     assert (pulse.period, pulse.end_time) == (2.0, 3.0)
-
-
-@pytest.mark.parametrize(
-    ("values", "field"),
-    [
-        ({"amplitude": math.nan}, "amplitude"),
-        ({"circular_frequency": 0}, "circular_frequency"),
-        ({"start_time": math.inf}, "start_time"),
-    ],
-)
-def test_impossible_pulses_are_refused(values, field):
-    with refused(PulseError, field):
-        Pulse(**{"amplitude": 1, "circular_frequency": 1, **values})

@@ -8,10 +8,8 @@ import pytest
 from scipy import integrate
 from scipy.constants import g
 
-from rocking.errors import RecordError
 from rocking.records import Accelerogram, read
 from rocking.signal.measures import record_measures, response_spectrum
-from tests.refusals import refused
 
 STEP = 0.005
 
@@ -85,14 +83,6 @@ def test_the_same_motion_in_finer_steps_has_the_same_spectrum():
     one = response_spectrum(Accelerogram(coarse, 0.02), stiff)
     other = response_spectrum(Accelerogram(fine, 0.02 / 7), stiff)
     assert one.displacement == pytest.approx(other.displacement, rel=1e-9)
-
-
-@pytest.mark.parametrize(
-    ("period", "damping", "named"), [(0.0, 0.05, ("period",)), (1.0, 1.2, ("damping", 1.2))]
-)
-def test_what_no_oscillator_has_is_refused(period, damping, named):
-    with refused(RecordError, *named):
-        response_spectrum(Accelerogram(np.ones(9), STEP), np.array([period]), damping)
 
 
 def printed_spectra(path):

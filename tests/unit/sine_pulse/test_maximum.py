@@ -101,7 +101,6 @@ def spectrum(frequencies: list, amplitudes: list, restitution: float = 0.9) -> n
         (lambda: spectrum([1.0, 0.0], [2.0]), "frequency_ratios", 0.0),
         (lambda: spectrum([1.0], [2.0, -1.0]), "amplitude_ratios", -1.0),
         (lambda: spectrum([[1.0]], [1.0]), "frequency_ratios", [[1.0]]),
-        (lambda: spectrum([1.0], [2.0], 1.5), "restitution", 1.5),
         (lambda: pulse_end_energy(frequency_ratio=0.0, amplitude_ratio=2.0), "frequency_ratio", 0.0),
         (
             lambda: pulse_end_energy(frequency_ratio=math.nan, amplitude_ratio=2.0),
