@@ -23,9 +23,9 @@ from docs.research.sites import (
     sample_of,
 )
 from docs.research.stacks import strong_part
-from rocking.contacts.dynamics import STEP, StackResponse, follow_stack
+from rocking.contacts.dynamics import StackResponse, follow_stack
 from rocking.quantities import GRAVITY
-from rocking.structures.stack import Held
+from rocking.structures.stack import STEP, Held
 from rocking.tables import column, row
 
 PEAKS = (0.3, 1.0)

@@ -161,7 +161,7 @@ class Assessor:
         return result
 
     def pulses(
-        self, horizontal: Sequence[Accelerogram], vertical: Accelerogram | None = None
+        self, horizontal: Sequence[Accelerogram], vertical: Accelerogram | None
     ) -> tuple[Component, ...]:
         """Return the components of a record with the pulses of each. vertical: acts with them."""
         verticals = [None if vertical is None else aligned(vertical, component) for component in horizontal]

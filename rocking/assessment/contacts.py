@@ -18,13 +18,13 @@ from rocking.assessment.decide import UNANIMOUS, Verdict
 from rocking.assessment.decide import step as step_of
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
-from rocking.contacts.dynamics import STEP, follow_stack
+from rocking.contacts.dynamics import follow_stack
 from rocking.errors import RockingError
 from rocking.records import Accelerogram
 from rocking.signal.measures import peak_velocity
 from rocking.structures import Structure
 from rocking.structures.leaves import parts_of
-from rocking.structures.stack import COURSES, Stack
+from rocking.structures.stack import COURSES, STEP, Stack
 from rocking.structures.stones import Stones
 
 AMPLITUDES = (0.9, 1.1)

@@ -362,7 +362,7 @@ def screened(
     of_statics: Ensemble,
     motions: GroundMotions,
     settings: AssessmentSettings,
-    lifted_at: float = 0.0,
+    lifted_at: float,
 ) -> list[Candidate]:
     """Return those of the `others` that may not stand, the worst first.
 
@@ -468,9 +468,7 @@ _KINDS = {
 }
 
 
-def worth_measuring(
-    ensembles: CrackEnsembles, *, restitution_is_typed: bool = False
-) -> tuple[RockingWarning, ...]:
+def worth_measuring(ensembles: CrackEnsembles, *, restitution_is_typed: bool) -> tuple[RockingWarning, ...]:
     """Return the unknown whose measurement would help most: the first one, if it explains _WORTH_MEASURING at least.
 
     restitution_is_typed: whether the description gives its range, so that it is not known any better.

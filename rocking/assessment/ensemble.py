@@ -328,7 +328,7 @@ def grown(
     motions: GroundMotions,
     settings: EnsembleSettings,
     *,
-    tolerance: float = 1e-6,
+    tolerance: float,
 ) -> Ensemble:
     """Return the ensemble with the members of GROWTH that its verdict needs.
 

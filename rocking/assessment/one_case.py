@@ -250,7 +250,7 @@ def _rotation_ratio(
     structure: Structure,
     record: Accelerogram,
     settings: AssessmentSettings,
-    vertical: Accelerogram | None = None,
+    vertical: Accelerogram | None,
 ) -> float:
     """The largest rotation ratio of a single run, nan where it cannot be followed."""
     tolerance = strict(settings.tolerance)

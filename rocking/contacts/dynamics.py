@@ -13,11 +13,9 @@ from rocking.contacts import kernel
 from rocking.errors import MotionError
 from rocking.quantities import GRAVITY, finite, instance
 from rocking.records import Accelerogram
-from rocking.structures.stack import Stack
+from rocking.structures.stack import STEP, Stack
 from rocking.structures.stones import Stones
 
-STEP = 5e-4
-"""Time step, s: the target `stack` of docs/research says how far a rotation is then from its limit."""
 AFTERWARDS = 20.0
 """The longest time that a stack is followed on still ground, s: it then rocks by what no longer overturns it."""
 SHORTEST = 1e-6

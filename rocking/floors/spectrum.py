@@ -66,19 +66,15 @@ def floor_spectrum(
     """
     damping_ratio = within(RecordError, "damping_ratio", damping_ratio, low=LEAST_DAMPING, high=0.999)
     periods = np.array([finite(RecordError, "period", period, "s") for period in np.atleast_1d(periods)])
-    of_modes = [_of_mode(mode, periods, damping_ratio, ground) for mode in support.modes]
+    of_modes = [
+        mode_acceleration(mode, ground) * amplification(mode, periods, damping_ratio)
+        for mode in support.modes
+    ]
     spectrum = np.sqrt(sum(np.square(of_mode) for of_mode in of_modes))
     of_ground = np.array([ground(float(period), damping_ratio) for period in periods])
     first_period = max(mode.period for mode in support.modes)
     at_least_the_ground = np.maximum(spectrum, of_ground)
     return np.asarray(np.where(periods > first_period, at_least_the_ground, spectrum))
-
-
-def _of_mode(mode: Mode, periods: np.ndarray, damping_ratio: float, ground: GroundSpectrum) -> np.ndarray:
-    """S_eZ,k (C7.2.6)."""
-    if mode.period == 0:
-        return np.zeros(periods.shape)
-    return mode_acceleration(mode, ground) * amplification(mode, periods, damping_ratio)
 
 
 def amplification(mode: Mode, periods: np.ndarray, damping_ratio: float) -> np.ndarray:

@@ -358,7 +358,7 @@ def _kernel(
     return Sides(**arrays, one_sided=False, ties=ties, kinks=kinks)
 
 
-def side_table(side: Side, apart: bool = False) -> SideTable:
+def side_table(side: Side, apart: bool) -> SideTable:
     """Return the table of a side, up to where it can be tabulated. apart: keep its ties apart from G.
 
     Raises MotionError when it cannot be.
@@ -559,7 +559,7 @@ def fitted(
     start: float,
     end: float,
     largest: np.ndarray,
-    least: np.ndarray | float = 0.0,
+    least: np.ndarray | float,
 ) -> np.ndarray | None:
     """Polynomials (f, m, 8) of f functions on m equal pieces of [start, end], good to ROOM beyond its ends, or None.
 

@@ -63,7 +63,7 @@ class ScalingTarget:
 
 
 def scaled_to(
-    target: ScalingTarget, horizontal: Sequence[Accelerogram], vertical: Accelerogram | None = None
+    target: ScalingTarget, horizontal: Sequence[Accelerogram], vertical: Accelerogram | None
 ) -> tuple[list[Accelerogram], Accelerogram | None]:
     """Return the components of a record, each multiplied by the one factor that takes it to `target`, as it states.
 

@@ -172,7 +172,7 @@ class FrameLinkage(Turning):
         column: Block,
         axes: np.ndarray,
         beam_mass_ratio: float,
-        insets: tuple[float, float] = (0.0, 0.0),
+        insets: tuple[float, float],
     ) -> None:
         half = column.breadth / 2
         height = column.height

@@ -166,7 +166,7 @@ class Chain(Linkage):
         joint = 1j * np.exp(1j * (motion.angles[0] + motion.angles[upper]) / 2)
         return Contacts.resolved(("foot", "hinge"), thrusts, np.stack([1j + 0 * joint, joint]))
 
-    def holding(self, state: MotionState, stop: float | None = None) -> np.ndarray:
+    def holding(self, state: MotionState, stop: float | None) -> np.ndarray:
         """Return the forces that hold it back sideways, (2, k), in the unit of the masses times m/s².
 
         At the point that is held, and at the height `stop` [m] of the body that stays upright on top, where something

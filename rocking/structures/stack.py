@@ -22,8 +22,8 @@ COURSES = 6
 """Courses of a member that does not say how many it has."""
 ROUGH = 5.0
 """Friction coefficient at the joints: more than courses that only rock need, so that none slides."""
-_STEP = 5e-4
-"""Time step [s] for which stops are made, that of contact dynamics."""
+STEP = 5e-4
+"""Time step of contact dynamics, s: the target `stack` of docs/research says how far a rotation is then off."""
 _STOP_STEPS = 0.25
 """Circular frequency of a mass on its stop, times that step."""
 _LEAST_RETURNED = 0.01
@@ -100,7 +100,7 @@ class Stop:
         """
         lost = -np.log(np.clip(restitution, _LEAST_RETURNED, 1.0))
         ratio = float(lost / np.hypot(np.pi, lost))
-        stiffness = mass * (_STOP_STEPS / _STEP) ** 2
+        stiffness = mass * (_STOP_STEPS / STEP) ** 2
         return cls(stiffness=stiffness, damping=2 * ratio * math.sqrt(stiffness * (thrown or mass)))
 
 

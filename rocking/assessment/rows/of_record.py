@@ -679,7 +679,7 @@ def _warned(result: "RecordResult", vertical: bool) -> list[WarningRow]:
     return list(dict.fromkeys(warned))
 
 
-def identities_of(result: "RecordResult", settings_sha256: str = "") -> dict[str, Identity]:
+def identities_of(result: "RecordResult", settings_sha256: str) -> dict[str, Identity]:
     """Return what the rows about each component of a record name, by the name of the component."""
     identities = [
         Identity(

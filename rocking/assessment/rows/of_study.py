@@ -14,16 +14,14 @@ from rocking.records import Accelerogram
 from rocking.tables import Row, column, row
 
 
-def named_records(
-    records: Iterable[inputs.RecordRow], each_unnamed: bool = False
-) -> dict[str, tuple[str, str]]:
+def named_records(records: Iterable[inputs.RecordRow], each_unnamed: bool) -> dict[str, tuple[str, str]]:
     """Return station and earthquake of each record, by its identifier. each_unnamed: as of `ClusterSample.of`."""
     names, sample = sample_of_records(records, each_unnamed)
     return dict(zip(names, zip(sample.stations, sample.events, strict=True), strict=True))
 
 
 def sample_of_records(
-    records: Iterable[inputs.RecordRow], each_unnamed: bool = False
+    records: Iterable[inputs.RecordRow], each_unnamed: bool
 ) -> tuple[list[str], ClusterSample]:
     """Return the identifiers of the records (r,), and their sample with what there is to say of it."""
     firsts: dict[str, inputs.RecordRow] = {}

@@ -12,6 +12,7 @@ from rocking.assessment.contacts import (
     RUNS,
     ContactShare,
     contact_share,
+    draws_of_parts,
     stackable,
 )
 from rocking.assessment.decide import Decision, decide, step
@@ -21,10 +22,11 @@ from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.motions import GroundMotions, Motion, ground_motions
 from rocking.assessment.one_case import compute_case
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
-from rocking.contacts.dynamics import STEP, follow_stack
+from rocking.contacts.dynamics import follow_stack
 from rocking.errors import MotionError, StructureError
 from rocking.quantities import GRAVITY
 from rocking.structures.joints import Joints
+from rocking.structures.stack import STEP
 from rocking.structures.structure import Candidate
 from rocking.structures.unknown_geometry import as_structure
 
@@ -218,7 +220,8 @@ def test_directions_share_the_steps_and_unlike_sides_meet_both_signs(monkeypatch
     followed = []
 
     def noted(stack, motion, step, vertical):
-        followed.append((motion.component, np.sign(motion.acceleration[10]), step))
+        lifted = vertical.peak_acceleration if vertical else 0.0
+        followed.append((motion.component, np.sign(motion.acceleration[10]), step, lifted))
         return False
 
     monkeypatch.setattr("rocking.assessment.contacts._falls", noted)
@@ -235,6 +238,12 @@ def test_directions_share_the_steps_and_unlike_sides_meet_both_signs(monkeypatch
             assert len({other_crack[:2] for other_crack in followed}) == ways
             assert len({crack[0] for crack in followed}) == ways // signs
             assert [one_crack[2] for one_crack in followed].count(STEP) == pytest.approx(runs * 7 / 8, abs=1)
+            assert {of_crack[3] for of_crack in followed} == {0.0}
+    followed.clear()
+    lifting = GroundMotions.of(sine(1.0), vertical=sine(0.3))  # which no draw of an amplitude changes
+    contact_share(wall, lifting)
+    draws_of_parts(wall, lifting, DEFAULT, 1)[0][0].falls(2.0)
+    assert [lift for *_, lift in followed] == pytest.approx([0.3] * RUNS + [0.6], rel=1e-3)
 
 
 def test_no_step_is_longer_than_the_one_that_was_measured_and_one_is_half_of_it(monkeypatch):

@@ -100,6 +100,8 @@ def test_a_parapet_that_is_free_to_vibrate_by_hand():
     for modulus in (1e9, 1e7):
         period = 6.2 * (1.6 / 0.3) * 1.6 * math.sqrt(18e3 / (modulus * G))
         assert elastic_period(1.6, 0.3, 18e3, modulus) == pytest.approx(period, rel=BY_HAND)
+        spanning = elastic_period(1.6, 0.3, 18e3, modulus, cantilever=False)
+        assert spanning == pytest.approx(period * 2.2 / 6.2, rel=BY_HAND)
         check = kinematic_check(Block.of_size(0.3, 1.6), SPECTRUM, CodeTerms(elastic_period=period))
         onset = by_hand.alpha(0.0) * G / 1.35
         amplified = (

@@ -182,6 +182,20 @@ def test_a_mirrored_motion_turns_it_the_other_way():
     assert np.abs(one.places[:100, :, 2]).max() > 1e-3
 
 
+def test_ground_that_rises_ever_faster_is_more_gravity():
+    """A vertical of 0.21 g and 1.21 of the motion in 1/1.1 of the time: the same course of places, sooner."""
+    motion, stack = (
+        sampled(Pulse(amplitude=8.0, circular_frequency=5.0)),
+        Spire(width=3.0, height=15.0).stack(),
+    )
+    sooner = replace(motion, acceleration=1.21 * motion.acceleration, time_step=motion.time_step / 1.1)
+    rising = replace(sooner, acceleration=np.full_like(motion.acceleration, 0.21 * GRAVITY))
+    one = follow_stack(stack, motion, motion.time_step / 16, history=True)
+    other = follow_stack(stack, sooner, sooner.time_step / 16, vertical=rising, history=True)
+    assert one.places[:90] == pytest.approx(other.places[:90], abs=1e-6)
+    assert np.abs(one.places[:90, :, 2]).max() > 1e-3
+
+
 def test_still_ground_ahead_of_a_motion_changes_neither_its_course_nor_its_end():
     stack, motion = (
         Spire(width=3.0, height=15.0).stack(),

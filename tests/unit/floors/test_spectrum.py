@@ -44,6 +44,10 @@ def test_modes_add_as_squares_and_the_ground_is_the_least():
     squares = sum(floor_spectrum(case, periods, 0.05, flat) ** 2 for case in (ONE, other))
     assert floor_spectrum(both, periods, 0.05, flat) == pytest.approx(np.sqrt(squares))
     assert floor_spectrum(ONE, np.array([30.0]), 0.05, flat) == pytest.approx([2.0])
+    rigid = Support((*ONE.modes, Mode(period=0.0, damping_ratio=0.05, participation=3.0)))
+    assert floor_spectrum(rigid, periods, 0.05, flat) == pytest.approx(
+        floor_spectrum(ONE, periods, 0.05, flat)
+    )
 
 
 def test_damping_that_has_no_value():
