@@ -75,6 +75,8 @@ SLIM = {"type": "block", "breadth_m": 1, "height_m": 4}
         ({"type": "arch", "radius": 1}, "radius", 1, "(did you mean radius_m?)"),
         ({"type": "wall", "height_m": 3, "hinge_height_m": 1}, "thickness_m", None, ""),
         (SLIM | {"slenderness_deg": 3}, "slenderness_deg", 3, ""),
+        (SLIM | {25: None}, "25", None, "write a number with a point, as in 3.25."),
+        (SLIM | {25: 1}, "25", 1, "25 is not a key of a block; use "),
         (SLIM | {"one_sided": "yes"}, "one_sided", "'yes'", ""),
     ],
 )
