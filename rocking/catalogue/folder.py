@@ -82,18 +82,17 @@ def catalogue_of_folder(
     readings = Readings(folder, layouts, is_cached=keeps_readings)
     listed = []
     signatures = []
-    lines: dict[str, int] = {}
+    lines: dict[str, tuple[int, float]] = {}
     for path in watched(list(files_in(folder))):
         own = _declared_in(rows_of.get(path.relative_to(folder).as_posix()), declared)
         reading = readings.of(path, own)
         listed.append(listed_file(reading, path, folder, own))
         signatures += [reading.signature] if reading.signature else []
-        if (line := layouts.line_of(reading.signature)) is not None:
-            lines[listed[-1].file] = line
+        lines[listed[-1].file] = layouts.own(reading.signature)
     readings.save()
     tried = trials(listed, lines, layouts)
     for file in listed:
-        trial = tried.get(lines.get(file.file, 0))
+        trial = tried.get(lines[file.file][0])
         if file.channels and trial and not trial.may_hold:
             file.refusal, file.channels = f"{file.channels[0].answer}: {trial.words}", ()
     renamed = tuple(_follow_renamed(rows, rows_of, listed))

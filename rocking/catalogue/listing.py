@@ -237,31 +237,42 @@ def warnings_of(file: ListedFile) -> list[RockingWarning]:
     return [warning for warning in file.warnings if not (file.direction and warning.kind in _OF_DIRECTION)]
 
 
-_FEWEST_TRIED = 3
-"""Files of an answer from which on their peaks are those of a folder of records, or are not."""
+_FEWEST_TRIED = 2
+"""Files of an answer whose peaks together are not those of a folder of records."""
 _STRONG_SHARE = 1 / 3
 """The share of files above 1 g that no folder of records has: of NGA-West2 less than one in a hundred is."""
+_WEAK = 0.001
+"""g; no folder of records whose pages say nothing lies below as a whole."""
 
 
-def trials(listed: Sequence[ListedFile], lines: Mapping[str, int], layouts: Layouts) -> dict[int, Trial]:
-    """Return what comes of each answer of layouts.csv on all its files, by its line; lines: of each file.
+def trials(
+    listed: Sequence[ListedFile], lines: Mapping[str, tuple[int, float]], layouts: Layouts
+) -> dict[int, Trial]:
+    """Return what comes of each answer of layouts.csv on all its files, by its line.
 
-    Read by an answer whose unit is too large, its files together are stronger than any folder of records.
+    lines: of each file, 0 where none answers for it, and its peak by that, m/s², which counts where it is refused as
+    too strong. Read by an answer with another unit, its files together are stronger or weaker than those of any folder.
     """
     peaks: dict[int, list[float]] = {}
     for file in listed:
+        line, by_answer = lines[file.file]
         known = [float(channel.peak_acceleration) for channel in file.channels if channel.peak_acceleration]
-        if known and not file.refusal and file.file in lines:
-            peaks.setdefault(lines[file.file], []).append(max(known))
+        if file.refusal:
+            known = [by_answer / GRAVITY] if by_answer > GRAVITY else []
+        if known and line:
+            peaks.setdefault(line, []).append(max(known))
     found = {}
     for line, of_line in peaks.items():
         strong = sum(peak > 1.0 for peak in of_line)
+        is_weak = len(of_line) >= _FEWEST_TRIED and max(of_line) < _WEAK
         words = f"{counted(len(of_line), 'file')}, {min(of_line):.3g}–{max(of_line):.3g} g"
-        if len(of_line) < _FEWEST_TRIED or strong <= _STRONG_SHARE * len(of_line):
+        if not is_weak and (strong < _FEWEST_TRIED or strong <= _STRONG_SHARE * len(of_line)):
             found[line] = Trial(words, may_hold=True)
             continue
+        how_many = f"all {len(of_line)} files" if is_weak else f"{strong} of its {len(of_line)} files"
+        where = f"below {_WEAK:g}" if is_weak else "above 1"
         why = (
-            f"so {strong} of its {len(of_line)} files would be above 1 g, as no folder of records is; leave the unit "
+            f"so {how_many} would be {where} g, as no folder of records is; leave the unit "
             "out of the answer, and fill in the column unit of the catalogue for each, or take the ? away again to "
             "insist."
         )

@@ -60,10 +60,10 @@ _SAME_STEP = 1e-3
 """Share by which two steps may differ that are one: a header rounds."""
 _SAME: dict[str, Callable[[Any, Any], bool]] = {
     "unit": lambda one, other: (
-        not {one, other} & _OTHER.keys() and acceleration_factor(one) == acceleration_factor(other)
+        not {one, other} & {"spectrum", *_OTHER} and acceleration_factor(one) == acceleration_factor(other)
     ),
     "time_step": lambda one, other: abs(one - other) <= _SAME_STEP * min(one, other),
-    "peak": lambda one, other: abs(one - other) <= 0.01 * max(one, other),
+    "peak": lambda one, other: abs(one[0] - other[0]) <= max(0.01 * one[0], one[1]),
     "samples": lambda one, other: float(one) == float(other),
 }
 
@@ -90,7 +90,9 @@ def agreed(what: What, claims: Collection[Claim]) -> Any:
     by_person = [claim for claim in spoken if claim.where in _PERSONS]
     named = [claim for claim in spoken if claim.where in _WITHOUT_VALUE]
     inside = [claim for claim in spoken if claim.where not in (*_PERSONS, *_WITHOUT_VALUE)]
-    if not inside and (quantity := next((claim.value for claim in named if claim.value in _OTHER), "")):
+    if not inside and (
+        quantity := next((claim.value for claim in named if claim.value in ("spectrum", *_OTHER)), "")
+    ):
         raise RecordError(
             f"its name speaks of {quantity}, and nothing in it of acceleration; use the acceleration of the same "
             "record, or rename the file if it is that.",
@@ -107,7 +109,7 @@ def agreed(what: What, claims: Collection[Claim]) -> Any:
         if against and not any(_same(person, claim) for claim in against):
             error = AnswerContradictedError if person.where == Where.ANSWER else RecordError
             raise error(
-                f"{what} is {person}, but the file says {against[0]}; {_MEND[against is named]}.",
+                f"{what} is {person}, but the file says {against[0]}; {_MEND[against[0].where == Where.FILE_NAME]}.",
                 **{what: person.value},
             )
     of_file = [*inside, *(claim for claim in named if claim.where == Where.FILE_NAME)]
@@ -152,7 +154,8 @@ _OTHER: dict[str, re.Pattern[str]] = {
     ),
     "displacement": re.compile(
         r"(?i)(?<![a-z])(?:displ?(?:ac\w*|(?![a-z]))|desp(?:laz)\w*|despl?(?![a-z])|spostament\w*|d[eé]placement|"
-        r"deslocamento|yer ?de[gğ]i[sş]tirme)|verschiebung|перемещение|変位|位移|μετατόπιση"
+        r"deslocamento|yer ?de[gğ]i[sş]tirme)|verschiebung|перемещение|変位|变位|位移|μετατόπιση|"
+        r"(?m:(?<![a-z])(?:units?|unidade?s?|unit[aà]|unités?|einheit|birim)[^:=\n]*[:=]\s*[(\[]?[cm]?m[)\]]?\s*$)"
     ),
 }
 _OF_NO_MOTION = re.compile(
@@ -160,6 +163,7 @@ _OF_NO_MOTION = re.compile(
 )
 """The velocity of a site, or of a recorder, is no record."""
 _SERIES_IN_NAME = re.compile(r"(?i)(?<![a-z])(?:(vt2)|dt2)(?![a-z\d])|\.(?:(vel|vtx|semv)|disp?|semd)$")
+_SPECTRA = r"\w*spe[ck]tr\w*|spettr\w*|psa|psv|fas|fft|fourier"
 _SPECTRUM = re.compile(
     r"(?i)(?<![a-z])((?:response|fourier|power|design|pseudo|spectral|elastic|amplitude|hazard)\w*[ _-]+(?:\w+[ _-]+)?"
     r"spectr(?:um|a|al)|spectr(?:um|a) of|(?:pseudo[ -]?)?spectral acceleration|espectro de respuesta|"
@@ -219,9 +223,10 @@ def refuse_spectrum(header: Sequence[str]) -> None:
 _ABSCISSA = re.compile(r"(?i)\s*(period|freq(uency)?)\b.*|f(_hz)?|.*[(\[]\s*hz\s*[)\]]")
 _ORDINATE = re.compile(r"(?i)\s*(p?s[av]|sd|fas|fourier|spectr\w*)\b.*")
 _OTHER_TITLE = re.compile(
-    r"(?i)(?<![a-z])((?:shear |axial )?strains?|(?:shear |normal )?stress(?:es)?|forces?|moments?|fourier|"
-    r"(?:response |spectral |power )spectr\w*|psa|fas)(?![a-z])"
+    r"(?i)(?<![a-z])((?:shear |axial )?strains?|(?:shear |normal )?stress(?:es)?|forces?|moments?|pressure|jerk|"
+    rf"{_SPECTRA}|спектр\w*|φάσμα)(?![a-z])|(スペクトル|反应谱)"
 )
+_OF_TARGET = re.compile("(?i)match|compatib|consistent|target|scaled to|spectrally")
 
 
 def refuse_other_table(above: str, columns: Sequence[str]) -> None:
@@ -232,8 +237,8 @@ def refuse_other_table(above: str, columns: Sequence[str]) -> None:
     if columns and (_ABSCISSA.fullmatch(columns[0]) or any(map(_ORDINATE.fullmatch, columns[1:]))):
         raise _of_spectrum(", ".join(columns[:4]))
     refuse_other_quantity(above)
-    if (word := _OTHER_TITLE.search(above)) and not (_ACCELERATION.search(above) or "match" in above.lower()):
-        raise of_another(word[1].lower())
+    if (word := _OTHER_TITLE.search(above)) and not (_ACCELERATION.search(above) or _OF_TARGET.search(above)):
+        raise of_another(word[0].lower())
 
 
 # The name of a column.
@@ -253,7 +258,7 @@ after "in" it is a unit."""
 _WORDS_OF_OTHERS = re.compile(
     r"(?i)(?<![a-z])(gyro(?:scope)?|angular|magnet(?:ic|ometer)|rotation|tilt|pressure|volt(?:age)?|counts?|drift|"
     r"arias|husid|energy|power|jerk|slip|uplift|shear strain|strain|stress|forces?|moments?|shear|periods?|"
-    r"freq(?:uency)?|psa|p?sv|sa|sd|fas|fourier|spectr\w*|relative|rel|norm(?:ali[sz]ed)?|error|residual|resultant|srss|"
+    rf"freq(?:uency)?|sv|sa|sd|{_SPECTRA}|спектр\w*|relative|rel|norm(?:ali[sz]ed)?|error|residual|resultant|srss|"
     r"vector[ _]sum|rotd\d*|geo(?:metric)?[ _]?mean)(?![a-z])|[\[(](f|hz|mm|cm|m|in|ft|[mµu]?v|kn|k?pa|psi|-|%)[\])]$"
 )
 """Other quantities, accelerations that are not those of the ground in one direction, and units of what is neither."""
@@ -314,6 +319,10 @@ _GLUED = re.compile(r"^(.*[A-Z])(DWN)$|^(RSN\d+_.*[A-Z\d])(UP|DWN|DN|VER|VRT)$")
 """A vertical behind the letters of a station, as NGA writes it."""
 _CODE = re.compile(r"(?<![A-Za-z\d])[BCEHS][HNG]Z(?![A-Za-z\d])")
 """A vertical channel code anywhere in a name."""
+_UPWARDS = re.compile(
+    r"(?i)(?<![a-z\d])(?:UD\d?|vert(?:ical\w*|ikal)?|vrt|d[uü][sş]ey|updown)(?![a-z\d])|上下|垂直|竖向|вертик\w*"
+)
+"""A word that says nothing else, anywhere in a name that ends in no direction."""
 _DONE = re.compile(r"(?i)(scaled?|clean(ed)?|rounded|filled|sped|speed|back|set|sized?)[-_. ](up|down)$")
 """The end of a name in which "up" says what was done, as in "scaled_up"."""
 
@@ -350,6 +359,7 @@ def vertical_in_name(name: str) -> str:
     stem = without_ending(name.rpartition("/")[2])
     if code := _CODE.search(stem):
         return code[0]
+    is_level = False
     while stem:
         if len(stem) > 1 and stem.isalpha() and Direction.of(stem).vertical:
             return stem
@@ -359,16 +369,20 @@ def vertical_in_name(name: str) -> str:
         word = (glued[2] or glued[4]) if glued else direction_in_name(stem)[1]
         if Direction.of(word).vertical and not word.isdigit():
             return word
+        is_level = is_level or (bool(word) and not word.isdigit())
         shorter = _ANY_ENDING.sub("", stem)
         stem = shorter if shorter != stem else ""
-    return ""
+    upwards = None if is_level else _UPWARDS.search(name)
+    return upwards[0] if upwards else ""
 
 
-_STEP_IN_NAME = re.compile(r"(?i)(?<![a-z])dt[ _=-]?(\d*\.\d+)")
+_STEP_IN_NAME = re.compile(
+    r"(?i)(?<![a-z\d.])(dt[ _=-]?)?(\d*\.\d+|\d+(?= ?ms))(?: ?(m?s)(?:ec)?(?![a-z\d]))?"
+)
 _RATE_IN_NAME = re.compile(r"(?i)(?<![a-z\d.])(\d+(?:\.\d+)?) ?(?:hz|sps)(?![a-z])")
 _UNIT_IN_NAME = re.compile(
     r"(?<![A-Za-z])([cm]?m)[_ -]?(?:per[_ ]?)?s(?:ec)?[_^]?2(?![A-Za-z\d])|"
-    r"(?<![A-Za-z])(gals?|GAL(?=$))(?![A-Za-z])|(?<=_)(g)$"
+    r"(?<![A-Za-z])(gals?|GAL(?=$))(?![A-Za-z])|(?<=_)(m?g)$"
 )
 
 
@@ -380,9 +394,14 @@ def claims_of_name(file: str) -> tuple[Claim, ...]:
     """
     name = file.rpartition("/")[2]
     stem = re.sub(r"(?i)\.(txt|csv|dat|at2|asc|acc|th|out|prn|xlsx)$", "", name)
-    found = [
-        Claim("time_step", float(match[1]), Where.FILE_NAME, match[0])
+    steps = (
+        (match, float(match[2]) * SECONDS[(match[3] or "s").lower()])
         for match in _STEP_IN_NAME.finditer(stem)
+    )
+    found = [
+        Claim("time_step", step, Where.FILE_NAME, match[0])
+        for match, step in steps
+        if match[1] or (match[3] and step <= 1 / _FEWEST_PER_SECOND)
     ]
     if not _OF_FILTER.search(spaced(stem)):
         rates = ((match, float(match[1])) for match in _RATE_IN_NAME.finditer(stem))
@@ -392,9 +411,13 @@ def claims_of_name(file: str) -> tuple[Claim, ...]:
             if rate >= _FEWEST_PER_SECOND
         ]
     for match in _UNIT_IN_NAME.finditer(stem):
-        unit = f"{match[1]}/s2" if match[1] else match[2].lower().rstrip("s") if match[2] else "g"
+        unit = f"{match[1]}/s2" if match[1] else match[2].lower().rstrip("s") if match[2] else match[3]
         found.append(Claim("unit", unit, Where.FILE_NAME, match[0].strip("_")))
     quantity = other_quantity(spaced(name))
+    if re.search(rf"(?i)(?<![a-z])(?:{_SPECTRA})(?![a-z])", spaced(name)) and not _OF_MOTION.search(
+        spaced(name)
+    ):
+        quantity = "spectrum"
     if series := _SERIES_IN_NAME.search(name):
         quantity = "velocity" if series.lastindex else "displacement"
     found.append(Claim("unit", quantity, Where.FILE_NAME, quantity or ""))
@@ -435,7 +458,7 @@ _SCALED = re.compile(
 _SCALED_TO = re.compile(r"(?i)\(\s*scaled to [^)]*\)")
 _CELLS = re.compile(r"^\s*([^:=,;\t]+?)\s*[,;\t]\s*([^:=,;\t]+?)[\s,;]*$")
 """A comment of two cells, as "Unit,gal"."""
-_CLAUSE = re.compile(r"[;,]\s+|\.\s+(?=[A-Z])")
+_CLAUSE = re.compile(r"[;,]\s+|(?<![Mm]ax)(?<!MAX)\.\s+(?=[A-Z])")
 _PEAKS = (
     r"(?<![a-z])(?:(?:pga|peak|picco|pico|amax)(?![a-z])|max\w*|m[aá]xim\w*|massim\w*|spitzen\w*|en büyük|maks\w*|"
     r"максимал\w*|μέγιστ\w*)|最大|峰值"
@@ -501,7 +524,7 @@ _SAMPLES = re.compile(
 )
 _VALUE = r"\.?\s*(?:code|name)?\s*[:=：]?\s*([^,;:=()\[\]]*?)\s*(?:$|[,;()\[\]]|\s-\s)"
 _COMPONENT = (
-    r"(?:\bcomp(?:onent[ea]?|osante)?\b|\bkomponente?\b|\bbileşen\w*|\bdirection\b|\bdirecci[oó]n\b|\bdirezione\b|\brichtung\b|"
+    r"(?:\bcomp(?:onent[ea]?|osante)?\b|komponente?\b|\bbileşen\w*|\bdirection\b|\bdirecci[oó]n\b|\bdirezione\b|\brichtung\b|"
     r"\byön\w*|компонент\w*|συνιστώσα|成分|分量|方向)"
 )
 _DIRECTIONS = (
@@ -537,7 +560,9 @@ def _claims_of(line: str) -> tuple[Claim, ...]:
     found: list[tuple[What, Any]] = [("samples", match[1] or match[2]) for match in _SAMPLES.finditer(line)]
     for match in _PEAK.finditer(line):
         if unit := acceleration_unit(match["in"] or match["unit"] or ""):
-            found.append(("peak", float(match["value"]) * acceleration_factor(unit)))
+            factor = acceleration_factor(unit)
+            half_digit = 0.5 * 10.0 ** -len(match["value"].partition(".")[2])
+            found.append(("peak", (abs(float(match["value"])) * factor, half_digit * factor)))
     for text in dict.fromkeys((line, _CELLS.sub(r"\1: \2", line))):
         bare = _SCALED_TO.sub("", text)
         if not (_TIMES.search(bare) or _SCALED.search(bare)):
@@ -625,16 +650,19 @@ class Declarations:
 
 
 def warnings_of_claims(channel: Accelerogram, said: Declarations) -> tuple[RockingWarning, ...]:
-    """Return a warning where the peak or the direction of the only channel is not what the text above it says."""
+    """Return a warning where the peak or the direction of the only channel is not what the text above it says.
+
+    Of a channel that has no direction of its own, where the text says two.
+    """
     warnings = []
     peaks = [claim.value for claim in said.claims if claim.what == "peak"]
-    if peaks and not any(_SAME["peak"](abs(peak), channel.peak_acceleration) for peak in peaks):
-        values = {"peak_m_s2": channel.peak_acceleration, "stated_m_s2": abs(peaks[0])}
+    if peaks and not any(_SAME["peak"](peak, (channel.peak_acceleration,)) for peak in peaks):
+        values = {"peak_m_s2": channel.peak_acceleration, "stated_m_s2": peaks[0][0]}
         warnings.append(RockingWarning.of(RecordKind.PEAK_UNLIKE_HEADER, **values))
-    if said.component and point_apart(said.component, channel.component):
-        warnings.append(
-            RockingWarning.of(RecordKind.DIRECTION_SAID_TWICE, channel.component, other=said.component)
-        )
+    names = [claim.value for claim in said.claims if claim.what == "direction"]
+    own = channel.component if Direction.of(channel.component).is_known else "".join(names[:1])
+    if other := next((name for name in names if point_apart(name, own)), ""):
+        warnings.append(RockingWarning.of(RecordKind.DIRECTION_SAID_TWICE, own, other=other))
     return tuple(warnings)
 
 
@@ -665,7 +693,7 @@ def _units(line: str) -> set[str]:
         for lead in _LEAD.finditer(clause):
             words = clause[lead.end() :].split()
             is_sure = lead["sure"] or "/" in "".join(words[:1]) or of_line or _OF_VALUES.search(clause)
-            spelt = (" ".join(words[:count]).rstrip(".,;)]") for count in (3, 2, 1)) if is_sure else ()
+            spelt = (" ".join(words[:count]).rstrip(".,;)]") for count in range(5, 0, -1)) if is_sure else ()
             found += [unit for word in spelt if (unit := acceleration_unit(word))][:1]
     return set(found)
 
@@ -689,14 +717,13 @@ def _is_direction(name: str) -> bool:
 
 _DIGITS_OF_AN_ANGLE = 3
 
-END = re.compile(
-    r"(?i)(?:[#%$!]|//).*|[a-z]\w*[ \t]*\$|[\W_]*(?:end(?:[ \t]+of)?(?:[ \t]+\w+)?|eof)[\W_]*|[}\])]+;?"
+_MARK = (
+    r"(?:[^\w\n]*(?:end|eof)(?:[ \t]+(?:of|d\w+|file)){0,2}[^\w\n]*|/?[&*/]|[*=-]{3,}|"
+    r"[a-z]+[ \t]*\$|[}\])]+;?)"
 )
+END = re.compile(rf"(?i)(?:[#%$!]|//).*|{_MARK}|[\W_]*end(?:[ \t]+of)?(?:[ \t]+\w+)?[\W_]*")
 """Warnings, or a word for the end, below the numbers: these are reported to nobody."""
-_MARK_OF_END = re.compile(
-    rb"(?i)(?:(?<=\n)|(?<=\d)(?=\*\*))[ \t]*(?:"
-    rb"[*\-=\s]*(?:end|eof)(?:[ \t]+(?:of[ \t]+)?(?:data|file))?[*\-=. \t]*|/[&*]|[a-z]+[ \t]*\$|[}\])]+;?)\Z"
-)
+_MARK_OF_END = re.compile(rf"(?i)(?:(?:(?<=\n)|(?<=\d)(?![)\]])){_MARK}|(?<=\n)[#%!].*)\Z".encode())
 
 
 def without_end(body: bytes) -> bytes:

@@ -1,5 +1,6 @@
 """Direction: where a component points, decided once from what its reader, its name, its file and its row say."""
 
+import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -15,16 +16,15 @@ _VERTICAL = {
     "400", "500", "600",  # codes of vertical, up and down in the headers of USC, SMC and COSMOS
 }  # fmt: skip
 _NAMED = {
-    "N": 0.0, "NS": 0.0, "N-S": 0.0, "S-N": 180.0, "NORTH": 0.0, "E": 90.0, "EW": 90.0, "E-W": 90.0, "W-E": 90.0,
-    "N/S": 0.0, "E/W": 90.0, "WE": 90.0, "EAST": 90.0, "S": 180.0, "SOUTH": 180.0, "W": 270.0, "WEST": 270.0,
-    "NORTH-SOUTH": 0.0, "NORTH SOUTH": 0.0, "EAST-WEST": 90.0, "EAST WEST": 90.0,
-    "NORTE": 0.0, "NORTE-SUR": 0.0, "SUR": 180.0, "ESTE": 90.0, "OESTE": 270.0, "E-O": 90.0, "EO": 90.0, "E/O": 90.0,
-    "ESTE-OESTE": 90.0, "NORD": 0.0, "NORD-SUD": 0.0, "SUD": 180.0, "EST": 90.0, "EST-OUEST": 90.0, "EST-OVEST": 90.0,
-    "OUEST": 270.0, "OVEST": 270.0, "OST": 90.0, "KUZEY-GÜNEY": 0.0, "DOĞU-BATI": 90.0,
-    "KUZEY-GUNEY": 0.0, "DOGU-BATI": 90.0, "KUZEY": 0.0, "DOĞU": 90.0, "DOGU": 90.0, "K-G": 0.0, "D-B": 90.0,
+    "NS": 0.0, "EW": 90.0, "WE": 90.0, "W-E": 90.0, "E-O": 90.0, "EO": 90.0, "E/O": 90.0, "K-G": 0.0, "D-B": 90.0,
     "南北": 0.0, "東西": 90.0, "南北動": 0.0, "東西動": 90.0, "东西": 90.0,
     "СЮ": 0.0, "С-Ю": 0.0, "ВЗ": 90.0, "В-З": 90.0,
+    **dict.fromkeys(("N", "NORTH", "NORTE", "NORD", "KUZEY", "СЕВЕР", "ΒΟΡΡΆΣ", "ΒΟΡΡΑΣ"), 0.0),
+    **dict.fromkeys(("E", "EAST", "ESTE", "LESTE", "EST", "OST", "DOĞU", "DOGU", "ВОСТОК", "ΑΝΑΤΟΛΉ", "ΑΝΑΤΟΛΗ"), 90.0),
+    **dict.fromkeys(("S", "SOUTH", "SUR", "SUL", "SUD", "SÜD", "GÜNEY", "GUNEY", "ЮГ", "ΝΌΤΟΣ", "ΝΟΤΟΣ"), 180.0),
+    **dict.fromkeys(("W", "WEST", "OESTE", "OUEST", "OVEST", "BATI", "ЗАПАД", "ΔΎΣΗ", "ΔΥΣΗ"), 270.0),
 }  # fmt: skip
+"""Of two opposite words, as in "NORD-SUD", the first counts."""
 _RELATIVE = {
     **{word: word for word in ("L", "T", "R", "X", "Y", "1", "2", "3", "H1", "H2", "FN", "FP", "SN", "SP")},
     "HX": "X", "HY": "Y", "HL": "L", "HT": "T", "HR": "R", "H3": "3",
@@ -144,7 +144,9 @@ def _azimuth(word: str) -> float | None:
         pole, degrees, side = quadrant.groups()
         turn = int(degrees) if (pole == "N") == (side == "E") else -int(degrees)
         return float(((0 if pole == "N" else 180) + turn) % 360)
-    return _NAMED.get(word)
+    ends = [_NAMED.get(part, math.nan) for part in re.split("[-/ ]+", word)]
+    is_pair = len(ends) == 2 and abs(ends[0] - ends[-1]) == 180
+    return _NAMED.get(word, ends[0] if is_pair else None)
 
 
 def names_acceleration(component: str) -> bool:

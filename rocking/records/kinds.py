@@ -58,8 +58,8 @@ class RecordKind(Kind):
         last {lasts_s:g} s."""
     RATE_NO_NUMBER = auto(), """The header gives a rate of {rate!r}, which is not a number: the file may be
         damaged."""
-    RATE_UNLIKE_STEP = auto(), """The header gives a rate of {rate_hz:g} Hz, but duration and sample count
-        give a step of {time_step_s:g} s."""
+    RATE_UNLIKE_STEP = auto(), """The header, or the StationXML, gives a rate of {rate_hz:g} Hz, but the
+        record has a step of {time_step_s:g} s, which is used."""
     MATCHED_TO_SPECTRUM = auto(), """The header says that the record is matched to a spectrum: artificial, not
         a recorded motion."""
     SCALE_APPLIED = auto(), "Samples multiplied by the SCALE that the header states, {factor:g}."

@@ -379,11 +379,10 @@ def _named_by_file(records: list[Accelerogram], name: str) -> list[Accelerogram]
     if not word or word.isdigit() or len(records) != 1:  # digits may count files
         return records
     (record,) = records
-    is_level = record.azimuth is not None and not record.vertical
-    if (upwards and is_level) or point_apart(word, record.component):
+    is_open = record.azimuth is None and names_no_direction(record.component)
+    if (upwards and not record.vertical and not is_open) or point_apart(word, record.component):
         return [record.warned(RockingWarning.of(RecordKind.DIRECTION_IN_NAME, record.component, word=word))]
-    is_open = record.azimuth is None and not record.vertical and not record.borehole
-    if not (upwards and is_open and names_no_direction(record.component)):
+    if not upwards or record.vertical or record.borehole:
         return records
     return [replace(record, vertical=True).warned(RockingWarning.of(RecordKind.VERTICAL_BY_NAME, word=word))]
 

@@ -166,7 +166,9 @@ def _read_sac(content: bytes, options: Options) -> list[Accelerogram]:
     for trace in traces:
         _check_extremes(stated_by_sac(trace.stats), trace.data)
         try:
-            inventory = None if options.unit else inventory_for(trace.stats, options)
+            inventory = (
+                None if options.unit and not options.inventory else inventory_for(trace.stats, options)
+            )
         except UndeclaredError as error:
             silent = "unit is not declared, for a SAC file declares none, and"
             raise UndeclaredError(f"{silent} {error}", unit=None) from None
@@ -178,7 +180,17 @@ def _read_sac(content: bytes, options: Options) -> list[Accelerogram]:
 def _taken(
     traces: Any, inventory: Any, unit: str | None, options: Options, warnings: tuple[RockingWarning, ...]
 ) -> list[Accelerogram]:
-    """Return the accelerograms of traces as the file holds them, with what obspy warned of."""
+    """Return the accelerograms of traces as the file holds them, with what obspy warned of.
+
+    Raises RecordError where counts, which an inventory describes, are declared to be in a unit, or are called velocity.
+    """
+    if inventory is not None and options.unit:
+        raise RecordError(
+            f"unit is {options.unit!r}, but by the inventory the samples are counts; omit one of the two.",
+            unit=options.unit,
+        )
+    if inventory is not None:
+        options.unit_of("m/s2")
     records = []
     for record in from_traces(traces, inventory, unit, options.response, "apply"):
         step = options.time_step_of(record.time_step)

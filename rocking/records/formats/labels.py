@@ -11,6 +11,9 @@ from rocking.records.claims import (
     PLAIN_ACCELERATION,
     SECONDS,
     WORDS_OF_ACCELERATION,
+    Claim,
+    Where,
+    agreed,
     other_of_column,
     seconds_of,
     unit_of_column,
@@ -147,6 +150,9 @@ def with_units(names: Sequence[str], units: Sequence[str]) -> tuple[str, ...]:
     are_units = all(label.unit or label.is_time or label.other for label in given)
     if not (are_units and any(label.unit for label in given)):
         return ()
+    for name, label in zip(names, (ColumnLabel(f"({unit})") for unit in bare), strict=False):
+        texts = zip((ColumnLabel(name).unit, label.unit), (name, label.text), strict=True)
+        agreed("unit", [Claim("unit", unit, Where.COLUMN, text) for unit, text in texts])
     return tuple(f"{name} ({unit})" if unit else name for name, unit in zip(names, bare, strict=False))
 
 

@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
@@ -11,7 +12,7 @@ from types import MappingProxyType
 from typing import Literal, get_args
 
 from rocking.errors import CatalogueError, RecordError, UndeclaredError
-from rocking.quantities import acceleration_unit, counted, is_number
+from rocking.quantities import acceleration_factor, acceleration_unit, counted, is_number
 from rocking.records.claims import other_quantity, seconds_of
 from rocking.tables import edited_text, read_edited
 
@@ -415,10 +416,18 @@ class Layouts:
         """
         return "; ".join(answer.text for answer in self._matching(signature))
 
-    def line_of(self, signature: Signature | None) -> int | None:
-        """Return the line of layouts.csv that alone answers for tables of a signature, None where there is none."""
+    def own(self, signature: Signature | None) -> tuple[int, float]:
+        """Return the line of layouts.csv that alone answers for tables of a signature, 0 where there is none.
+
+        And the peak that such a table has by it, m/s²; 0 where the unit of its numbers follows from something else.
+        """
         own = [answer for answer in self._matching(signature) if answer.whose == NAME]
-        return own[0].line if len(own) == 1 else None
+        if signature is None or len(own) != 1:
+            return 0, 0.0
+        units: list[str | None] = []
+        with suppress(RecordError):  # of an answer that is none, which its files say
+            units = [column.unit for column in own[0].layout.columns if column.role == "acceleration"]
+        return own[0].line, signature.peak * acceleration_factor(units[0]) if units and units[0] else 0.0
 
     def insists(self, line: int, why: str) -> bool:
         """Whether a person left an answer although its row says why it cannot hold: then it counts."""

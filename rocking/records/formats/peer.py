@@ -2,8 +2,10 @@
 
 import re
 
+import numpy as np
+
 from rocking.errors import RecordError
-from rocking.quantities import is_number
+from rocking.quantities import GRAVITY, is_number
 from rocking.records.claims import (
     Claim,
     Declarations,
@@ -13,12 +15,13 @@ from rocking.records.claims import (
     factor_warnings,
     point_apart,
     refuse_other_quantity,
+    warnings_of_claims,
 )
 from rocking.records.direction import directed
 from rocking.records.formats.format import Format, Layout, Options
-from rocking.records.formats.text import after_lines, count, lines, number, numbers, whole
+from rocking.records.formats.text import after_lines, count, lines, number, numbers, whole, without_filling
 from rocking.records.kinds import RecordKind
-from rocking.signal.accelerogram import Accelerogram
+from rocking.signal.accelerogram import RARE_PEAK, Accelerogram
 from rocking.warnings import RockingWarning
 
 _STEPS = (
@@ -69,13 +72,18 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     for line in head:
         refuse_other_quantity(line)
     declarations = Declarations.of(head)
-    said = [*declarations.claims, *options.said]
-    if any(claim.what == "unit" for claim in declarations.claims):
-        said.append(Claim("unit", "g", Where.FORMAT, "an AT2 of PEER is in g"))
-    unit = agreed("unit", said) or ""
     declared = count("NPTS", size["npts"])
     agreed("samples", declarations.claims)
-    values, warnings = whole(numbers(after_lines(content.lstrip(b"\n"), len(head))), declared, per_line=8)
+    body = after_lines(content.lstrip(b"\n"), len(head))
+    bare, filled = without_filling(body)
+    is_filled = filled and len(bare.split()) == declared
+    values, warnings = whole(numbers(bare if is_filled else body), declared, per_line=8)
+    warnings += filled
+    said = [*declarations.claims, *options.said]
+    may_be_in_g = np.abs(values).max() * GRAVITY <= RARE_PEAK
+    if may_be_in_g and any(claim.what == "unit" for claim in declarations.claims):
+        said.append(Claim("unit", "g", Where.FORMAT, "an AT2 of PEER is in g"))
+    unit = agreed("unit", said) or ""
     parts = [part.strip() for part in head[1].split(",")] if len(head) > 1 else [""]
     while len(parts) > 1 and _IN_BRACKETS.fullmatch(parts[-1]):
         del parts[-1]
@@ -85,8 +93,8 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     corner = points[1] if points else poles[1][1] if len(poles) > 1 and poles[1][0] != "0" else "0"
     named = _component(title)
     component = azimuth_of_sensor(head) or named
-    if other := next((said for said in (named, declarations.component) if point_apart(said, component)), ""):
-        warnings += (RockingWarning.of(RecordKind.DIRECTION_SAID_TWICE, component, other=other),)
+    if point_apart(named, component):
+        warnings += (RockingWarning.of(RecordKind.DIRECTION_SAID_TWICE, component, other=named),)
     # A sentence says where a channel points, and does not name it.
     facts = directed({"component": component or declarations.component})
     facts |= {"component": component, "processed": True, "warnings": warnings}
@@ -99,7 +107,8 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     facts["high_pass_frequency"] = float(corner) or None if is_number(corner) else None
     step = number("DT", size["dt"]) * (1e-3 if size.groupdict().get("milli") else 1.0)
     step = agreed("time_step", (Claim("time_step", step, Where.HEAD), *said)) or step
-    return [_LAYOUT.channel(text, values, options, unit=unit, step=step, **facts)]
+    record = _LAYOUT.channel(text, values, options, unit=unit, step=step, **facts)
+    return [record.warned(*warnings_of_claims(record, declarations))]
 
 
 def _component(title: str) -> str:

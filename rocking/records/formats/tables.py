@@ -438,9 +438,6 @@ def _is_row(line: str, width: int) -> bool:
     return is_like_one or (width == 1 == len(cells) and bool(re.search(r"\d", bare)))
 
 
-_FILLING = re.compile(rb"(?i)(?:[ \t]+nan)+\s*\Z")
-
-
 def _plain_rows(table: NumberTable, below: bytes) -> tuple[NumberTable, bytes, tuple[RockingWarning, ...]]:
     """Return a table with its tail, its rows of numbers without the empty cells behind them, and what there is to say.
 
@@ -448,8 +445,7 @@ def _plain_rows(table: NumberTable, below: bytes) -> tuple[NumberTable, bytes, t
     """
     body, tail = _parted(below, table.width)
     may_be_filled = not table.labels and table.width > 2
-    bare = body[:-_TAIL] + _FILLING.sub(b"\n", body[-_TAIL:]) if may_be_filled else body
-    notes = (RockingWarning(RecordKind.ROW_FILLED_UP),) if bare != body else ()
+    bare, notes = text.without_filling(body) if may_be_filled else (body, ())
     if _EMPTY_LAST.search(bare):
         bare = _EMPTY_END.sub(b"", bare)
     if _EMPTY_CELL.search(bare):
@@ -735,7 +731,7 @@ def _channels(
             Claim("unit", label.unit, Where.COLUMN, label.text),
             Claim("time_step", layout.time_step if layout.is_answer else None, Where.ANSWER),
             Claim("time_step", step, Where.SAMPLES),
-            *(claim for claim in table.said.claims if layout.is_answer or claim.where == Where.HEAD),
+            *(claim for claim in table.said.claims if claim.where == Where.HEAD or not options.is_stand_in),
             *options.said,
         )
         unit, agreed_step = agreed("unit", claims), agreed("time_step", claims)

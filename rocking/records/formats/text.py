@@ -134,6 +134,15 @@ def column_width(row: str) -> int:
     return points[1] - points[0] if len(points) > 1 else max(1, len(row.rstrip()))
 
 
+_FILLING = re.compile(rb"(?i)(?:[ \t]+nan)+\s*\Z")
+
+
+def without_filling(body: bytes) -> tuple[bytes, tuple[RockingWarning, ...]]:
+    """Return rows of numbers without the NaN that fill up the last one, and a warning where there were any."""
+    bare = body[:-4000] + _FILLING.sub(b"\n", body[-4000:])
+    return bare, () if bare == body else (RockingWarning(RecordKind.ROW_FILLED_UP),)
+
+
 def whole(values: np.ndarray, declared: int, per_line: int) -> tuple[np.ndarray, tuple[RockingWarning, ...]]:
     """Return `values`, with a warning if there are up to a line more than `declared`.
 

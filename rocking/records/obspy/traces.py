@@ -118,6 +118,14 @@ def calibrated(trace: Any, inventory: Any, response: str) -> Motion:
             f"the StationXML holds no response of {trace.id} at {stats.starttime}.", inventory=trace.id
         ) from error
     unit, order = measured_as(units)
+    first = next((str(stage.input_units) for stage in of.response_stages or () if stage.input_units), units)
+    leads_to = str(of.instrument_sensitivity.output_units).upper()
+    if leads_to in ("V", "VOLT", "VOLTS") or measured_as(first) != (unit, order):
+        raise RecordError(
+            f"the sensitivity of {trace.id} leads from {units} to {leads_to}, but its first stage measures {first}, "
+            "and its samples are counts: the StationXML contradicts itself; ask the network which one holds.",
+            inventory=trace.id,
+        )
     factor = acceleration_factor(unit)
     warnings = _check_gain(gain, of, trace.id, response)
     staged = bool(getattr(of, "response_stages", None))
@@ -158,7 +166,11 @@ def _check_epochs(trace: Any, inventory: Any) -> None:
     said: dict[str, str] = {}
     for described in _channels_at(trace, inventory):
         if described.response and (of := described.response.instrument_sensitivity):
-            points = f"azimuth {described.azimuth:g}°" if described.azimuth is not None else "no azimuth"
+            points = (
+                f"azimuth {described.azimuth:g}°, dip {described.dip}"
+                if described.azimuth is not None
+                else "no azimuth"
+            )
             words = f"{of.value:g} counts per {of.input_units}, {points}"
             said.setdefault(words, f"{words} (from {described.start_date})")
     if len(said) > 1:
@@ -169,7 +181,11 @@ def _check_epochs(trace: Any, inventory: Any) -> None:
         )
 
 
-_NO_ORIENTATION = re.compile(r"(?i)orientation[^.;]*\b(not known|unknown|uncertain)|unknown orientation")
+_NO_ORIENTATION = re.compile(
+    r"(?i)(orientation|orientaci[oó]n|azimuth)[^.;]*\b(not (known|surveyed|verified|reliable|measured)|"
+    r"un(known|certain|verified|surveyed|reliable)|desconocid|incert|sconosciut)|"
+    r"unknown (sensor )?(orientation|azimuth)"
+)
 
 
 def _by_sensitivity(trace: Any, per_unit: float, order: int) -> Motion:
@@ -267,15 +283,20 @@ def site(trace: Any, inventory: Any) -> dict[str, Any]:
     """
     facts: dict[str, Any] = {}
     with suppress(Exception):  # obspy raises what it likes for what is not there
-        said = " ".join(
-            note.value for described in _channels_at(trace, inventory) for note in described.comments
-        )
+        active = _channels_at(trace, inventory)
+        said = " ".join(note.value for described in active for note in described.comments)
         is_unknown = bool(_NO_ORIENTATION.search(said))
         orientation = inventory.get_orientation(trace.id, trace.stats.starttime)
         dip = float(orientation.get("dip") or 0.0)
-        warnings: tuple[RockingWarning, ...] = ()
+        step = float(trace.stats.delta)
+        rates = [] if trace.stats.get("processing") else [float(each.sample_rate or 0) for each in active]
+        warnings = tuple(
+            RockingWarning.of(RecordKind.RATE_UNLIKE_STEP, rate_hz=rate, time_step_s=step)
+            for rate in rates
+            if rate and abs(rate * step - 1) > 0.01
+        )
         if is_unknown and abs(dip) <= STEEP:
-            warnings = (RockingWarning(RecordKind.ORIENTATION_UNKNOWN, trace.id),)
+            warnings = (*warnings, RockingWarning(RecordKind.ORIENTATION_UNKNOWN, trace.id))
         elif orientation.get("azimuth") is not None:
             facts["azimuth"] = float(orientation["azimuth"]) % 360
         if orientation.get("dip") is not None:

@@ -311,6 +311,24 @@ def test_two_rates_in_a_head_are_asked(tmp_path: Path, head: str) -> None:
         read(path)
 
 
+@pytest.mark.parametrize(("peaks", "answer", "why"), [
+    ((0.3, 0.35), "t, a cm/s2", "all 2 files would be below 0.001 g"),
+    ((2.2, 2.9), "t, a g", "2 of its 2 files would be above 1 g"),
+    ((2.2, 2.9, 6.0), "t, a g", "3 of its 3 files would be above 1 g"),
+])  # fmt: skip
+def test_files_that_an_answer_makes_too_weak_or_too_strong_open_it_again(
+    tmp_path: Path, peaks: tuple[float, ...], answer: str, why: str
+) -> None:
+    """One that is refused for its peak alone counts with the others."""
+    for place, peak in enumerate(peaks):
+        (tmp_path / f"{place}.txt").write_text(pairs(peak))
+    write_asked(tmp_path)
+    answer_all(tmp_path, {"0.txt": answer})
+    catalogue = catalogue_of_folder(tmp_path)
+    assert all(file.refusal for file in catalogue.files) and why in catalogue.files[0].refusal
+    assert f"? {answer}" in (catalogue.layouts or "")
+
+
 def test_an_answer_is_tried_on_all_its_files_before_it_counts(tmp_path: Path) -> None:
     """Files of 1.1 to 2 m/s² are no records in g; the one of .35 g next to them is of a line of its own."""
     for place, peak in enumerate((0.35, *np.geomspace(1.1, 2.0, 7))):

@@ -13,6 +13,7 @@ from rocking.errors import RecordError
 from rocking.records.kinds import RecordKind
 from rocking.warnings import Kind
 from tests.refusals import refused
+from tests.unit.records.test_instruments import XML
 
 COUNTS = np.round(1e5 * np.sin(np.arange(3000) / 30) * np.hanning(3000))
 
@@ -115,7 +116,32 @@ def test_epochs_that_overlap_and_differ_are_refused_with_both(change: str, new: 
     assert (record.azimuth, same.azimuth) == (0 if change == "azimuth" else 90, 90)
 
 
+@pytest.mark.parametrize(("old", "new"), [
+    ("<PolesZeros>\n<InputUnits><Name>M/S**2", "<PolesZeros>\n<InputUnits><Name>M/S"),
+    ("<Name>COUNTS</Name></OutputUnits></Inst", "<Name>V</Name></OutputUnits></Inst"),
+])  # fmt: skip
+def test_a_sensitivity_that_its_first_stage_or_the_counts_contradict_is_refused(old: str, new: str) -> None:
+    """The one led to a motion of another order, and the other left out the gain of the recorder, both unsaid."""
+    text = XML.format(units="M/S**2")
+    assert old in text
+    described = read_inventory(io.BytesIO(text.replace(old, new).encode()), format="STATIONXML")
+    late = trace()
+    late.stats.starttime = UTCDateTime(2020, 1, 1)
+    with refused(RecordError, "inventory"):
+        rocking.from_obspy(late, described)
+
+
+def test_the_rate_of_a_stationxml_is_held_against_that_of_the_samples() -> None:
+    for rate, is_told in ((100.0, False), (200.0, True)):
+        described = inventory()
+        described[0][0][0].sample_rate = rate
+        (record,) = rocking.from_obspy(trace(), described)
+        assert (RecordKind.RATE_UNLIKE_STEP in {warning.kind for warning in record.warnings}) == is_told
+        assert record.time_step == 0.01
+
+
 @pytest.mark.parametrize(("note", "dip", "azimuth"), [
+    ("Sensor azimuth unverified", 0.0, None), ("orientación desconocida", 0.0, None),
     ("Sensor orientation not known", 0.0, None), ("Unknown orientation", 0.0, None),
     ("Orientation checked in 1999", 0.0, 90.0), ("Sensor orientation not known", -90.0, 90.0),
 ])  # fmt: skip

@@ -80,7 +80,10 @@ def test_a_factor_in_the_head_of_an_at2_is_reported(tmp_path: Path, first: str) 
 
 SPELLINGS = {
     "CM/S/S": 0.01, "M/S/S": 1.0, "MM/SEC/SEC": 1e-3, "m/sec²": 1.0, "cm/s^2": 0.01, "CM/SEC**2": 0.01, "GAL": 0.01,
-    "gals": 0.01, "mg": G / 1000, "G": G, "(g)": G, "IN/S/S": 0.0254, "FT/S/S": 0.3048, "cm/s2": 0.01, "m s-2": 1.0,
+    "gals": 0.01, "mg": G / 1000, "G": G, "(g)": G, "cm/seg2": 0.01, "м/с²": 1.0, "Гал": 0.01, "% g": G / 100,
+    "cm / s 2": 0.01, "CM PER SEC PER SEC": 0.01, "meters/second^2": 1.0, "cm/sn²": 0.01, "inch/s2": 0.0254,
+    "μm/s²": 1e-6,
+    "IN/S/S": 0.0254, "FT/S/S": 0.3048, "cm/s2": 0.01, "m s-2": 1.0,
 }  # fmt: skip
 
 
@@ -121,6 +124,8 @@ def test_an_at2_that_says_another_unit_than_its_format_is_asked_and_the_user_set
         assert record.acceleration == pytest.approx(MOTION * value / G, rel=1e-5)
     with refused(RecordError, "unit"):
         read(path, unit="mg")
+    (record,) = read(at2(tmp_path, unit="UNITS OF CM/S/S", factor=100.0))  # no ground moves by so many g
+    assert record.acceleration == pytest.approx(MOTION, rel=1e-5)
 
 
 @pytest.mark.parametrize(
@@ -132,7 +137,9 @@ def test_a_unit_next_to_a_factor_or_another_is_asked(tmp_path: Path, unit: str) 
 
 
 @pytest.mark.parametrize(("head", "kind"), [
-    ("# PGA = 0.9 g\nt NS(g)\n", RecordKind.PEAK_UNLIKE_HEADER), ("# vertical\nt NS(g)\n",
+    ("# PGA = 0.9 g\nt NS(g)\n", RecordKind.PEAK_UNLIKE_HEADER), ("# максимальное ускорение: 0.9 g\nt NS(g)\n",
+    RecordKind.PEAK_UNLIKE_HEADER), ("# Max. Acc. (gal) = 900\nt NS(g)\n", RecordKind.PEAK_UNLIKE_HEADER),
+    ("# amplified by 2\nt NS(g)\n", RecordKind.FACTOR_NOT_APPLIED), ("# vertical\nt NS(g)\n",
     RecordKind.DIRECTION_SAID_TWICE),
 ])  # fmt: skip
 def test_a_peak_or_a_direction_that_is_not_that_of_the_column_is_reported(
@@ -149,7 +156,7 @@ def test_a_peak_or_a_direction_that_is_not_that_of_the_column_is_reported(
     ("PULDWN", "DWN"), ("RSN1_XYZUP", "UP"), ("A-ESODWN", "DWN"), ("TAB-V1", "V1"), ("x_HNZ_2016", "HNZ"),
     ("XX.MADE..HGZ.D", "HGZ"),
     ("made_UD", "UD"), ("made-VERT", "VERT"), ("scaled_up", ""), ("20200101T102244Z", ""), ("made.v1", ""),
-    ("made_NS", ""),
+    ("made_NS", ""), ("UD_made", "UD"), ("made_UD_g", "UD"), ("düşey_acc", "düşey"), ("Cap_Vert_NS", ""),
 ])  # fmt: skip
 def test_a_vertical_is_known_by_the_name_of_its_file_with_any_ending(name: str, word: str) -> None:
     for ending in ("", ".AT2", ".ATH", ".thf", ".rec", ".hst", ".his", ".acc1", ".gm", ".txt.gz"):
@@ -199,13 +206,14 @@ ENDS = [
     "/&\n",
     "*** End Data ***\n",
     "\nend of file\n",
+    "END\n",
+    "\n----\n",
+    "  NaN NaN\n",
 ]
 
 
 @pytest.mark.parametrize("end", ENDS)
 def test_a_mark_of_the_end_is_passed_over(tmp_path: Path, end: str) -> None:
-    if not end.startswith("\n") and not end.startswith("*"):
-        end = f"\n{end}"
     (record,) = read(at2(tmp_path, end=end))
     assert record.acceleration.size == MOTION.size and record.acceleration == pytest.approx(MOTION, abs=1e-5)
 

@@ -50,14 +50,17 @@ def series(head: str, name: str = "made.txt") -> Callable[[Path], Path]:
 
 
 def book(
-    head: str, columns: tuple[str, ...] = ("t (s)", "NS (m/s2)"), name: str = "made.xlsx"
+    head: str,
+    columns: tuple[str, ...] = ("t (s)", "NS (m/s2)"),
+    name: str = "made.xlsx",
+    below: tuple[str, ...] = (),
 ) -> Callable[[Path], Path]:
     """A workbook with a line of text above its names."""
 
     def write(folder: Path) -> Path:
         sheet = (document := openpyxl.Workbook()).active
         for cells in filter(
-            None, ([head] if head else [], columns, *zip(TIMES.tolist(), STRONG.tolist(), strict=True))
+            None, ([head] if head else [], columns, below, *zip(TIMES.tolist(), STRONG.tolist(), strict=True))
         ):
             sheet.append(cells)
         document.save(folder / name)
@@ -121,6 +124,13 @@ CASES: dict[str, tuple[Callable[[Path], Path], dict, tuple[str, ...]]] = {
     ),
     "unit: workbook, column and option": (book(""), {"unit": "g"}, ("'g'", "NS (m/s2)")),
     "unit: workbook, head and column": (book("units: mg"), {}, ("mg", "NS (m/s2)", "unit=")),
+    "unit: AT2, Portuguese head": (of_peer(first="unidade: cm/seg2"), {}, ("cm/seg2", "UNITS OF G", "unit=")),
+    "unit: table, Russian head": (text("# единицы: см/с²\n", "t,NS (g)"), {}, ("см/с²", "NS (g)", "unit=")),
+    "unit: table, Japanese head": (text("# 加速度(gal)\n"), {}, ("gal", "NS (m/s2)", "unit=")),
+    "unit: table, name in mg": (text("", name="made_mg.csv"), {}, ("mg", "NS (m/s2)", "unit=")),
+    "unit: workbook, name and row below": (
+        book("", ("t", "NS (mg)"), below=("s", "g")), {}, ("NS (mg)", "(g)", "unit=")
+    ),
     # step
     "step: AT2, head and option": (of_peer(), {"time_step": 0.02}, ("0.02", "0.01")),
     "step: AT2, two heads": (of_peer(first="RECORD, dt = 0.003 s"), {}, ("dt = 0.003 s", "0.01 s", "time_step=")),
@@ -147,7 +157,15 @@ CASES: dict[str, tuple[Callable[[Path], Path], dict, tuple[str, ...]]] = {
     ),
     "step: workbook, head and times": (book("dt = 0.005 s"), {}, ("0.005", "0.01 s", "time_step=")),
     "step: workbook, times and option": (book(""), {"time_step": 0.02}, ("0.02", "0.01")),
+    "step: table, Russian head": (text("# частота дискретизации: 50 Гц\n"), {}, ("50 Гц", "0.01 s", "time_step=")),
+    "step: table, head in ms": (text("# Abtastintervall: 5 ms\n"), {}, ("5 ms", "0.01 s", "time_step=")),
+    "step: table, rate that is spoken of and option": (
+        series("# units: g\n# 200 samples per second\n"), {"time_step": 0.02}, ("0.02", "200 samples")
+    ),
+    "step: table, name in ms": (text("", name="made_5ms.csv"), {}, ("5ms", "0.01 s", "time_step=")),
     # count
+    "count: table, Italian head": (text("# numero di campioni: 1000\n"), {}, ("1000", "600")),
+    "count: workbook, two cells": (book("NPTS 1000"), {}, ("1000", "600")),
     "count: table, head and rows": (text("# NPTS = 1000\n"), {}, ("1000", "600")),
     "count: table, two heads": (text("# NPTS = 700\n# 1000 points\n"), {}, ("700", "600")),
     "count: workbook, head and rows": (book("NPTS = 1000"), {}, ("1000", "600")),
@@ -159,6 +177,10 @@ CASES: dict[str, tuple[Callable[[Path], Path], dict, tuple[str, ...]]] = {
     "quantity: table, name": (text("", "t,NS", "made_vel.csv"), {"unit": "g"}, ("velocity",)),
     "quantity: workbook, head": (book("velocity in cm/s"), {}, ("velocity",)),
     "quantity: workbook, column": (book("", ("t (s)", "vel (cm/s)")), {}, ()),
+    "quantity: table, unit of length": (text("# units: cm\n", "t,NS"), {"unit": "g"}, ("displacement",)),
+    "quantity: table, name of a spectrum": (text("", "t,NS", "made_psa.csv"), {"unit": "g"}, ("spectrum",)),
+    "quantity: table, spectrum in Spanish": (text("# espectro de respuesta\n", "t,NS"), {"unit": "g"}, ("espectro",)),
+    "quantity: table, unit of length in Italian": (text("# unità: m\n"), {}, ("displacement",)),
     # direction
     "direction: table, column and answer": (
         answer(text("Station X\nk = 7\n", "t,NS,"), "t, EW g"), {}, ("NS", "EW g")
@@ -182,7 +204,11 @@ def test_two_words_that_differ_are_asked_or_refused_with_both(tmp_path: Path, ca
 
 @pytest.mark.parametrize(("made", "kind", "named"), [
     (of_peer(first="COMPONENT AZIMUTH = 300"), RecordKind.DIRECTION_SAID_TWICE, ("300", "090")),
+    (of_peer(first="RECORD, vertical component"), RecordKind.DIRECTION_SAID_TWICE, ("vertical", "090")),
+    (text("# Komponente: Ost-West\n"), RecordKind.DIRECTION_SAID_TWICE, ("Ost-West", "NS")),
+    (text("# Component: NS\n# Yön: düşey\n", "t,acc (m/s2)"), RecordKind.DIRECTION_SAID_TWICE, ("NS", "düşey")),
     (of_peer("x_UP.AT2"), RecordKind.DIRECTION_IN_NAME, ("UP", "090")),
+    (text("", "t,H1 (m/s2)", "x_vertical_acc.csv"), RecordKind.DIRECTION_IN_NAME, ("vertical", "H1")),
     (text("", name="x_EW.csv"), RecordKind.DIRECTION_IN_NAME, ("EW", "NS")),
     (text("# Component: EW\n"), RecordKind.DIRECTION_SAID_TWICE, ("EW", "NS")),
     (book("Component: EW"), RecordKind.DIRECTION_SAID_TWICE, ("EW", "NS")),
