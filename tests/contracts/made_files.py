@@ -76,6 +76,7 @@ def smc(stated: float = 1.0) -> str:
     integers, reals = np.full(48, -32768), np.full(50, 1.7e38)
     integers[15], integers[16] = 1, N
     reals[[1, 29, 31, 32]] = 1 / STEP, stated * 100 * TRUE.max(), stated * 100 * TRUE.min(), 0.1
+    reals[[28, 30]] = TRUE.argmax() * STEP, TRUE.argmin() * STEP
     text = (
         "2 CORRECTED ACCELEROGRAM\n*\nMADE\n     1989  10  18    0004 Quake\n*\nstation = Made     component=     45\n"
         + "*\n" * 5

@@ -9,6 +9,7 @@ import obspy
 import pytest
 from made_files import OF_OBSPY, STEP, TRUE, by_obspy, of_obspy
 
+from rocking import from_obspy
 from rocking.errors import RecordError, UndeclaredError
 from rocking.records import read
 from rocking.records.formats import Options
@@ -74,14 +75,25 @@ def test_each_is_recognised_by_one_reader_and_asks_for_its_response(name: str) -
         read_content(content, "f", Options(folder=Path("/nowhere")))
 
 
-def test_the_calibration_of_gse_leads_to_a_displacement_and_is_not_applied(tmp_path: Path) -> None:
-    """GSE 2.0 and IMS 1.0: "calib" is in nm of ground displacement a count, at the period "calper"."""
+@pytest.mark.parametrize("form", ["GSE1", "GSE2", "CSS", "NNSA_KB_CORE"])
+def test_the_calibration_of_gse_and_css_leads_to_a_displacement_and_is_not_applied(form: str) -> None:
+    """GSE 2.0, IMS 1.0 and CSS 3.0: "calib" is in nm of ground displacement a count, at the period "calper"."""
     counts = np.round(1000 * TRUE).astype(np.int32)
-    trace = obspy.Trace(counts, {"station": "MADE", "channel": "HNE", "delta": STEP, "calib": 0.5})
-    trace.write(str(tmp_path / "made"), format="GSE2")
-    (record,) = read(tmp_path / "made", unit="mm/s2")
+    header = {"station": "MADE", "channel": "HNE", "delta": STEP, "calib": 0.5, "_format": form}
+    (record,) = from_obspy(obspy.Trace(counts, header), unit="mm/s2")
     assert np.allclose(record.acceleration, counts / 1000)
     assert [warning.kind for warning in record.warnings] == [RecordKind.CALIBRATION_NOT_APPLIED]
+
+
+@pytest.mark.parametrize(("form", "processed"), [
+    *((form, False) for form in ("GSE2", "MSEED", "SLIST", "TSPAIR", "WIN", "SEISAN", "REFTEK130", "SAC", "KNET")),
+    ("KINEMETRICS_EVT", False), ("", None), ("PICKLE", None), ("AH", None),
+])  # fmt: skip
+def test_what_a_recorder_wrote_and_nobody_changed_is_not_processed(form: str, processed: bool | None) -> None:
+    trace = obspy.Trace(TRUE.copy(), {"channel": "HNE", "delta": STEP, "_format": form})
+    assert from_obspy(trace, unit="m/s2")[0].processed is processed
+    assert from_obspy(trace.copy().trim(trace.stats.starttime + 0.1), unit="m/s2")[0].processed is processed
+    assert from_obspy(trace.detrend("linear"), unit="m/s2")[0].processed is None
 
 
 @pytest.mark.parametrize("form", ["SLIST", "TSPAIR"])

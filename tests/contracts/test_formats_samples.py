@@ -171,6 +171,13 @@ def test_channels_of_unequal_length_are_all_read(name: str, monkeypatch: pytest.
     assert [record.acceleration.size for record in read_made(name, first + MADE[name][0]())] == [40, 23]
 
 
+COUNTED = {
+    "NPTS", "a count in the header", "number of points", "the number of points", "number of samples", "samples",
+    "the number of samples", "format", "header", "layout",
+}  # fmt: skip
+"""What a refused count may be called, by the words of its format, or what cannot be told without it."""
+
+
 @pytest.mark.parametrize(
     "name", sorted(MADE.keys() - {"K-NET/KiK-net", "CWB", "columns of numbers", "JMA CSV"})
 )
@@ -179,5 +186,16 @@ def test_a_count_that_cannot_be_is_refused(name: str, declared: str) -> None:
     """The four left out declare a duration, or nothing."""
     text = MADE[name][0]()
     at = next(m for m in re.finditer(rf"(?<![\d.-]){N}(?![\d.])", text) if m.start() > 3)
-    with pytest.raises(RecordError):
+    with pytest.raises(RecordError) as caught:
         read_made(name, text[: at.start()] + declared + text[at.end() :])
+    assert caught.value.field in COUNTED
+
+
+@pytest.mark.parametrize(("name", "field"), [
+    *((name, "duration") for name in ("RENADIC", "BHRC", "USC Volume 1", "CSMIP V1/V2: film")),
+    *((name, "the duration") for name in ("DYNA (ESM, ITACA, AFAD)", "UNAM/CICESE", "CWB")),
+])  # fmt: skip
+def test_a_duration_that_is_no_number_is_refused(name: str, field: str) -> None:
+    text = re.sub(r"(?<=[ :/])0\.40{0,2}(?!\d)", "0.4.0", MADE[name][0](), count=1)
+    with refused(RecordError, field, "0.4.0"):
+        read_made(name, text)

@@ -1,7 +1,7 @@
 """The trade of error for time: what each row says is what the methods themselves say."""
 
 import math
-from dataclasses import replace
+from dataclasses import asdict, replace
 from functools import partial
 
 import numpy as np
@@ -148,12 +148,32 @@ def test_below_so_many_structures_under_a_motion_the_closed_form_costs_more():
     assert math.isnan(without.break_even)
 
 
-def test_a_sine_that_begins_after_the_fall_has_not_found_it():
-    fall = TimedAnswer(rotation_ratio=math.inf, reference=math.inf, cpu=1e-3, preparation=1e-2)
-    late = replace(fall, record=1, is_late=True)
-    row = trade_row(TradeMethod.ONE_SINE, "", [fall, late], [], "Abacus", ClusterSample.scattered("ab"))
-    assert (row.cases, row.falls, row.falls_found, row.false_alarms) == (2, 2, 1, 0)
-    assert (row.wrong_verdicts, row.unsafe_verdicts) == (1, 1)
+def test_a_row_counts_what_moves_and_takes_no_late_sine_for_a_fall_that_is_found():
+    """In turn: a fall found, a sine that begins after it, a false alarm, two that rock 20 and 10 % off, one at rest."""
+    ratios = [
+        (math.inf, math.inf),
+        (math.inf, math.inf),
+        (math.inf, 0.4),
+        (0.6, 0.5),
+        (0.45, 0.5),
+        (0.0, 0.0),
+    ]
+    answers = [
+        TimedAnswer(rotation_ratio=own, reference=true, cpu=1e-3 * (k + 1), preparation=1e-2, record=k)
+        for k, (own, true) in enumerate(ratios)
+    ]
+    answers[1] = replace(answers[1], is_late=True)
+    sample = ClusterSample.scattered("abcdef")
+    low, high = ClusterSample.scattered("abcde").share_bounds(np.array([0.0, 1.0, 1.0, 0.0, 0.0]))
+    row = trade_row(TradeMethod.ONE_SINE, "pier", answers, [], "Abacus", sample)
+    counts = {"cases": 5, "falls": 2, "falls_found": 1, "false_alarms": 1}
+    counts |= {"wrong_verdicts": 2, "unsafe_verdicts": 1}
+    errors = {"error": pytest.approx(0.15), "error_high": pytest.approx(0.1 + 0.95 * 0.1)}
+    bounds = {"wrong_share_low": low, "wrong_share_high": high, "stations": 5, "earthquakes": 5}
+    times = {"cpu_s": 3.5e-3, "preparation_record_s": 1e-2, "machine": "Abacus"}
+    never = dict.fromkeys(("break_even", "break_even_low", "break_even_high"), math.inf)
+    known = {"method": TradeMethod.ONE_SINE, "structure": "pier"}
+    assert asdict(row) == known | counts | errors | bounds | times | never
 
 
 def test_what_follows_says_the_range_over_the_motions():
@@ -193,6 +213,10 @@ def test_the_report_says_what_the_table_says_in_percent_and_milliseconds(tmp_pat
     assert "Abacus" in documents[0].subtitle
     drawn = (tmp_path / "trade.svg").read_text(encoding="utf-8")
     assert "45 structures" in drawn and "8 of 200, error 1.2 %" in drawn and "7 of 200" not in drawn
+    for number in (1000, 1001):  # the number of structures up to which the cost is drawn
+        known = {TradeRow: [replace(ONE_SINE, break_even=float(number)), MECHANISM]}
+        write_trade_report(known, tmp_path / "trade.pdf", tmp_path / "trade.svg")
+        assert (f"{number} structures" in (tmp_path / "trade.svg").read_text()) == (number == 1000)
 
 
 def test_what_was_measured_is_told_on_the_terminal():

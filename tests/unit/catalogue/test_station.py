@@ -72,8 +72,14 @@ def test_files_that_do_not_fit_together_are_refused_in_a_sentence(station):
         with refused(RecordError, field) as caught:
             open_station(_record(station, f"e.asc;{other}.asc"))
         assert str(caught.value).startswith("a: ") and "\n" not in str(caught.value)
-    with refused(RecordError, "inventory", "none.xml"):
-        open_station(_record(station, inventory="none.xml"))
+    for cells, (field, value) in (
+        ({"inventory": "none.xml"}, ("inventory", "none.xml")),
+        ({"file": "z.asc"}, ("component", "HNZ")),  # no horizontal component
+        ({"component": "HNX"}, ("component", "HNX")),
+        ({"vertical_component": "HNX"}, ("component", "HNX")),
+    ):
+        with refused(RecordError, field, value):
+            open_station(_record(station, **cells))
 
 
 def test_files_that_name_no_component_are_named_by_the_row(tmp_path):

@@ -12,6 +12,7 @@ from made_files import MADE, STEP, TRUE, N, by_obspy, read_text
 from rocking.errors import RecordError, UndeclaredError
 from rocking.records import Accelerogram
 from rocking.records.formats import Options
+from rocking.records.formats.dialect import plain
 from rocking.records.formats.format import check_duration
 from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import agree_with_velocity
@@ -93,11 +94,15 @@ def test_cosmos_has_the_step_of_its_series() -> None:
 
 
 @pytest.mark.parametrize(("name", "old", "new"), [
-    ("DYNA (ESM, ITACA, AFAD)", r"TIME_PGA_S: [\d.]+", "TIME_PGA_S: {}"),
-    ("GeoNet V1A/V2A", r"mm/s/s at [\d.]+ s", "mm/s/s at {} s"),
-    ("CSMNC", r"AT [\d.]+ SEC", "AT {} SEC"),
-    ("CSMIP V1/V2", r"at  [\d.]+ sec", "at  {} sec"),
-    ("USC Volume 2", r"SEC AT    [\d.]+ ", "SEC AT    {} "),
+    ("DYNA (ESM, ITACA, AFAD)", r"TIME_PGA_S: [\d.]+", "TIME_PGA_S: {:.3f}"),
+    ("GeoNet V1A/V2A", r"mm/s/s at [\d.]+ s", "mm/s/s at {:.3f} s"),
+    ("CSMNC", r"AT [\d.]+ SEC", "AT {:.3f} SEC"),
+    ("CSMIP V1/V2", r"at  [\d.]+ sec", "at  {:.3f} sec"),
+    ("USC Volume 2", r"SEC AT    [\d.]+ ", "SEC AT    {:.3f} "),
+    ("COSMOS V1/V2", r"(10\.000000 +0\.400000 +[-\d.]+) +[\d.]+", r"\1{:13.6f}"),
+    ("USGS SMC", r"5\.0000000E-02", "{:.7E}"),
+    ("UNAM/CICESE", r"MUESTRA( +): /\d+/", r"MUESTRA\1: /{1:.0f}/"),  # the number of a sample, from 1 on
+    ("UNAM/CICESE", r"MUESTRA( +): /\d+/", r"MUESTRA\1: /{0:.3f}/"),  # what is not whole is a time
 ])  # fmt: skip
 def test_a_peak_out_of_its_place_is_warned_of(name: str, old: str, new: str) -> None:
     """Lines missing in one place and repeated in another leave the count as it was, not the time of the peak."""
@@ -105,12 +110,13 @@ def test_a_peak_out_of_its_place_is_warned_of(name: str, old: str, new: str) -> 
     text = made(name)
 
     def told(at: float) -> tuple[RockingWarning, ...]:
-        return read_text(re.sub(old, new.format(round(at, 3)), text, count=1))[0].warnings
+        return read_text(re.sub(old, new.format(at, at / STEP + 1), text, count=1))[0].warnings
 
     known = set(told(place))
     assert RecordKind.PEAK_ELSEWHERE not in {part.kind for part in known}
     (new_one,) = set(told(place + 12 * STEP)) - known
     assert new_one.kind is RecordKind.PEAK_ELSEWHERE
+    assert (new_one["stated_s"], new_one["time_s"]) == pytest.approx((place + 12 * STEP, place))
 
 
 def test_a_volume_2_whose_velocity_states_no_unit_is_read_without_that_check() -> None:
@@ -238,13 +244,18 @@ def test_commas_that_may_be_either_are_refused(text: str) -> None:
     assert caught.value.field in ("decimals", "format")
 
 
-def test_commas_that_part_columns_still_do() -> None:
-    for text in (
-        "0.00,1\n0.01,2\n0.02,3\n0.03,5\n",
-        "t,a,b (gal)\n0,1,5\n1,2,6\n2,3,8\n3,1,5\n",
-        "t,a\n0,1\n1,2\n2,7\n3,9",
-    ):
-        assert read_text(text, unit="gal")[0].acceleration.size == 4
+@pytest.mark.parametrize(("text", "read_as"), [
+    ("1,25\n1,50\n1,75\n", None), ("0,1\n2,2\n3,7\n", None), ("3,1\n2,2\n1,7\n", None), ("0,1\n1,2\n", None),
+    ("0,1\n1,2\n2,7\n", "0,1\n1,2\n2,7\n"), ("t,a\n1,25\n1,5\n", "t,a\n1,25\n1,5\n"), ("1, 5\n3, 6\n", "1, 5\n3, 6\n"),
+    ("0.00,1\n0.01,2\n", "0.00,1\n0.01,2\n"), ("1,5 2.5\n", "1,5 2.5\n"), ("1,5;2.5\n", None),
+    ("1,5 2,5\n", "1.5 2.5\n"), (",5;-1,25\n", ".5;-1.25\n"), ("1,5E+1\t-2,5\n", "1.5E+1\t-2.5\n"),
+    ('"1,5";" 2,5 "\n', "1.5;2.5\n"), ('"1.000,5";"2,5"\n', '"1.000,5";2.5\n'), ('"a","b"\n', '"a","b"\n'),
+    ("1.5D+01 2.5d02\n", "1.5E+01 2.5E02\n"), ("1.D-3\n", "1.E-3\n"), ("A.D. 2.D\n", "A.D. 2.D\n"),
+])  # fmt: skip
+def test_a_comma_parts_columns_or_decimals_or_may_do_either(text: str, read_as: str | None) -> None:
+    """First numbers of rows that rise evenly are times, whose comma parts columns."""
+    found = plain(text.encode())
+    assert (found and found.decode()) == read_as
 
 
 def test_a_gap_is_not_bridged_by_a_line() -> None:

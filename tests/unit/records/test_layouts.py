@@ -142,6 +142,14 @@ def test_a_layout_is_answered_once_and_read(tmp_path: Path, name: str) -> None:
     assert [record.vertical for record in records] == [motion is UP for motion in motions]
 
 
+def test_a_last_row_that_is_cut_counts_in_no_peak_of_a_question(tmp_path: Path) -> None:
+    (tmp_path / "made.txt").write_text(table(MOTION, OTHER, UP) + "99 99\n")
+    with pytest.raises(AskedError) as asked:
+        read(tmp_path / "made.txt")
+    assert asked.value.question.holds == "column 1: ?; column 2: ?; column 3: ?; 600 rows"
+    assert asked.value.question.signature.peaks == f"{np.abs([MOTION, OTHER, UP]).max():.3g}"
+
+
 @pytest.mark.parametrize(("name", "content", "answer"), [
     ("SHAKE2000", SHAKE.format(name="x.acc") + wrapped(MOTION / G, 8, "9.6f", ""), "one series g, 8F9"),
     ("Strata", STRATA.format(name="a\\G01000.AT2") + table(TIMES, MOTION / G, parted=","), "t, a g"),
@@ -374,9 +382,18 @@ def test_a_broken_table_of_layouts_is_told_in_a_sentence(tmp_path: Path) -> None
 
 @pytest.mark.parametrize("answer", [
     "t, a g", "NS g, EW g, UD g", "one series g, 5 a line", "skip 2, n, dt, one series gal", "t ms, -, a mg",
-    "one series ?, 10F8, dt 0.01",
+    "one series ?, 10F8, dt 0.01", "hz, one series g", "t min, a g", "t h, a g", "t us, a g", "t, a g, 4 a line",
 ])  # fmt: skip
 def test_an_answer_is_written_as_it_is_read(answer: str) -> None:
     layout = TableLayout.parse(answer.replace("?", "g"))
     assert TableLayout.parse(str(layout)) == layout
     assert str(layout) == answer.replace("?", "g")
+
+
+@pytest.mark.parametrize(("answer", "written"), [
+    ("time, NS, EW gal", "t, NS gal, EW gal"), ("T s, a g", "t, a g"), ("Skip 3, ONE SERIES g", "skip 3, one series g"),
+    ("one series g, 5 per line, dt 0.01s", "one series g, 5 a line, dt 0.01"), ("a g, dt 0.005 s", "a g, dt 0.005"),
+    ("times, acc g", "t, a g"), ("one series g, 8f9.6", "one series g, 8F9"), ("t,, m/s2,", "t, a m/s2"),
+])  # fmt: skip
+def test_other_spellings_of_an_answer_are_known(answer: str, written: str) -> None:
+    assert str(TableLayout.parse(answer)) == written

@@ -81,6 +81,8 @@ def test_every_number_of_the_page_is_a_cell_of_comparison_csv(blocks, example, t
             assert all(is_printed(*pair) for pair in zip(constants, map(row.get, CONSTANTS), strict=True))
             assert compared.outside == (row["printed_holds"] == "false")
             assert row["crack"] in compared.note
+            of_component = f"under {row['component']}" in compared.note.split(", ")
+            assert of_component == (len(report.motions) > 1)
             checked += 3 + len(constants)
     assert checked >= 300
 

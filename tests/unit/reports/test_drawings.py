@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from rocking.reports.drawings import MOST_POINTS, draw_structure, fallen_rotation, thinned
+from rocking.reports.drawings import MOST_POINTS, draw_structure, fallen_rotation, sketch, thinned
 from rocking.reports.explore import drawings
 from rocking.reports.record import ground_strip, structure_row
 from rocking.reports.style import COMMON, glyphs
@@ -60,6 +60,36 @@ def test_the_strip_shows_the_motion_while_it_shakes_and_its_pulse_at_one_scale(e
     )
 
 
+PRESSED = LoadedWall(1.6, 1.4, 0.4, 2e4, top_load=6e4, eccentricity=0.1, restitution=0.9)
+TIED = Facade(
+    (4.0,), (0.5,), 18e3, restitution=0.8, behind="cross_walls", tie_heights=(3.8,), tie_stiffness=5e6, tie_strength=5e3
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(("structure", "parts", "hinges", "heads", "marks"), [
+    (PRESSED, 2, 3, 1, {"stroke-width=\"0.78\"": 4, "#009E73": 1}),  # four supports, and the load with its head
+    (TIED, 1, 1, 0, {"#0072B2": 3}),  # a tie with its two plates
+])  # fmt: skip
+def test_a_sketch_has_the_parts_turned_and_at_rest_the_hinges_and_what_acts(
+    structure, parts, hinges, heads, marks
+):
+    shapes = sketch(structure, 0.1, 12, 14)
+    polygons = [shape for shape in shapes if shape.startswith("<polygon")]
+    looks = (
+        ("#c7c7c7", parts),
+        ("stroke-dasharray", parts),
+        ('fill="white"', hinges),
+        ('fill="#009E73"', heads),
+    )
+    assert [sum(look in shape for shape in polygons) for look, _ in looks] == [count for _, count in looks]
+    lines = [shape for shape in shapes if shape.startswith("<polyline")]
+    assert {look: sum(look in shape for shape in lines) for look in marks} == marks
+    assert len(polygons) + len(lines) == len(shapes) == 2 * parts + hinges + heads + sum(marks.values())
+    for head, arrow in zip(polygons[len(polygons) - heads :], lines, strict=False):
+        (tip, *barbs), (tail, end) = (next(iter(_lines(f'height="0mm" {shape}'))) for shape in (head, arrow))
+        assert tip == pytest.approx(end) and np.dot(np.mean(barbs, axis=0) - tip, tail - tip) > 0
+
+
 def test_common_letters_need_no_font_of_the_machine():
     assert set(COMMON) <= glyphs()
 
@@ -95,11 +125,10 @@ def test_a_thinned_trace_keeps_its_peaks_and_few_points():
 
 
 def test_a_wall_is_drawn_as_fallen_by_the_rotation_of_the_side_it_falls_to():
-    wall = LoadedWall(1.6, 1.4, 0.4, 2e4, top_load=6e4, eccentricity=0.1, restitution=0.9)
-    away, back = wall.mechanism().sides
+    away, back = PRESSED.mechanism().sides
     assert away.critical_rotation != pytest.approx(back.critical_rotation, rel=0.1)
-    share = fallen_rotation(wall, 1) / away.critical_rotation
-    assert fallen_rotation(wall, -1) == pytest.approx(-share * back.critical_rotation, rel=1e-12)
+    share = fallen_rotation(PRESSED, 1) / away.critical_rotation
+    assert fallen_rotation(PRESSED, -1) == pytest.approx(-share * back.critical_rotation, rel=1e-12)
 
 
 def test_a_trace_spans_the_shaking_and_its_pulse_with_a_margin(example):

@@ -15,6 +15,7 @@ from rocking.assessment.methods import Agreement
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import (
     ComparisonRow,
+    PulseRow,
     RecordRow,
     RecordRows,
     agreement_rows,
@@ -23,6 +24,7 @@ from rocking.assessment.rows import (
 )
 from rocking.reports.explore import _NONE, explore_page
 from rocking.reports.matrix import matrix
+from rocking.reports.printing import chip
 from rocking.reports.summary import severity_map, structure_table, summary_data
 from rocking.structures import Block
 from rocking.study.terminal import closing_lines
@@ -93,6 +95,45 @@ def test_of_equal_worst_cases_the_one_under_which_more_falls_comes_first():
     ]
     assert worst_first(cases) == ["two", "one", "three"]
     assert worst_first([("x", key(0.7)), ("y", key(0.7))]) == ["x", "y"]
+
+
+UNKNOWN, NEARLY = Verdict.CANNOT_BE_TOLD, Verdict.PROBABLY_STANDS
+CELLS = {
+    "wall": (FALLS, 1.0, (1.0, 1.0)), "top": (UNKNOWN, math.nan, (0.3, 1.0)),
+    "arch": (UNKNOWN, math.nan, (math.nan, math.nan)), "rest": (NEARLY, 0.03, (0.03, 0.03)),
+    "pier": (STANDS, 0.0, (0.0, 0.0)), "base": (Verdict.CANNOT_OVERTURN, 0.0, (0.0, 0.0)),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("records", "shares", "has_room"), [
+    (2, ["100\u00a0%", "", "", "3\u00a0%", "0\u00a0%", ""], True),
+    (3, ["100", "≥30", "?", "3", "0", "–"], True), (5, ["100", "≥30", "?", "3", "0", "–"], True),
+    (6, ["100", "≥30", "", "", "", ""], False), (12, ["100", "≥30", "", "", "", ""], False), (13, [], False),
+])  # fmt: skip
+def test_the_cells_of_the_matrix_hold_what_they_have_room_for(records, shares, has_room):
+    """Words in cells of two records, of up to five what every cell can say, of up to twelve what may fall."""
+    motions = [
+        filled(RecordRow, record=f"r{k}", peak_acceleration_m_s2=9.80665 / (k + 1)) for k in range(records)
+    ]
+    made = [
+        decided(Decision(word, share, interval, ""), record=row.record, structure=name, rotation_ratio=0.5)
+        for row in motions
+        for name, (word, share, interval) in CELLS.items()
+    ]
+    pulse = filled(PulseRow, record="r1", explained_energy=0.42, kind="alternative", rank=1)
+    beside = matrix(conclusions(made, []), motions, [pulse])
+    in_words = records == 2
+    of_each = [chip(CELLS[name][0], share) for name, share in zip(CELLS, shares, strict=False)]
+    if not in_words:
+        of_each = [replace(cell, verdict="") for cell in of_each]
+    assert [row.name for row in beside.rows] == list(CELLS)[: len(shares)]
+    assert [row.cells for row in beside.rows] == [(cell,) * records for cell in of_each]
+    assert beside.upright is (bool(shares) and not has_room)
+    assert [cell.verdict for cell in beside.legend] == [
+        "overturns", "? cannot be told", "probably stands", "stands", "cannot overturn"
+    ] * (bool(shares) and not in_words)  # fmt: skip
+    heads = ["1.0 g", "0.50 g" + "; sine 42\u00a0%" * in_words, "0.33 g", "0.25 g", "0.20 g"][:records]
+    assert [head.below for head in beside.heads] == (heads if has_room else [""] * records * bool(shares))
 
 
 @pytest.mark.usefixtures("undrawn")

@@ -35,9 +35,28 @@ PLOTTED = {
     "response": WHOLE,
     "spectrum": SPECTRUM,
     "mechanism": BLOCK.mechanism(),
+    "capacity": BLOCK.capacity_curve(),
     "structure": rocking.Arch(10.0, 1.5, np.radians(157.5)),
     "response spectrum": rocking.response_spectrum(RECORD),
 }
+RECORDED = "time [s]", "ground acceleration [m/s²]"
+WRITTEN: dict[str, tuple[str, str, list[str], list[float]]] = {
+    "record": (*RECORDED, [r"event, \$x^\$, NS"], []),
+    "pulse": (*RECORDED, ["sine pulse, T = 0.9 s"], []),
+    "analysis": (*RECORDED, ["record", "dominant pulse"], []),
+    "response": ("time [s]", "rotation [rad]", ["rotation"], [0]),
+    "spectrum": ("frequency parameter p [rad/s]", "uplift multiplier λ [-]", [], []),
+    "mechanism": ("rotation [rad]", "over the value at rest [-]", ["I", "G", "B"], [0]),
+    "capacity": (
+        "horizontal displacement of the control point [m]",
+        "load multiplier G/B [g]",
+        ["control point (-0.3, 3) m"],
+        [0],
+    ),
+    "structure": ("[m]", "[m]", ["thrust line at uplift"], []),
+    "response spectrum": ("period [s]", "pseudo-acceleration [m/s²]", ["damping 5%"], []),
+}
+"""Of each picture: what is along and up, in which unit, the names of its lines, and the levels of those without one."""
 
 
 @pytest.fixture(autouse=True)
@@ -60,8 +79,10 @@ def test_it_returns_the_axes_it_was_given_or_new_ones_with_units(name):
     assert PLOTTED[name].plot(axes=own) is own
     new = PLOTTED[name].plot()
     assert isinstance(new, Axes) and new.figure is not own.figure
-    for label in (new.get_xlabel(), new.get_ylabel()):
-        assert label.endswith("]") and "[" in label
+    along, up, named, levels = WRITTEN[name]
+    assert (new.get_xlabel(), new.get_ylabel(), new.get_legend_handles_labels()[1]) == (along, up, named)
+    unnamed = [line.get_ydata() for line in new.lines if str(line.get_label()).startswith("_")]
+    assert [values[0] for values in unnamed if list(values) == [values[0]] * 2] == levels
     new.figure.canvas.draw()  # markup in a name stays text
 
 

@@ -1,6 +1,7 @@
 """What a report says of structures on supports: the first lines and the share by period."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -13,7 +14,7 @@ from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.floors.place import place_from_config
 from rocking.records import Accelerogram
 from rocking.reports.record import RecordReport
-from rocking.reports.supports import shares_by_period_figure
+from rocking.reports.supports import shares_by_period_figure, support_panels
 from rocking.structures import Block
 from rocking.study.settings import Settings
 
@@ -65,6 +66,23 @@ def test_amplification_is_that_of_the_peaks(report):
 
 def test_the_document_has_the_page(report):
     assert report.pdf().startswith(b"%PDF")
+
+
+def test_the_first_four_supports_are_drawn_at_their_first_middle_and_last_period_under_the_largest_peak():
+    class Made(SimpleNamespace):
+        __hash__ = object.__hash__
+
+    periods = {"e": [40, 41, 42], "d": [30, 31], "c": [20], "b": [10, 11, 12, 13], "a": [0, 1, 2, 3, 4]}
+    places = {name: Made(supports=supports) for name, supports in periods.items()}
+    scenes = [Made(scene=Made(place=places[name])) for name in "edcbab"]
+    components = [Made(accelerogram=Made(peak_acceleration=peak)) for peak in (1.0, 3.0, 2.0)]
+    result = Made(carried=scenes, components=components, floors={40, 41, 42, 30, 31, 20, 10, 12, 13, 0})
+    result.components_on = lambda support: ["x", support, "y"]
+    panels = support_panels(result)
+    assert [panel.floors for panel in panels] == [[40, 41, 42], [30, 31], [20], [10, 12, 13]]
+    assert [panel.structures for panel in panels] == [scenes[:1], scenes[1:2], scenes[2:3], scenes[3::2]]
+    assert {panel.ground for panel in panels} == {components[1]}
+    assert support_panels(Made(carried=scenes, components=[])) == []
 
 
 def test_a_support_without_damping_has_no_spectrum_of_the_code():

@@ -8,6 +8,7 @@ import pytest
 from scipy.stats import beta
 
 import rocking
+from rocking.assessment.settings import AssessmentSettings
 from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.earthquakes.sample import ClusterSample
 from rocking.errors import ConfigurationError
@@ -318,12 +319,18 @@ def test_a_value_that_cannot_hold_any_more_is_given_up_and_the_answer_is_the_sam
 
 @pytest.mark.process
 def test_a_station_at_which_nothing_lifts_tells_nothing():
-    weak = [record.scaled(0.01) for record in _records(4)]
-    named = [replace(item, event=f"WEAK {k}") for k, item in enumerate(weak)]
-    found = rocking.strengthen([*_records(12), *named], PARAPET, "breadth", between=(0.3, 1.0))
-    alone = rocking.strengthen(_records(12), PARAPET, "breadth", between=(0.3, 1.0))
+    """The one given is lifted first, at 0.25/2.0 g, which the strongest member of a hundredth less does not reach."""
+    first = 0.25 / 2.0 * GRAVITY / (1 + AssessmentSettings().ensemble.amplitude_range)
+
+    def peaking(factor: float, count: int) -> list[Accelerogram]:
+        records = [record.scaled(factor * first / record.peak_acceleration) for record in _records(count)]
+        return [replace(item, event=f"{factor} {k}") for k, item in enumerate(records)]
+
+    lifting = [*_records(12), *peaking(1.01, 1)]
+    found = rocking.strengthen([*lifting, *peaking(0.99, 4)], PARAPET, "breadth", between=(0.3, 1.0))
+    alone = rocking.strengthen(lifting, PARAPET, "breadth", between=(0.3, 1.0))
     assert (found.still, alone.still) == (4, 0)
-    assert len(found.stations) == 12
+    assert len(found.stations) == 13
     assert found.tried[-1].interval == alone.tried[-1].interval
 
 

@@ -6,6 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from bonded import BondedWall
+from matplotlib.figure import Figure
 
 import rocking
 from rocking.assessment.assessor import Assessor
@@ -188,7 +189,16 @@ def test_the_front_between_two_ties_shows_the_triangle_and_what_stands_above_it(
     assert bay.ties[:, 1].tolist() == [2.9, 2.9]
     assert bay.outline[:, 0].min() > max(path[:, 0].max() for path in wall.outline())
     assert bay_of(triangle(wall).structure).falls[0] == pytest.approx(falls)
-    assert bay_of(replace(wall, held_between="floor")) is None
+    held = replace(wall, held_between="floor")
+    assert bay_of(held) is None
+    for shown, crosses in (({"dimensions": True}, [bay.ties.tolist()]), ({}, [])):
+        axes = wall.plot(axes=Figure().subplots(), **shown)
+        assert [line.get_xydata().tolist() for line in axes.lines if line.get_marker() == "x"] == crosses
+    assert not [
+        line
+        for line in held.plot(axes=Figure().subplots(), dimensions=True).lines
+        if line.get_marker() == "x"
+    ]
 
 
 def test_wall_between_supports_falls_between_its_ties_as_without_them():

@@ -175,6 +175,14 @@ def test_every_station_is_drawn_where_it_is_in_the_colour_of_its_word(made, coun
     assert low < drawn[:, 0].min() and drawn[:, 0].max() < high and 1 <= len(axes.texts) <= count
 
 
+@pytest.mark.parametrize(("latitude", "longitude", "middle"), [
+    (42.125, 13.5, "42.12° N, 13.50° E"), (-33.5, -70.6, "33.50° S, 70.60° W"), (0.0, 0.0, "0.00° N, 0.00° E"),
+])  # fmt: skip
+def test_the_axes_of_a_map_say_from_where_they_count(latitude, longitude, middle):
+    axes = map_figure([station("a", latitude, longitude)], [], ["slender"]).axes[0]
+    assert (axes.get_xlabel(), axes.get_ylabel()) == (f"east of {middle} [km]", "north [km]")
+
+
 def test_the_summary_shows_the_worst_structures_and_no_map_without_stations(made):
     _, rows, _ = made
     panel = Map().panel(rows)

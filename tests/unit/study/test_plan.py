@@ -109,6 +109,16 @@ def test_all_defects_of_all_three_files_stand_in_one_message(tmp_path: Path) -> 
     assert "taken is a file, but must be a folder" in message
 
 
+def test_results_that_cannot_be_written_are_refused_before_any_work(tmp_path: Path, monkeypatch) -> None:
+    """Whoever runs the tests may write everywhere."""
+    settings = _write(tmp_path, "a,a.AT2,\n")
+    asked = []
+    monkeypatch.setattr(os, "access", lambda *how: bool(asked.append(how)))
+    words = f"setting results: nothing can be written in {tmp_path}; correct its permissions or name another folder."
+    assert words in _refusal(settings)
+    assert asked == [(tmp_path, os.W_OK | os.X_OK)]
+
+
 def test_what_changes_no_number_does_not_change_the_hash_of_the_settings(tmp_path: Path) -> None:
     settings = _write(tmp_path, f"a,a.AT2,{SHA256}\n")
     changes = ({}, {"reports": False}, {"results": str(tmp_path / "elsewhere")})
