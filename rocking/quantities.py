@@ -110,6 +110,25 @@ def acceleration_unit(text: str) -> str | None:
     return name if name in ACCELERATION_UNITS else None
 
 
+SECONDS = {
+    "s": 1.0, "sec": 1.0, "secs": 1.0, "second": 1.0, "seconds": 1.0, "ms": 1e-3, "msec": 1e-3, "millisecond": 1e-3,
+    "seg": 1.0, "segundos": 1.0, "sek": 1.0, "sekunden": 1.0, "sn": 1.0, "saniye": 1.0, "secondi": 1.0, "secondes": 1.0,
+    "milliseconds": 1e-3, "us": 1e-6, "µs": 1e-6, "microseconds": 1e-6, "min": 60.0, "minute": 60.0, "minutes": 60.0,
+    "h": 3600.0, "hour": 3600.0, "hours": 3600.0, "utc": 1.0, "gmt": 1.0, "local": 1.0, "hh:mm:ss": 1.0,
+    "с": 1.0, "сек": 1.0, "мс": 1e-3, "秒": 1.0, "毫秒": 1e-3, "μs": 1e-6,
+}  # fmt: skip
+"""The units of time, s."""
+
+
+def seconds_of(unit: str) -> float:
+    """Return a unit of times, s. Raises RecordError for a word that is none."""
+    if unit.lower() not in SECONDS:
+        raise RecordError(
+            f"the times are in {unit[:20]!r}, but must be in s, ms or min; convert them.", unit=unit
+        )
+    return SECONDS[unit.lower()]
+
+
 VELOCITY_UNITS = {"m/s": 1.0, "cm/s": 0.01, "mm/s": 0.001}
 """Factor from each unit of velocity to m/s."""
 

@@ -12,7 +12,7 @@ from functools import cached_property, lru_cache
 from typing import Any, Literal, TypeVar
 
 from rocking.errors import RecordError, UndeclaredError
-from rocking.quantities import NUMBER, acceleration_factor, acceleration_unit
+from rocking.quantities import NUMBER, SECONDS, acceleration_factor, acceleration_unit
 from rocking.records.direction import Direction
 from rocking.records.doors import advice
 from rocking.records.kinds import RecordKind
@@ -60,7 +60,7 @@ _SAME_STEP = 1e-3
 """Share by which two steps may differ that are one: a header rounds."""
 _SAME: dict[str, Callable[[Any, Any], bool]] = {
     "unit": lambda one, other: (
-        not {one, other} & {"spectrum", *_OTHER} and acceleration_factor(one) == acceleration_factor(other)
+        not {one, other} & _QUANTITIES and acceleration_factor(one) == acceleration_factor(other)
     ),
     "time_step": lambda one, other: abs(one - other) <= _SAME_STEP * min(one, other),
     "peak": lambda one, other: abs(one[0] - other[0]) <= max(0.01 * one[0], one[1]),
@@ -85,14 +85,12 @@ def agreed(what: What, claims: Collection[Claim]) -> Any:
     RecordError where a person contradicts the file, or its name alone speaks, of another quantity; UndeclaredError
     where it contradicts itself.
     """
-    own = [claim for claim in claims if claim.what == what and claim.value]
-    spoken = [claim for where in reversed(Where) for claim in own if claim.where == where]
-    by_person = [claim for claim in spoken if claim.where in _PERSONS]
+    of_what = [claim for claim in claims if claim.what == what and claim.value]
+    spoken = [claim for where in reversed(Where) for claim in of_what if claim.where == where]
+    persons = [claim for claim in spoken if claim.where in _PERSONS]
     named = [claim for claim in spoken if claim.where in _WITHOUT_VALUE]
-    inside = [claim for claim in spoken if claim.where not in (*_PERSONS, *_WITHOUT_VALUE)]
-    if not inside and (
-        quantity := next((claim.value for claim in named if claim.value in ("spectrum", *_OTHER)), "")
-    ):
+    inside = [claim for claim in spoken if claim not in persons and claim not in named]
+    if not inside and (quantity := next((claim.value for claim in named if claim.value in _QUANTITIES), "")):
         raise RecordError(
             f"its name speaks of {quantity}, and nothing in it of acceleration; use the acceleration of the same "
             "record, or rename the file if it is that.",
@@ -101,20 +99,20 @@ def agreed(what: What, claims: Collection[Claim]) -> Any:
     nearest = [claim for claim in inside if claim.where in (Where.COLUMN, Where.SAMPLES)]
     if nearest and any(claim.where == Where.HEAD and _same(claim, nearest[0]) for claim in inside):
         inside = nearest
-    if by_person and not _same(by_person[0], by_person[-1]):
-        one, other = by_person[0], by_person[-1]
+    if persons and not _same(persons[0], persons[-1]):
+        one, other = persons[0], persons[-1]
         raise RecordError(f"{what} is {one}, but also {other}; omit one of the two.", **{what: other.value})
-    for person in by_person:
-        against = inside or named
+    against = inside or named
+    for person in persons:
         if against and not any(_same(person, claim) for claim in against):
             error = AnswerContradictedError if person.where == Where.ANSWER else RecordError
+            mend = _MEND[against[0].where == Where.FILE_NAME]
             raise error(
-                f"{what} is {person}, but the file says {against[0]}; {_MEND[against[0].where == Where.FILE_NAME]}.",
-                **{what: person.value},
+                f"{what} is {person}, but the file says {against[0]}; {mend}.", **{what: person.value}
             )
     of_file = [*inside, *(claim for claim in named if claim.where == Where.FILE_NAME)]
     unlike = [(one, other) for one in inside for other in of_file if not _same(one, other)]
-    if unlike and not by_person:
+    if unlike and not persons:
         one, other = unlike[0]
         wanted, error = "correct the file", RecordError
         if what == "unit" or what == "time_step":
@@ -123,13 +121,8 @@ def agreed(what: What, claims: Collection[Claim]) -> Any:
             f"of its {what.replace('_', ' ')} the file says both {one} and {other}; {wanted}.",
             **{what: one.value},
         )
-    holding = (
-        claim.value
-        for claim in spoken
-        if claim in by_person
-        or (claim in inside and (not by_person or any(_same(claim, person) for person in by_person)))
-    )
-    return next(holding, None)
+    holding = (claim for claim in spoken if claim in persons or claim in inside)
+    return next((claim.value for claim in holding if not persons or _same(claim, persons[0])), None)
 
 
 _MEND = ("omit it, or correct the file", "type that, or rename the file")
@@ -158,6 +151,7 @@ _OTHER: dict[str, re.Pattern[str]] = {
         r"(?m:(?<![a-z])(?:units?|unidade?s?|unit[aà]|unités?|einheit|birim)[^:=\n]*[:=]\s*[(\[]?[cm]?m[)\]]?\s*$)"
     ),
 }
+_QUANTITIES = {"spectrum", *_OTHER}
 _OF_NO_MOTION = re.compile(
     r"(?i)shear|wave|vs[ _,]?30|\bond[ae]s?\b|welle|\bdalga\b|muestreo|chantillon|abtast|örnekle|campion"
 )
@@ -246,15 +240,7 @@ def refuse_other_table(above: str, columns: Sequence[str]) -> None:
 PLAIN_ACCELERATION = re.compile(r"(?i)ag?|a_g|ac|acc(el(eration)?)?|aceleraci[oó]n|accelerazione|επιτάχυνση")
 
 IN_BRACKETS = re.compile(r"[(\[]\s*([^)\]]+?)\s*[)\]]\s*$")
-_UNIT_AT_END = (
-    re.compile(r"(?i)\s+in\s+(\S+)\s*$"),
-    re.compile(r"(?i)\s*[/,]\s*(m?g|gals?|[mc]?m/s\S+)\s*$"),
-    re.compile(r"(?i)[\s_]+((?:[munc]?m|ft|in)\s?[/_ ]?s(?:ec)?(?:/s(?:ec)?|[_^]?2|\*\*2|²))\s*$"),
-    re.compile(r"(?i)[\s_]+(gals?)\s*$"),
-    re.compile(r"(?i)[\s_]+([munc]?m(?:[_ ]?per[_ ]?s(?:ec)?2|s2))\s*$"),
-)
-"""A unit that ends a label without brackets: "Acc/g", "NS, cm/s2", "ns_m_s2". A "g" after a blank is of ground, but
-after "in" it is a unit."""
+_BEFORE_UNIT = re.compile(r"\s+in\s+|\s*[/,]\s*|[\s_]+")
 _WORDS_OF_OTHERS = re.compile(
     r"(?i)(?<![a-z])(gyro(?:scope)?|angular|magnet(?:ic|ometer)|rotation|tilt|pressure|volt(?:age)?|counts?|drift|"
     r"arias|husid|energy|power|jerk|slip|uplift|shear strain|strain|stress|forces?|moments?|shear|periods?|"
@@ -274,15 +260,19 @@ def unit_of_column(name: str) -> str | None:
         return None
     if match := IN_BRACKETS.search(name):
         return acceleration_unit(match[1])
-    found = (match[1] for pattern in _UNIT_AT_END if (match := pattern.search(name)))
-    return next((unit for word in found if (unit := acceleration_unit(word))), None)
+    return without_unit(name)[1]
 
 
-def without_unit(name: str) -> str:
-    """Return the name of a column without a unit that ends it without brackets."""
-    for pattern in _UNIT_AT_END:
-        name = pattern.sub("", name)
-    return name
+def without_unit(name: str) -> tuple[str, str | None]:
+    """Return the name of a column before a unit that ends it without brackets, and that: "Acc/g", "ns_m_s2".
+
+    A "g" after a blank is of ground, but after "in" it is a unit.
+    """
+    for match in _BEFORE_UNIT.finditer(name):
+        unit = acceleration_unit(name[match.end() :])
+        if unit and (match[0].strip(" _") or unit not in ("g", "mg")):
+            return name[: match.start()], unit
+    return name, None
 
 
 def other_of_column(name: str) -> str:
@@ -317,10 +307,8 @@ Three digits may follow the two of a station, as in "H-E12140"; a longer number 
 """
 _GLUED = re.compile(r"^(.*[A-Z])(DWN)$|^(RSN\d+_.*[A-Z\d])(UP|DWN|DN|VER|VRT)$")
 """A vertical behind the letters of a station, as NGA writes it."""
-_CODE = re.compile(r"(?<![A-Za-z\d])[BCEHS][HNG]Z(?![A-Za-z\d])")
-"""A vertical channel code anywhere in a name."""
 _UPWARDS = re.compile(
-    r"(?i)(?<![a-z\d])(?:UD\d?|vert(?:ical\w*|ikal)?|vrt|d[uü][sş]ey|updown)(?![a-z\d])|上下|垂直|竖向|вертик\w*"
+    r"(?i)(?<![a-z\d])(?:(?-i:[BCEHS][HNG]Z)|UD\d?|vert(?:ical\w*|ikal)?|vrt|d[uü][sş]ey|updown)(?![a-z\d])|上下|垂直|竖向|вертик\w*"
 )
 """A word that says nothing else, anywhere in a name that ends in no direction."""
 _DONE = re.compile(r"(?i)(scaled?|clean(ed)?|rounded|filled|sped|speed|back|set|sized?)[-_. ](up|down)$")
@@ -357,8 +345,6 @@ def direction_in_name(name: str) -> tuple[str, str]:
 def vertical_in_name(name: str) -> str:
     """Return the word for a vertical with which the name of a file ends, or its channel code; "" where it has none."""
     stem = without_ending(name.rpartition("/")[2])
-    if code := _CODE.search(stem):
-        return code[0]
     is_level = False
     while stem:
         if len(stem) > 1 and stem.isalpha() and Direction.of(stem).vertical:
@@ -376,10 +362,9 @@ def vertical_in_name(name: str) -> str:
     return upwards[0] if upwards else ""
 
 
-_STEP_IN_NAME = re.compile(
-    r"(?i)(?<![a-z\d.])(dt[ _=-]?)?(\d*\.\d+|\d+(?= ?ms))(?: ?(m?s)(?:ec)?(?![a-z\d]))?"
+_TIMING_IN_NAME = re.compile(
+    r"(?i)(?<![a-z\d.])(dt[ _=-]?)?(\d+(?:\.\d+)?|\.\d+)(?: ?(hz|sps|m?s(?:ec)?)(?![a-z]))?"
 )
-_RATE_IN_NAME = re.compile(r"(?i)(?<![a-z\d.])(\d+(?:\.\d+)?) ?(?:hz|sps)(?![a-z])")
 _UNIT_IN_NAME = re.compile(
     r"(?<![A-Za-z])([cm]?m)[_ -]?(?:per[_ ]?)?s(?:ec)?[_^]?2(?![A-Za-z\d])|"
     r"(?<![A-Za-z])(gals?|GAL(?=$))(?![A-Za-z])|(?<=_)(m?g)$"
@@ -394,29 +379,20 @@ def claims_of_name(file: str) -> tuple[Claim, ...]:
     """
     name = file.rpartition("/")[2]
     stem = re.sub(r"(?i)\.(txt|csv|dat|at2|asc|acc|th|out|prn|xlsx)$", "", name)
-    steps = (
-        (match, float(match[2]) * SECONDS[(match[3] or "s").lower()])
-        for match in _STEP_IN_NAME.finditer(stem)
-    )
-    found = [
-        Claim("time_step", step, Where.FILE_NAME, match[0])
-        for match, step in steps
-        if match[1] or (match[3] and step <= 1 / _FEWEST_PER_SECOND)
-    ]
-    if not _OF_FILTER.search(spaced(stem)):
-        rates = ((match, float(match[1])) for match in _RATE_IN_NAME.finditer(stem))
-        found += [
-            Claim("time_step", 1 / rate, Where.FILE_NAME, match[0])
-            for match, rate in rates
-            if rate >= _FEWEST_PER_SECOND
-        ]
+    found = []
+    is_of_filter = bool(_OF_FILTER.search(spaced(stem)))
+    for match in _TIMING_IN_NAME.finditer(stem):
+        unit, number = (match[3] or "").lower(), float(match[2])
+        step = 1 / number if unit in _HERTZ and number else number * SECONDS.get(unit, 1.0)
+        is_sure = match[1] and "." in match[2]
+        if is_sure or (unit and not is_of_filter and 0 < step <= 1 / _FEWEST_PER_SECOND):
+            found.append(Claim("time_step", step, Where.FILE_NAME, match[0]))
     for match in _UNIT_IN_NAME.finditer(stem):
         unit = f"{match[1]}/s2" if match[1] else match[2].lower().rstrip("s") if match[2] else match[3]
         found.append(Claim("unit", unit, Where.FILE_NAME, match[0].strip("_")))
-    quantity = other_quantity(spaced(name))
-    if re.search(rf"(?i)(?<![a-z])(?:{_SPECTRA})(?![a-z])", spaced(name)) and not _OF_MOTION.search(
-        spaced(name)
-    ):
+    words = spaced(name)
+    quantity = other_quantity(words)
+    if re.search(rf"(?i)(?<![a-z])(?:{_SPECTRA})(?![a-z])", words) and not _OF_MOTION.search(words):
         quantity = "spectrum"
     if series := _SERIES_IN_NAME.search(name):
         quantity = "velocity" if series.lastindex else "displacement"
@@ -425,25 +401,6 @@ def claims_of_name(file: str) -> tuple[Claim, ...]:
 
 
 # Sentences.
-
-SECONDS = {
-    "s": 1.0, "sec": 1.0, "secs": 1.0, "second": 1.0, "seconds": 1.0, "ms": 1e-3, "msec": 1e-3, "millisecond": 1e-3,
-    "seg": 1.0, "segundos": 1.0, "sek": 1.0, "sekunden": 1.0, "sn": 1.0, "saniye": 1.0, "secondi": 1.0, "secondes": 1.0,
-    "milliseconds": 1e-3, "us": 1e-6, "µs": 1e-6, "microseconds": 1e-6, "min": 60.0, "minute": 60.0, "minutes": 60.0,
-    "h": 3600.0, "hour": 3600.0, "hours": 3600.0, "utc": 1.0, "gmt": 1.0, "local": 1.0, "hh:mm:ss": 1.0,
-    "с": 1.0, "сек": 1.0, "мс": 1e-3, "秒": 1.0, "毫秒": 1e-3, "μs": 1e-6,
-}  # fmt: skip
-"""The units of time, s."""
-
-
-def seconds_of(unit: str) -> float:
-    """Return a unit of times, s. Raises RecordError for a word that is none."""
-    if unit.lower() not in SECONDS:
-        raise RecordError(
-            f"the times are in {unit[:20]!r}, but must be in s, ms or min; convert them.", unit=unit
-        )
-    return SECONDS[unit.lower()]
-
 
 _TIMES = re.compile(
     r"(?i)(?:(?<!\*)[x×*]|\btimes|\b(?:multiplied|divided) by)\s*\d|\d\s*[x×*]\s*(?:acc|g\b)|[(\[]\s*%\s*[)\]]"
@@ -723,7 +680,7 @@ _MARK = (
 )
 END = re.compile(rf"(?i)(?:[#%$!]|//).*|{_MARK}|[\W_]*end(?:[ \t]+of)?(?:[ \t]+\w+)?[\W_]*")
 """Warnings, or a word for the end, below the numbers: these are reported to nobody."""
-_MARK_OF_END = re.compile(rf"(?i)(?:(?:(?<=\n)|(?<=\d)(?![)\]])){_MARK}|(?<=\n)[#%!].*)\Z".encode())
+_MARK_OF_END = re.compile(rf"(?i)(?:(?:(?<=\n)|(?<=\d)(?![)\]])){_MARK})\Z".encode())
 
 
 def without_end(body: bytes) -> bytes:

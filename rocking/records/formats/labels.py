@@ -5,17 +5,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+from rocking.quantities import SECONDS, seconds_of
 from rocking.records.claims import (
     IN_BRACKETS,
     MULTIPLIED,
     PLAIN_ACCELERATION,
-    SECONDS,
     WORDS_OF_ACCELERATION,
     Claim,
     Where,
     agreed,
     other_of_column,
-    seconds_of,
     unit_of_column,
     without_unit,
 )
@@ -123,7 +122,7 @@ class ColumnLabel:
             return match[1].strip()
         name = IN_BRACKETS.sub("", name)
         if self.unit and not match:
-            name = without_unit(name)
+            name = without_unit(name)[0]
         name = name.strip()
         if code := _SEED_ID.fullmatch(name):
             name = code[2]

@@ -12,8 +12,8 @@ from types import MappingProxyType
 from typing import Literal, get_args
 
 from rocking.errors import CatalogueError, RecordError, UndeclaredError
-from rocking.quantities import acceleration_factor, acceleration_unit, counted, is_number
-from rocking.records.claims import other_quantity, seconds_of
+from rocking.quantities import acceleration_factor, acceleration_unit, counted, is_number, seconds_of
+from rocking.records.claims import other_quantity
 from rocking.tables import edited_text, read_edited
 
 NAME = "layouts.csv"
