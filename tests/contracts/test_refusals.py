@@ -26,6 +26,7 @@ from rocking.pulses import predicting_pulse
 from rocking.signal.processing import Processing, process
 from rocking.signal.rotation import aligned, rotd
 from rocking.sine_pulse.maximum import pulse_spectrum, sides_under
+from rocking.structures.equivalent_block import EquivalentBlock
 from rocking.structures.joints import Joints
 from rocking.structures.stack import Held, Stack
 from rocking.structures.stones import counted_voussoirs
@@ -192,3 +193,20 @@ def test_what_is_refused_is_refused(
     with pytest.raises(error) as caught:
         make()
     assert str(caught.value).endswith(".") and caught.value.field == field
+
+
+@pytest.mark.parametrize(
+    "made",
+    [
+        Mode(period=1, damping_ratio=0, participation=1),
+        rocking.Pulse(amplitude=1, circular_frequency=6, start_time=0, cycles=1, phase=0),
+        EquivalentBlock(frequency_parameter=2, critical_rotation=1, acceleration_scale=1, restitution=1),
+        rocking.Accelerogram([0, 1], 1, scale_factor=2),
+        rocking.DesignSpectrum.ntc(ag=2, f0=2, tc_star=1, topography=1, damping=0),
+        rocking.Wall(2, 1, 1, restitution=0),
+    ],
+)
+def test_a_whole_number_is_taken_as_a_number(made: object) -> None:
+    given = {name: type(value) for name, value in vars(made).items() if isinstance(value, int | float)}
+    given.pop("smooth_steps", None)  # a count
+    assert len(given) > 1 and {*given.values()} <= {float, bool}
