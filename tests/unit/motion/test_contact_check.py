@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 
 from rocking.motion import integrate
-from rocking.motion.response import check_model
+from rocking.motion.response import check_model, lifting_friction
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
-from rocking.structures import Block, Frame
+from rocking.structures import Block, Frame, RigidBody
+from rocking.structures.unknown_geometry import as_structure
 
 STEP = 0.005
 RECORD = Accelerogram(
@@ -61,8 +62,9 @@ def test_where_it_lifts_and_lands_the_contact_is_asked_on_the_side_to_which_it_g
     block = Block(semi_diagonal, slenderness)
     sine, cosine = math.sin(slenderness), math.cos(slenderness)
     push = 2.0 * GRAVITY * math.tan(slenderness)
-    thrust = 0.75 * (push * cosine - GRAVITY * sine)
-    expected = (push - thrust * cosine) / (GRAVITY + thrust * sine)
+    weight = 0.8 * GRAVITY  # of ground that falls with 0.2 g
+    thrust = 0.75 * (push * cosine - weight * sine)
+    expected = (push - thrust * cosine) / (weight + thrust * sine)
     first, second = sides
     ground = np.zeros(4)
     ground[strong] = -push * (first if strong == 0 else second)
@@ -74,4 +76,13 @@ def test_where_it_lifts_and_lands_the_contact_is_asked_on_the_side_to_which_it_g
         angular_velocity=np.zeros(4),
     )
     # it is asked at 1e-12 of the critical rotation instead of at 0
-    assert check_model(block, response, record).required_friction == pytest.approx(expected, rel=1e-9)
+    found = check_model(block, response, record, Accelerogram(np.full(4, weight - GRAVITY), 1.0))
+    assert found.required_friction == pytest.approx(expected, rel=1e-9)
+
+
+def test_the_friction_that_lifts_is_that_of_the_side_that_lifts_first():
+    for left, right in ((0.3, 0.5), (0.5, 0.3)):
+        assert lifting_friction(RigidBody(left, right, 2.0, 1.4)) == pytest.approx(0.15, rel=1e-9)
+    frame = Frame(Block(2.0, 0.2), 3, 0.2)
+    assert lifting_friction(frame) == frame.mechanism().uplift_multiplier, "the mean over all its joints"
+    assert lifting_friction(as_structure(frame.mechanism())) == 0.0, "whose joints are not known"
