@@ -43,6 +43,7 @@ CODE = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
 MODE = Mode(period=0.3, damping_ratio=0.05, participation=1.3)
 ONE = rocking.Members([1.0])
 SUPPORT = Support((MODE,))
+SLAB = rocking.Facade((3.0,), (0.5,), 20e3, floor_loads=(5e3,), top_slab="flat")
 STOREYS = {"name": "tower", "period_s": 0.3, "damping_ratio": 0.05, "storeys": 2, "height_m": 3.0}
 
 
@@ -177,6 +178,7 @@ def test_the_ends_of_a_range_are_allowed_and_nothing_beyond(
         ),
         (lambda: replace(LINEAR, one_sided=True, other_side=LINEAR), StructureError, ""),
         (lambda: rocking.Facade((3.0,) * 101, (0.5,) * 101, 20e3), StructureError, "storey_heights"),
+        (lambda: replace(SLAB, loads_held=True).stack(), StructureError, "loads_held"),
         (lambda: replace(COURSE, mass=math.nan), StructureError, ""),
         (lambda: replace(COURSE, mass=0.0), StructureError, ""),
         (lambda: Stack(()), StructureError, ""),

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack, decided_by, deciding, explained
-from rocking.assessment.ensemble import Ensemble
+from rocking.assessment.ensemble import Ensemble, Origin
 from rocking.assessment.settings import EnsembleSettings
 
 SIGN = np.where(np.arange(64) % 2, 1.0, -1.0)
@@ -55,3 +55,12 @@ def test_which_crack_opens_decides_where_they_disagree_and_none_is_given():
     assert decided_by(_ensembles(stands, falls)) == "decided by which crack opens (100 %)"
     assert decided_by(_ensembles(stands, falls, given=True)) == "", "all members of it agree"
     assert decided_by(_ensembles(stands)) == "" == decided_by(_ensembles(falls))
+
+
+def test_a_restitution_that_is_typed_and_another_by_geometry_disagree():
+    typed, by_geometry = (
+        FollowedCrack("crack", 0.0, _ensemble(np.full(64, falls)), of_geometry=falls)
+        for falls in (False, True)
+    )
+    (found,) = deciding(CrackEnsembles((typed, by_geometry)))
+    assert (found.name, found.share, found.origin) == ("restitution", 1.0, Origin.IGNORANCE)

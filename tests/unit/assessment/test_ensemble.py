@@ -5,6 +5,7 @@ import math
 import pickle
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ import rocking
 from rocking.assessment.assess import assess
 from rocking.assessment.assessor import Assessor
 from rocking.assessment.decide import Verdict
-from rocking.assessment.ensemble import CAUSES, Ensemble, drawn, ensemble, lattice
+from rocking.assessment.ensemble import CAUSES, CauseValues, Ensemble, drawn, ensemble, followed_at, lattice
 from rocking.assessment.methods import ratio_in_words
 from rocking.assessment.motions import GroundMotions, processed
 from rocking.assessment.scene import Scene
@@ -21,6 +22,7 @@ from rocking.assessment.settings import SIZES, AssessmentSettings, EnsembleSetti
 from rocking.errors import ConfigurationError
 from rocking.motion import integrate
 from rocking.motion.integration import follow_runs
+from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram, read
 from rocking.signal.accelerogram import Source
 from rocking.signal.processing import Processing, process
@@ -80,6 +82,33 @@ def test_members_are_what_integrate_says_of_each():
     for ratio, factor, offset in zip(result.rotation_ratios, *causes, strict=True):
         alone = integrate(Block(2.0, 0.2, restitution=0.9 + offset), _record(5.0 * factor))
         assert ratio == pytest.approx(alone.rotation_ratio, rel=1e-6)
+
+
+def test_runs_are_of_the_members_and_factors_that_ask_for_them(monkeypatch):
+    """Two directions whose members take turns, three factors: the ratio that stands for a run is its own peak."""
+
+    def noted(structure, forcing, runs, tolerance):
+        peaks = runs.horizontal * forcing.excitation
+        reasons = {run: f"{peak:.6g}" for run, peak in enumerate(peaks) if peak < 0}
+        return SimpleNamespace(rotation_ratio=peaks, reasons=reasons)
+
+    monkeypatch.setattr("rocking.assessment.ensemble.follow_runs", noted)
+    motions = GroundMotions({("EW", ""): _record(5.0), ("NS", ""): _record(3.0)})
+    amplitude, polarity = np.linspace(0.9, 1.1, 5), np.array([1.0, -1.0, 1.0, 1.0, -1.0])
+    direction = np.array(["EW", "NS", "NS", "EW", "EW"])
+    values = CauseValues(
+        amplitude=amplitude,
+        restitution=np.zeros(5),
+        polarity=polarity,
+        direction=direction,
+        processing=np.full(5, ""),
+        vertical=np.ones(5),
+    )
+    found = followed_at(BLOCK.mechanism(), motions, values, np.array([1.0, 2.0, 4.0]), tolerance=1e-6)
+    peak = {name: motions.horizontal[name, ""].peak_acceleration for name in ("EW", "NS")}
+    alone = amplitude * polarity * [peak[name] / GRAVITY for name in direction]
+    assert found.rotation_ratios == pytest.approx(np.outer([1.0, 2.0, 4.0], alone))
+    assert found.reasons == {member: f"{4 * alone[member]:.6g}" for member in (1, 4)}
 
 
 def test_half_of_the_members_feel_the_vertical_motion():

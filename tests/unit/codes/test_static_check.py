@@ -5,7 +5,7 @@ out here. All agree to 1e-9, as both are sums of a few terms and one root each.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 
 import rocking
 from rocking import Arch, Block, DesignSpectrum, Facade, LoadedWall, Mode, Spire, Support, Wall
-from rocking.codes.check import CodeTerms
+from rocking.codes.check import Check, CodeTerms
 from rocking.codes.static_check import elastic_period, kinematic_check
 from rocking.errors import ConfigurationError, RecordError, StructureError
 from rocking.products.checks.rows import code_check_rows
@@ -446,7 +446,11 @@ def test_what_cannot_be_checked_is_refused_in_a_sentence():
         rocking.check(block, SPECTRUM, records={})
 
 
-def test_a_check_prints_the_verdict_and_the_ratio_of_each_clause():
+def test_a_check_prints_its_numbers_the_verdict_and_the_ratio_of_each_clause():
+    check = Check(clause="C8.7", limit_state="SLV", capacity=3.0, demand=2.0, mechanism="crack at 0 m")
+    said = "C8.7, SLV: capacity 3 m/s², demand 2 m/s², ratio 1.5, met (crack at 0 m)"
+    assert str(check) == said
+    assert str(replace(check, demand=math.inf)).endswith("demand beyond d_0, ratio 0, not met (crack at 0 m)")
     spectrum = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
     for breadth, word in ((0.6, "met"), (0.15, "not met")):
         found = rocking.check(rocking.Block.of_size(breadth=breadth, height=2.0), spectrum)

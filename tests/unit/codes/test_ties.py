@@ -45,6 +45,15 @@ def test_onset_counts_the_work_of_a_tie():
     assert tight.onset_multiplier == pytest.approx(by_hand, rel=BY_HAND)
 
 
+@pytest.mark.parametrize("share", [0.99, 1.01])
+def test_a_break_limits_where_more_than_half_of_the_capacity_falls(share):
+    """A stiff tie breaks as it lifts: a falls from (W t/2 + F z) to W t/2, by half where F = W t/(2 z)."""
+    strength = share * 19e3 * 9.0 * 0.9 * 0.45 / 7.5
+    stiff = replace(WALL, **TIE | {"tie_stiffness": 2e9}, tie_strength=strength)
+    crack = mechanisms(stiff)["crack at 0 m, outwards"]
+    assert (crack.limiting_ruptures == crack.ruptures) is (share > 1) and len(crack.ruptures) == 1
+
+
 def test_two_storeys_with_a_tie_by_hand():
     """Section 12.7, example 1: e* of storeys and floors about each foot; the weakest governs."""
     wall = Facade(

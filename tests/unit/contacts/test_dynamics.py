@@ -13,6 +13,7 @@ from rocking import (
     LoadedWall,
     MotionError,
     Pulse,
+    RigidBody,
     Spire,
     StructureError,
     Wall,
@@ -21,7 +22,7 @@ from rocking import (
 from rocking.contacts.dynamics import follow_stack
 from rocking.quantities import GRAVITY
 from rocking.structures.joints import Joints
-from rocking.structures.stack import Stack, courses_between, joined
+from rocking.structures.stack import Course, Stack, courses_between, joined
 from tests.refusals import refused
 
 HINGED = LoadedWall.of_size(3.2, 0.35, 18e3, 1.6, top_load=1000.0, top_slab="flat", crack="known")
@@ -171,6 +172,35 @@ def test_courses_that_stay_together_are_the_body_between_their_outer_faces():
     assert (body.bottom, body.top, body.base, body.height) == (whole.bottom, whole.top, 0.5, 2.6 - 0.5)
     found = (body.mass, *body.centre, body.inertia)
     assert found == pytest.approx((whole.mass, *whole.centre, whole.inertia), rel=1e-12)
+
+
+def test_a_body_that_is_known_by_its_centre_of_mass_is_one_course():
+    (course,) = RigidBody(left=0.3, right=0.5, centre_height=2.0, inertia=1.4).stack().courses
+    face = (-0.3, 0.5)
+    assert course == Course(
+        bottom=face, top=face, base=0.0, height=4.0, mass=1.0, centre=(0.0, 2.0), inertia=1.4
+    )
+
+
+@pytest.mark.parametrize("slab", ["hinged", "flat"])
+def test_the_courses_of_a_wall_carry_its_floors(slab):
+    """18 kN/m³ · 6 m · .4 m, 8 kN/m at 3 m and 5 kN/m at 6 m, both .05 m inside of the middle; a slab has its own."""
+    loads = {"floor_loads": (8e3, 5e3), "eccentricity": 0.05, "top_slab": slab}
+    wall = Facade((3.0, 3.0), (0.4, 0.4), 18e3, crack_storey=1, crack="known", **loads)
+    body, *slabs = wall.stack().courses
+    weights, heights = np.array([43.2e3, 8e3, 5e3]), np.array([3.0, 3.0, 6.0])
+    if slab == "flat":
+        (above,) = slabs
+        assert (above.base, above.upright, above.bottom) == (6.0, True, (-0.4, 0.0))
+        assert above.mass == pytest.approx(5e3 / GRAVITY)
+        weights, heights = weights[:2], heights[:2]
+    across = np.array([-0.2, -0.25, -0.25])[: weights.size]
+    centre = np.array([weights @ across, weights @ heights]) / weights.sum()
+    assert body.mass == pytest.approx(weights.sum() / GRAVITY)
+    assert body.centre == pytest.approx(centre)
+    apart = (across - centre[0]) ** 2 + (heights - centre[1]) ** 2
+    own = weights[0] * (0.4**2 + 6.0**2) / 12
+    assert body.inertia == pytest.approx((own + weights @ apart) / GRAVITY)
 
 
 def test_a_mirrored_motion_turns_it_the_other_way():

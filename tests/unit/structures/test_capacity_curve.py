@@ -129,6 +129,16 @@ def test_the_curve_that_ended_every_record_of_its_study_is_followed():
     assert curve.mechanism().positive.frequency_parameter == pytest.approx(np.sqrt(GRAVITY * 0.4))
 
 
+def test_it_is_drawn_as_the_slender_body_that_leans_by_its_multiplier():
+    """λ = .2 over d*_u = .3 m: a body .3 m broad and 1.5 m high, about its right corner."""
+    curve = CapacityCurve((0.0, 0.1, 0.3), (0.2, 0.1, 0.0), 1e4, 0.9)
+    corners = np.array([-0.3, 0.0, 1.5j, -0.3 + 1.5j])
+    for rotation in (0.0, 0.05):
+        (outline,) = curve.outline(rotation)
+        turned = 0.15 + corners[[0, 1, 2, 3]] * np.exp(-1j * rotation)
+        assert outline @ [1, 1j] == pytest.approx(turned)
+
+
 def test_a_curve_that_bears_nothing_up_to_any_displacement_is_refused():
     with refused(StructureError, "multipliers", 5e-324):
         CapacityCurve((0.0, 0.1), (5e-324, -100.0), weight=1e3, restitution=0.9)
