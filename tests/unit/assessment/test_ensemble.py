@@ -382,17 +382,6 @@ def test_a_member_that_could_not_be_followed_counts_as_falling():
     assert Ensemble(np.array([math.inf, 0.5, 0.5, math.nan]), {}, FIXED).overturning_share == 0.5
 
 
-def test_an_ensemble_that_begins_with_few_costs_no_more_than_one_of_64():
-    """Where 16 members leave it open it grows to 64 first, and beyond only where 64 would too."""
-    sizes = {}
-    for amplitude in np.arange(4.0, 16.0, 0.4):
-        motions = GroundMotions.of(_record(amplitude))
-        few, usual = (ensemble(BLOCK, motions, EnsembleSettings(members=value)).members for value in (16, 64))
-        assert few <= usual
-        sizes[few] = amplitude
-    assert len(sizes) >= 2
-
-
 def test_variants_have_as_many_members_as_the_one_that_needs_most():
     """So that shares that are compared have one error; members that all agree have none, and are left."""
     record = read(Path(rocking.__file__).parents[1] / "records" / "synthetic_strong_pulse.AT2")[0].scaled(0.6)

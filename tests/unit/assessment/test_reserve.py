@@ -119,15 +119,6 @@ def test_a_stronger_record_has_as_much_less():
     assert once.low < once.median < once.high
 
 
-def test_at_the_reserve_so_many_members_of_the_ensemble_overturn():
-    record = _record(3.0, 2)
-    found = reserve_of_members(BLOCK.mechanism(), GroundMotions.of(record), EnsembleSettings(reserve=20.0))
-    low = rocking.assess(record.scaled(0.8 * found.low), BLOCK).overturning_share
-    median = rocking.assess(record.scaled(found.median), BLOCK).overturning_share
-    high = rocking.assess(record.scaled(1.3 * found.high), BLOCK).overturning_share
-    assert low <= 0.1 and 0.2 <= median <= 0.8 and high >= 0.9
-
-
 def test_up_to_the_limit_and_no_farther():
     motions = GroundMotions.of(_record(0.5))
     found = reserve_of_members(BLOCK.mechanism(), motions, EnsembleSettings(reserve=1.0))
@@ -152,13 +143,6 @@ def test_a_setting_turns_it_off_and_a_result_has_it():
     assert rocking.assess(record, BLOCK, settings=off).reserve is None
     with refused(ConfigurationError, "reserve", -1.0):
         EnsembleSettings(reserve=-1.0)
-
-
-def test_a_pair_has_one_over_its_directions():
-    pair = [_record(3.0, 1), _record(3.0, 2)]
-    found = rocking.assess(pair, BLOCK).reserve
-    assert found is not None
-    assert found.low < found.median
 
 
 def test_on_a_support_it_is_sought_on_the_ground_and_at_the_worst_period_alone(tmp_path, monkeypatch):

@@ -340,14 +340,6 @@ def test_an_arch_by_hand():
     assert check.nonlinear.capacity >= check.damage_level
 
 
-def test_the_linear_check_is_never_below_the_onset_and_the_nonlinear_neither():
-    for structure in (Block.of_size(0.3, 1.0), Block.of_size(0.6, 9.0), facade(), Arch(5.0, 0.75, 2.6)):
-        for soil in "ACD":
-            check = kinematic_check(structure, DesignSpectrum.ntc(3.0, 2.4, 0.4, soil))
-            assert check.linear.capacity >= check.damage_level
-            assert check.nonlinear.capacity >= check.damage_level
-
-
 def test_at_a_height_by_hand():
     """One mode of .4 s and 5 %, γψ = 1.2 · .8, and T_SLV above 1.1 T_1; ξ_k is a ratio in p and in per cent in a_Z."""
     slenderness, by_hand = parapet(2.4, 0.3)
