@@ -42,6 +42,7 @@ def test_the_multiplier_just_holds_the_structure_at_every_rotation(name):
 def test_participating_mass_of_a_facade_by_hand():
     """Weights 42, 30, 12 and 6 kN/m at 1.75, 5, 3.5 and 6.5 m, which are also their virtual displacements."""
     curve = STRUCTURES["façade"].capacity_curve()
+    assert curve.multiplier.size == 41
     weights, heights = np.array([42.0, 30.0, 12.0, 6.0]), np.array([1.75, 5.0, 3.5, 6.5])
     first, second = weights @ heights, weights @ heights**2
     assert curve.participating_mass_ratio == pytest.approx(first**2 / (weights.sum() * second), rel=1e-8)
