@@ -105,7 +105,6 @@ def test_what_it_carries_may_fall_though_it_cannot():
     assert point.displacement == pytest.approx(0.05 * checked.governing.static.displacement_factor)
 
 
-
 def test_it_has_no_fragility():
     with refused(StructureError, "structure", ALONE.never_overturns_because):
         rocking.fragility([record(4.0), record(5.0)], ALONE, stations=["a", "b"], levels=[0.2, 0.6])
