@@ -151,7 +151,7 @@ _OTHER: dict[str, re.Pattern[str]] = {
         r"(?m:(?<![a-z])(?:units?|unidade?s?|unit[aà]|unités?|einheit|birim)[^:=\n]*[:=]\s*[(\[]?[cm]?m[)\]]?\s*$)"
     ),
 }
-_QUANTITIES = {"spectrum", *_OTHER}
+_QUANTITIES: set[str] = {"spectrum", *_OTHER}
 _OF_NO_MOTION = re.compile(
     r"(?i)shear|wave|vs[ _,]?30|\bond[ae]s?\b|welle|\bdalga\b|muestreo|chantillon|abtast|örnekle|campion"
 )
