@@ -72,7 +72,8 @@ class _Earthquake:
     def named(cls, event: str, event_time: str) -> "_Earthquake":
         words = [word for word in re.findall(r"[^\W\d_]{3,}", event.lower()) if word not in _GENERIC]
         stem = "".join(words)[:_LETTERS] or re.sub(r"\W", "", (event or event_time).lower())
-        number = re.search(r"[A-Za-z]-(\d\d)(?!\d|-)|[\s_#-](\d{1,3})$", event)
+        # After a figure it is the end of a date, or an hour.
+        number = re.search(r"[A-Za-z]-(\d\d)(?!\d|-)|(?<!\d)[\s_#-](\d{1,3})$", event)
         which = (number[1] or number[2]).lstrip("0") or "0" if number else ""
         instant, has_hour = _instant(event_time)
         if instant is None:
@@ -82,7 +83,7 @@ class _Earthquake:
         year = re.search(r"\b(1[89]\d\d|20\d\d)(?!\d)", event)
         stated_year = int(year[1]) if year else None
         if short:
-            stated_year = int(short[1]) + (1900 if int(short[1]) > 30 else 2000)
+            stated_year = int(short[1]) + (1900 if int(short[1]) >= 30 else 2000)
         if stated_year is None and instant is not None:
             stated_year = datetime.fromtimestamp(instant, UTC).year
         return cls(stem, which, stated_year, instant, has_hour)

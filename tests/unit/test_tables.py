@@ -204,8 +204,11 @@ def test_a_disk_that_takes_no_more_is_named_in_a_sentence(tmp_path: Path, monkey
 def test_a_data_package_describes_each_column_once() -> None:
     package = json.loads(tables.data_package("study", {MadeRow: ["x/made.csv", "y/made.csv"]}))
     (resource,) = package["resources"]
-    assert (resource["path"], resource["description"]) == (["x/made.csv", "y/made.csv"], "Made for a test")
-    fields = {field["name"]: field for field in resource["schema"]["fields"]}
+    fields = {field["name"]: field for field in resource["schema"].pop("fields")}
+    assert package == {"profile": "tabular-data-package", "name": "study", "resources": [{
+        "name": "made", "path": ["x/made.csv", "y/made.csv"], "profile": "tabular-data-resource",
+        "description": "Made for a test", "schema": {"missingValues": ["", "nan"]},
+    }]}  # fmt: skip
     assert list(fields) == next(csv.reader(tables.csv_lines(MadeRow, []))) and list(fields)[-1] == "sha256"
     speed = {"type": "number", "description": "How fast", "unit": "rad/s", "equation": "Eq. 1"}
     assert fields["speed_rad_s"] == {"name": "speed_rad_s", **speed}

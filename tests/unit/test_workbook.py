@@ -44,27 +44,36 @@ def _cells(content: bytes, sheet: int) -> dict[str, tuple[str, str]]:
     return {cell.get("r", ""): (cell.get("t", "n"), "".join(cell.itertext())) for cell in cells}
 
 
+def _texts(place: str, *texts: str) -> dict[str, tuple[str, str]]:
+    return {f"{column}{place}": ("inlineStr", text) for column, text in zip("ABCDE", texts, strict=True)}
+
+
 def test_every_cell_has_its_type_and_every_head_its_unit() -> None:
-    cells = _cells(_made(), 2)
-    assert [cells[f"{place}1"][1] for place in "ABCDE"] == [
-        "record",
-        "rotation [rad]",
-        "count",
-        "holds",
-        "flags",
-    ]
-    assert cells["A2"] == ("inlineStr", "=1+1") and cells["A3"][1] == "http://x"
-    assert cells["B2"] == ("n", "0.25") and cells["B3"] == ("inlineStr", "INF") and "B4" not in cells
-    assert cells["C2"] == ("n", "3") and "C3" not in cells and float(cells["C4"][1]) == -(2**40)
-    assert cells["D2"] == ("b", "1") and cells["D3"] == ("b", "0") and "D4" not in cells
-    assert cells["E2"][1] == "a; b" and "E3" not in cells
+    assert _cells(_made(), 2) == {
+        **_texts("1", "record", "rotation [rad]", "count", "holds", "flags"),
+        "A2": ("inlineStr", "=1+1"), "B2": ("n", "0.25"), "C2": ("n", "3"), "D2": ("b", "1"),
+        "E2": ("inlineStr", "a; b"), "A3": ("inlineStr", "http://x"), "B3": ("inlineStr", "INF"), "D3": ("b", "0"),
+        "A4": ("inlineStr", r"\x07bell"), "C4": ("n", str(-(2**40))), "E4": ("inlineStr", "one"),
+    }  # fmt: skip
 
 
 def test_the_first_sheet_says_what_each_column_means() -> None:
-    cells = _cells(_made(), 1)
-    assert [cells[f"{place}3"][1] for place in "ABCDE"] == [
-        "cases", "rotation [rad]", "rotation_rad", "rad", "How far it turns",
-    ]  # fmt: skip
+    assert _cells(_made(), 1) == {
+        **_texts("1", "Sheet", "Column", "Column of the CSV", "Unit", "Meaning"),
+        **_texts("2", "cases", "record", "record", "", "Whose row it is"),
+        **_texts("3", "cases", "rotation [rad]", "rotation_rad", "rad", "How far it turns"),
+        **_texts("4", "cases", "count", "count", "", "How many"),
+        **_texts("5", "cases", "holds", "holds", "", "Whether it holds"),
+        **_texts("6", "cases", "flags", "flags", "", "What is doubtful"),
+    }
+
+
+@pytest.mark.parametrize(("sheet", "kept"), [(1, {"ySplit": "1"}), (2, {"xSplit": "1", "ySplit": "1"})])
+def test_heads_stay_in_sight_and_of_a_table_its_first_column(sheet: int, kept: dict[str, str]) -> None:
+    with zipfile.ZipFile(BytesIO(_made())) as book:
+        root = ElementTree.fromstring(book.read(f"xl/worksheets/sheet{sheet}.xml"))
+    (pane,) = root.iter(f"{SPACE}pane")
+    assert {key: value for key, value in pane.items() if key.endswith("Split")} == kept
 
 
 @pytest.mark.parametrize(("rows", "filtered"), [(ROWS, "A1:E4"), ([], "A1:E1")])

@@ -94,6 +94,7 @@ def test_all_defects_stand_in_one_message(folder: Path) -> None:
         row(id="repo", source_repository="x", source_path="../y", source_commit="main"),
         row(id="hashes", file="a.csv;b.csv"), row(id="fetched", source_repository="a/b", sha256=""),
         row(id="paths", file="a.csv;b.csv", source_repository="../..", source_path="z"),
+        row(id="twice", scale_factor="2", scale_to="pga 0.3 g"), row(id="leads", inventory="../x.xml"),
     ]  # fmt: skip
     with pytest.raises(CatalogueError) as caught:
         load_catalogue(write(folder, *bad))
@@ -103,6 +104,7 @@ def test_all_defects_stand_in_one_message(folder: Path) -> None:
                  "source_repository is 'x'", "source_path is '../y'", "source_commit is 'main'", "magnitude is 11",
                  "epicentral_distance_km is -3", "magnitude is 'big'", "sha256 holds 1 hashes for 2 files",
                  "sha256 is missing; a file that is fetched", "source_repository is '../..'", "source_path is 'z'",
+                 "scale_factor is 2 together with scale_to 'pga 0.3 g'", "inventory is '../x.xml'",
                  ):  # fmt: skip
         assert part in said
 

@@ -84,6 +84,46 @@ def test_a_header_that_contradicts_itself_is_refused(name: str, old: str, new: s
     assert caught.value.field in ("duration", "the step", "the interval", "the number of points")
 
 
+@pytest.mark.parametrize(("name", "old", "new", "named"), [
+    ("USGS SMC", "1.0000000E+02", "0.0000000E+00", ("rate", 0.0)),
+    ("USGS SMC", "1.0000000E+02", "1.0000000E+06", ("rate", 1e6)),
+    ("UNAM/CICESE", f"V\n{'-' * 79}", "V\n", ("header", "DATOS DE ACELERACION")),
+    ("UNAM/CICESE", "DATOS DE ACELERACION:", "DATOS:", ("header", "begins with DATOS DE ACELERACION")),
+    ("RENADIC", "/&  END OF DATA\n", "/&  END OF DATA\nmore\n", ("lines", 2)),
+    ("BHRC", "0.400", "9" * 60, ("time_step", 2.5e58)),
+])  # fmt: skip
+def test_what_no_recorder_writes_is_refused_by_name(name: str, old: str, new: str, named: tuple) -> None:
+    text = made(name)
+    assert old in text
+    with refused(RecordError, *named):
+        read_text(text.replace(old, new, 1))
+
+
+def test_the_rate_of_bhrc_is_held_against_its_step() -> None:
+    for rate, told in (
+        ("    50.000", RockingWarning.of(RecordKind.RATE_UNLIKE_STEP, rate_hz=50.0, time_step_s=0.01)),
+        ("    ******", RockingWarning.of(RecordKind.RATE_NO_NUMBER, rate="******")),
+        ("     0.500", None),  # no rate of a recorder
+    ):
+        assert read_text(made("BHRC").replace("   100.000", rate, 1))[0].warnings == ((told,) if told else ())
+
+
+@pytest.mark.parametrize(("text", "declared", "named"), [
+    ("0\n1\n2\n3\n", {"unit": "g", "time_step": 1e-8}, ("time_step", 1e-8)),
+    ("0\n1\n2\n3\n", {"unit": "g", "time_step": 20.0}, ("time_step", None)),
+    ("t,a (g)\n0,1\n1e-8,2\n2e-8,3\n3e-8,1\n", {}, ("times",)),
+    ("t,a (g)\n0,1\n1,2\n1,3\n2,1\n", {}, ("times", 1.0)),
+    ("t,NS,EW (g)\n0,1,2\n0.01,2,3\n0.02,1\n", {}, ("columns", 2)),
+    (made("PEER AT2").partition("NPTS")[0] + "NPTS= 3, DT= 0.01 SEC\n1 2-3\n", {}, ("samples", None)),
+    ("", {}, ("size", 0)),
+])  # fmt: skip
+def test_a_text_without_times_or_numbers_of_a_record_is_refused_by_name(
+    text: str, declared: dict, named: tuple
+) -> None:
+    with refused(RecordError, *named):
+        read_text(text, **declared)
+
+
 def test_cosmos_has_the_step_of_its_series() -> None:
     """Real value 34 is the recorder's step, 62 that of the series in ms (COSMOS format 1.20): one may be resampled."""
     text = made("COSMOS V1/V2")
@@ -207,6 +247,7 @@ def test_evt_frames_are_summed_and_in_order() -> None:
         (swapped, 2056 + frame),
         (content[:-20], last),
         (2 * content, len(content)),
+        (content + b"more", len(content)),
     ):
         with refused(RecordError, "frame", at):
             read_content(damaged, "made", Options())

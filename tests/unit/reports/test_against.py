@@ -132,6 +132,19 @@ def test_the_history_reaches_what_the_number_says_and_the_band_what_the_closed_f
     assert len(seen) >= 4
 
 
+def test_axes_have_a_few_round_numbers_where_these_are(blocks):
+    for report in blocks:
+        page = against_of(report)
+        for ticks in (page.ticks, *(ground.levels for ground in page.grounds)):
+            at = [tick.at for tick in ticks]
+            numbers = [float(tick.label.replace("−", "-").partition(" ")[0]) for tick in ticks]
+            assert (
+                2 <= len(ticks) <= 7 and np.ptp(at - np.polyval(np.polyfit(numbers, at, 1), numbers)) < 1e-6
+            )
+            steps = {f"{abs(one - other):.4g}" for one, other in pairwise(numbers)}
+            assert all(step.strip("0.")[:1] in "1245" for step in steps), steps
+
+
 def test_those_at_rest_stand_in_one_line_and_have_no_strip(blocks):
     for report in blocks:
         page = against_of(report)

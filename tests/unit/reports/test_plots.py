@@ -144,8 +144,8 @@ def test_a_history_is_drawn_with_its_impacts_and_the_band_of_its_members_up_to_a
     axes = Figure().subplots()
     times, ratio = np.arange(5.0), np.array([0.0, 0.5, -0.25, -0.5, -0.1])
     draw_rotation(axes, (times, ratio), band=(0.2, 1.7))
-    _, history, impacts = axes.lines
-    assert np.array_equal(history.get_ydata(), ratio)
+    rest, history, impacts = axes.lines
+    assert np.array_equal(history.get_ydata(), ratio) and list(rest.get_ydata()) == [0, 0]
     assert (impacts.get_xdata().tolist(), impacts.get_ydata().tolist()) == ([2.0], [0.0])
     bars = [patch.get_window_extent().transformed(axes.transData.inverted()) for patch in axes.patches]
     assert [[bar.ymin, bar.ymax] for bar in bars] == [pytest.approx([0.2, 1.0]), pytest.approx([-1.0, -0.2])]

@@ -4,6 +4,7 @@ import hashlib
 import os
 import shutil
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,7 @@ from rocking.study import settings as settings_module
 from rocking.study.job import prepare
 from rocking.study.plan import Plan, make_plan, study_warnings
 from rocking.study.settings import Settings, read_settings, settings_sha256
+from tests.refusals import refused
 
 ROOT = Path(__file__).parents[3]
 SHA256 = "0" * 64
@@ -117,6 +119,23 @@ def test_results_that_cannot_be_written_are_refused_before_any_work(tmp_path: Pa
     words = f"setting results: nothing can be written in {tmp_path}; correct its permissions or name another folder."
     assert words in _refusal(settings)
     assert asked == [(tmp_path, os.W_OK | os.X_OK)]
+
+
+def test_a_job_on_another_machine_needs_files_next_to_the_catalogue_and_their_hashes(tmp_path: Path) -> None:
+    Path("layouts.csv").write_text("answer\n")
+    known = f"a,a.AT2,{SHA256}\nb,b.AT2,\n"
+    plan = make_plan(_write(tmp_path, known), by_name=True)
+    a, b = plan.records.values()
+    assert plan.files_of(a) == [str(tmp_path / "a.AT2")]
+    assert plan.files_of(replace(a, inventory="a.xml")) == [str(tmp_path / "a.AT2"), str(tmp_path / "a.xml")]
+    assert plan.answers_of(a) == {str(tmp_path / "layouts.csv"): hashlib.sha256(b"answer\n").hexdigest()}
+    mirrored = make_plan(_write(tmp_path, known, mirror=str(tmp_path)), by_name=True)
+    for of, record in ((plan, b), (mirrored, a)):
+        with refused(ConfigurationError, "sha256", record.sha256):
+            of.files_of(record)
+    assert list(plan.of("b").records) == ["b"]
+    with refused(ConfigurationError, "record", "c"):
+        plan.of("c")
 
 
 def test_what_changes_no_number_does_not_change_the_hash_of_the_settings(tmp_path: Path) -> None:

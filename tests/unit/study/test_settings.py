@@ -128,14 +128,19 @@ def test_all_defects_stand_in_one_message_each_with_its_value_and_what_is_allowe
     }
 
 
-@pytest.mark.parametrize(
-    ("config", "words"),
-    [
-        ({"pulse": {"lowest_frequency_hz": 6}}, "highest_frequency is 5 Hz, but must be above"),
-        ({"processing": {"low_pass_hz": 0.05}}, "high_pass is 0.1 Hz, but low_pass"),
-        ([], "must be a mapping"),
-    ],
-)
+@pytest.mark.parametrize(("config", "words"), [
+    ({"pulse": {"lowest_frequency_hz": 6}}, "highest_frequency is 5 Hz, but must be above"),
+    ({"processing": {"low_pass_hz": 0.05}}, "high_pass is 0.1 Hz, but low_pass"),
+    ([], "must be a mapping"),
+    ({"checks": {"shortest_period_s": 2.0, "longest_period_s": 2.0}}, "shortest_period_s is 2 s, but must be below"),
+    ({"checks": {"least_factor": 3.0, "largest_factor": 3.0}}, "least_factor is 3, but must be below"),
+    ({"design_spectrum": {"ag_g": 0.2, "f0": 2.4}}, "tc_star_s is missing, but must be given with ag_g."),
+    ({"design_spectrum": {"ag_g": 0.2, "tc_star_s": 0.3}}, "f0 is missing, but must be given with ag_g."),
+    ({"design_spectrum": {"f0": 2.4}}, "ag_g is missing, but must be given with f0."),
+    ({"design_spectrum": {"tc_star_s": 0.3}}, "ag_g is missing, but must be given with tc_star_s."),
+    ({"design_spectrum": {"ag_g": 0.2, "points": "a.csv"}}, "points is 'a.csv' together with ag_g = 0.2, but one"),
+    ({"scale_to": "pga 0 g"}, "scale_to"),
+])  # fmt: skip
 def test_settings_that_do_not_go_together_are_refused(config: object, words: str) -> None:
     assert words in _refusal(config)
 
