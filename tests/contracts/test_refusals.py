@@ -24,6 +24,7 @@ from rocking.floors.spectrum import floor_spectrum
 from rocking.floors.support import Mode, Support
 from rocking.motion.batch import rocking_spectrum
 from rocking.pulses import predicting_pulse
+from rocking.quantities import GRAVITY
 from rocking.signal.processing import Processing, process
 from rocking.signal.rotation import aligned, rotd
 from rocking.sine_pulse.maximum import pulse_spectrum, sides_under
@@ -42,7 +43,8 @@ RECORD = rocking.Accelerogram(np.sin(np.arange(200) * 0.1), 0.01)
 STILL = np.zeros(9)
 sensitive = partial(rocking.integrate, BLOCK, RECORD, sensitivity=True)
 PULSE = rocking.Pulse(amplitude=3.0, circular_frequency=6.0)
-CODE = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
+ntc = partial(rocking.DesignSpectrum.ntc, f0=2.5, tc_star=0.35)
+CODE = ntc(ag=2.0)
 MODE = Mode(period=0.3, damping_ratio=0.05, participation=1.3)
 ONE = rocking.Members([1.0])
 SUPPORT = Support((MODE,))
@@ -65,6 +67,7 @@ STOREYS = {"name": "tower", "period_s": 0.3, "damping_ratio": 0.05, "storeys": 2
     (lambda value: BLOCK.hinges(value), StructureError, "rotation", -SIDE.end_rotation, SIDE.end_rotation),
     (lambda value: replace(PULSE, phase=value), PulseError, "phase", 0.0, 2 * math.pi),
     (lambda value: rocking.response_spectrum(RECORD, [1.0], value), RecordError, "damping", 0.0, 0.999),
+    (lambda value: ntc(ag=value), ConfigurationError, "ag", math.ulp(0.0), 3 * GRAVITY),
     (lambda value: replace(CODE, damping=value), ConfigurationError, "damping", 0.0, 0.5),
     (lambda value: replace(CODE, topography=value), ConfigurationError, "topography", 1.0, 1.4),
     (lambda value: floor_spectrum(SUPPORT, STILL, value, max), RecordError, "damping_ratio", 0.001, 0.999),

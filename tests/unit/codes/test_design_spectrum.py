@@ -159,8 +159,6 @@ def test_a_file_that_is_no_spectrum_is_refused_in_a_sentence(tmp_path, text, sen
 @pytest.mark.parametrize(
     "values",
     [
-        {"ag": -1.0},
-        {"ag": 150.0},
         {"f0": "2.5"},
         {"tc_star": 0},
     ],
