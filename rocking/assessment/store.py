@@ -198,14 +198,6 @@ def decoder(kind: Any) -> Callable[[Any], Any]:
     if origin is not None and issubclass(origin, Mapping):
         of_key, of_item = map(decoder, parts)
         return lambda value: {of_key(key): of_item(item) for key, item in value}
-    if origin is typing.Literal:
-
-        def chosen(value: Any) -> Any:
-            if value not in parts:
-                raise ValueError(value)
-            return value
-
-        return chosen
     if kind is np.ndarray:
 
         def array_of(value: Any) -> np.ndarray:

@@ -3,6 +3,7 @@
 import hashlib
 import json
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -172,8 +173,9 @@ def test_an_entry_that_is_no_result_is_computed_anew(tmp_path, cases):
     computed(path, structures=ONE)
     version = store.computation_version()
     names = list(json.loads(path.read_bytes().partition(b"\n")[2]))
-    for entry in ({"structure": 1}, [], "text", None, {"": {"__class__": "os"}}):
-        content = json.dumps(dict.fromkeys(names, entry)).encode()
+    entries = ({"structure": 1}, [], "text", None, {"": {"__class__": "os"}})
+    for holds in (names, *(dict.fromkeys(names, entry) for entry in entries)):
+        content = json.dumps(holds).encode()
         path.write_bytes(f"{version} {hashlib.sha256(content).hexdigest()}\n".encode() + content)
         cases.clear()
         computed(path, structures=ONE)
@@ -188,9 +190,17 @@ def test_numbers_of_every_kind_come_back():
         (str, 'quote " and \\ and Ω'),
         (tuple[float, ...], (1.0, -0.0)),
         (float | None, None),
+        (int | str, 3),
+        (Mapping[str, tuple[int, str]], {"a": (1, "one")}),
+        (float, np.float64(0.5)),
     ):
         assert store.decoded(kind, store.encoded(value)) == value
     assert math.isnan(store.decoded(float, store.encoded(math.nan)))
+    for kind, value in ((int | str, 0.5), (tuple[int, str], [1])):
+        with pytest.raises(ValueError):
+            store.decoded(kind, value)
+    with pytest.raises(TypeError, match="a range cannot be kept"):
+        store.encoded(range(3))
 
 
 def test_each_mechanism_of_a_wall_is_kept_by_itself(tmp_path, cases):
