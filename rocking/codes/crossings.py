@@ -46,8 +46,6 @@ class Crossings:
         """Return the levels themselves [m/s²] of the mechanisms at `places` (k,): (k,)."""
         found: np.ndarray = self.high[places]
         are_between = self.high[places] > self.low[places]
-        if not are_between.any():
-            return found
         rows = places[are_between]
         low = self.low[rows]
         high = self.high[rows]

@@ -47,6 +47,7 @@ def test_what_bears_nothing_is_reached_at_once_and_what_bears_all_never():
     capacities = np.array([0.0, 2.0, np.inf])
     crossings = Crossings.of(lambda _, levels: 4.0 * levels, capacities, 1.0)
     assert crossings.levels(np.array([2, 0, 1])) == pytest.approx([np.inf, 0.0, 0.5], rel=TO_ROUNDING)
+    assert crossings.levels(np.array([2, 0])).tolist() == [np.inf, 0.0]
 
 
 def test_a_guess_that_is_far_off_is_mended():
