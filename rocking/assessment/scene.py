@@ -287,8 +287,6 @@ def load_scenes(path: str | Path, content: bytes | None = None) -> dict[str, Sce
         defects.append(
             f"{path}: support {_repeated(idle)} carries nothing; name it by stands_on, or remove it."
         )
-    if not scenes and not defects:
-        defects.append(f"{path}: the file lists supports only; add a structure.")
     if defects:
         raise ConfigurationError("\n".join(defects))
     return scenes

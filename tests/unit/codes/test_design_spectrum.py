@@ -148,6 +148,7 @@ def test_points_of_a_file_and_the_lines_between_them(tmp_path):
         ("period,sa\n0,0.2\n", "columns are period, sa, but must be period_s and one of"),
         ("period_s,acceleration_g\n0.2,0.2\n1,0.1\n", "first period is 0.2 s, but must be 0.05 s or less"),
         ("period_s,acceleration_g\n0,0.2\n" + " " * 2**20, "1048576"),
+        ('period_s,acceleration_g\n"0,0.2\n', "the spectrum cannot be read as UTF-8 CSV"),
     ],
 )
 def test_a_file_that_is_no_spectrum_is_refused_in_a_sentence(tmp_path, text, sentence):

@@ -246,6 +246,8 @@ def test_nrml_says_the_range_of_an_average_and_refuses_what_openquake_lacks(tmp_
     assert model.find(f".//{NRML}imls").get("imt") == "AvgSA"
     with refused(ConfigurationError, "intensity_measure", "p_pgv"):
         _lognormal("p_pgv", "").to_nrml(tmp_path / "other.xml")
+    with refused(ConfigurationError, "name", ""):
+        _lognormal().to_nrml(tmp_path / "other.xml", name="")
     assert not (tmp_path / "other.xml").exists()
 
 

@@ -13,7 +13,7 @@ import pytest
 
 import rocking
 from rocking.catalogue import load_catalogue, open_station
-from rocking.errors import ConfigurationError
+from rocking.errors import ConfigurationError, RecordError
 from rocking.fragility.measures import (
     CORNER,
     INTENSITY_MEASURES,
@@ -173,6 +173,14 @@ def test_a_period_beyond_the_band_of_a_record_is_refused(name, measure):
     record = Accelerogram(np.sin(TIMES), STEP, station="LCN", high_pass_frequency=0.16)
     with refused(ConfigurationError, measure):
         rocking.intensity_measure(name).of(record, MECHANISM)
+
+
+def test_of_a_record_that_is_still_or_short_there_is_no_measure():
+    still = Accelerogram(np.zeros(200), STEP, station="LCN")
+    with refused(ConfigurationError, "AvgSA(0.2,2.0)", 0.0):
+        rocking.intensity_measure("AvgSA(0.2,2)").of(still, MECHANISM)
+    with refused(RecordError, "duration", 199 * STEP):
+        rocking.intensity_measure("FIV3(3)").of(still, MECHANISM)
 
 
 def test_the_stations_that_a_median_needs_are_enough():
