@@ -21,7 +21,7 @@ _COMPILES = re.compile(r"^from (numba|rocking\.motion\.runs) import", re.M)
 
 def fetch() -> None:
     """Bring what was compiled of the same kernels into the package, or compile it, once for all workers."""
-    newest = max(path.stat().st_mtime for path in _sources())
+    newest = max(path.stat().st_mtime for path in sources())
     if any(path.stat().st_mtime < newest for path in _compiled(PACKAGE)):
         _remove(PACKAGE)
     with contextlib.suppress(OSError), _kept() as kept:  # a home may lack or be closed
@@ -48,7 +48,7 @@ def _kept() -> Iterator[Path]:
     import numba
 
     digest = hashlib.sha256(numba.__version__.encode())
-    for path in _sources():
+    for path in sources():
         digest.update(path.read_bytes())
     KEPT.mkdir(parents=True, exist_ok=True)
     with (KEPT / "lock").open("w") as lock:
@@ -59,7 +59,7 @@ def _kept() -> Iterator[Path]:
             shutil.rmtree(outdated)
 
 
-def _sources() -> list[Path]:
+def sources() -> list[Path]:
     return [
         path for path in sorted(PACKAGE.rglob("*.py")) if _COMPILES.search(path.read_text(encoding="utf-8"))
     ]

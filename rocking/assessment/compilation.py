@@ -25,6 +25,8 @@ from rocking.signal.processing import Processing, process
 from rocking.sine_pulse import overturning_amplitudes, predict_maxima, predict_maximum
 from rocking.structures import Block, Spire
 
+PARTS = ("contacts", "motion", "pulses", "sine_pulse")
+"""The folders of the kernels."""
 USUAL = "about 20 s on two idle cores"
 """How long compiling takes: the figure first_compilation of docs/measured, which a test compares."""
 _PATIENCE = 3.0
@@ -76,7 +78,7 @@ def _processor() -> str:
 def _source() -> str:
     """One hash for numba and for what all files next to the kernels say."""
     package = Path(__file__).parents[1]
-    files = [path for part in ("motion", "pulses", "sine_pulse") for path in (package / part).glob("*.py")]
+    files = [path for part in PARTS for path in (package / part).glob("*.py")]
     return sha256_of_sources(package, files, version("numba"))
 
 

@@ -9,6 +9,7 @@ from docs.site.build import FOLDER
 from docs.site.measured import ROOT, figures
 from rocking.assessment import compilation
 from rocking.errors import RockingError
+from tests import kernels
 
 
 def compiled_within(seconds: float, folder: Path, monkeypatch, errors: str = "") -> list[str]:
@@ -24,7 +25,9 @@ def compiled_within(seconds: float, folder: Path, monkeypatch, errors: str = "")
         returncode=int(bool(errors)),
     )
     monkeypatch.setattr(compilation, "time", SimpleNamespace(monotonic=lambda: clock.now, sleep=sleep))
-    monkeypatch.setattr(compilation, "subprocess", SimpleNamespace(Popen=lambda *_, **__: process, PIPE=None))
+    monkeypatch.setattr(
+        compilation, "subprocess", SimpleNamespace(Popen=lambda *_, text, **__: text and process, PIPE=None)
+    )
     monkeypatch.setattr(compilation, "rock", SimpleNamespace(stats=SimpleNamespace(cache_path=str(folder))))
     said: list[tuple[str, bool]] = []
     compilation.compile_all(lambda *told: said.append(told))
@@ -39,6 +42,11 @@ def test_it_is_told_after_three_seconds_and_every_second_how_long_it_has_taken(
     assert [line.rpartition(": ")[2] for line in moving] == [f"{second} s" for second in range(3, 10)]
     assert last == "Compiled in 10 s; it is cached for every later run."
     assert compiled_within(10.0, tmp_path, monkeypatch) == [], "it is kept"
+
+
+def test_the_stamp_is_of_every_folder_with_a_kernel() -> None:
+    folders = {path.relative_to(kernels.PACKAGE).parts[0] for path in kernels.sources()}
+    assert folders == set(compilation.PARTS)
 
 
 def test_what_is_loaded_soon_is_not_spoken_of(tmp_path: Path, monkeypatch) -> None:
