@@ -101,6 +101,14 @@ def test_the_corner_that_a_peer_header_tells(line: str, corner: float | None) ->
     assert record.high_pass_frequency == corner
 
 
+@pytest.mark.parametrize(("title", "component"), [
+    (", " + "C" * 16, "C" * 16), (", " + "C" * 17, "channel 1"), (" TRANSVERSE COMP", "Transverse"),
+])  # fmt: skip
+def test_the_component_in_the_title_of_a_peer_file(title: str, component: str) -> None:
+    (record,) = read_text(made_files.peer().replace(", 45\n", f"{title}\n"))
+    assert record.component == component
+
+
 @pytest.mark.parametrize(("rows", "warned"), [(4, True), (3, False)])
 def test_a_number_cut_short_is_seen_beside_two_whole_ones(rows: int, warned: bool) -> None:
     """The first of the lines looked at may itself be cut, by the looking."""

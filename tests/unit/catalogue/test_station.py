@@ -57,6 +57,11 @@ def test_the_files_of_a_station_are_one_record_on_their_common_span(station):
     assert all("Cut to the span common" in c.processing[-1] for c in (east, north, opened.vertical))
 
 
+def test_a_component_that_the_row_calls_vertical_acts_upwards_and_no_other(station):
+    opened = open_station(_record(station, vertical_component="HNE"))
+    assert [channel.component for channel in (*opened.horizontal, opened.vertical)] == ["HNN", "HNE"]
+
+
 def test_files_that_do_not_fit_together_are_refused_in_a_sentence(station):
     """Unlike names, steps and lengths; between samples; apart in time."""
     _written(station, "short.asc", "HNN", VALUES[:200])

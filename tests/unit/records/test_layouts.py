@@ -150,6 +150,20 @@ def test_a_last_row_that_is_cut_counts_in_no_peak_of_a_question(tmp_path: Path) 
     assert asked.value.question.signature.peaks == f"{np.abs([MOTION, OTHER, UP]).max():.3g}"
 
 
+@pytest.mark.parametrize(("answer", "above"), [
+    ("skip 1, n, dt, one series m/s2", "1 600 0.01"), ("skip 2, n, dt, hz, one series m/s2", "600 0.01 0.5 0.6"),
+])  # fmt: skip
+def test_numbers_above_a_series_that_are_others_than_the_answer_says_are_refused(
+    tmp_path: Path, answer: str, above: str
+) -> None:
+    (tmp_path / "made.txt").write_text("El Centro\nfactor 1\n600 0.01\n0.5 0.6\n" + wrapped(MOTION, 8))
+    with pytest.raises(AskedError) as asked:
+        read(tmp_path / "made.txt")
+    answered(tmp_path, asked.value.question, answer)
+    with refused(RecordError, "above", above):
+        read(tmp_path / "made.txt")
+
+
 @pytest.mark.parametrize(("name", "content", "answer"), [
     ("SHAKE2000", SHAKE.format(name="x.acc") + wrapped(MOTION / G, 8, "9.6f", ""), "one series g, 8F9"),
     ("Strata", STRATA.format(name="a\\G01000.AT2") + table(TIMES, MOTION / G, parted=","), "t, a g"),

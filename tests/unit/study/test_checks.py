@@ -20,6 +20,7 @@ from rocking.assessment.scene import load_scenes, on_the_ground
 from rocking.codes.check import DynamicCheck
 from rocking.codes.kinds import CheckKind
 from rocking.errors import ConfigurationError
+from rocking.floors.place import place_from_config
 from rocking.motion.response import ModelCheck
 from rocking.products.checks.conclusion import code_conclusion_in_words, code_conclusions
 from rocking.products.checks.figures import bars_figure
@@ -342,7 +343,38 @@ def test_a_study_that_contradicts_the_checks_is_told_with_its_figure():
     assert "of 20 stations, act with peaks from 0.20 to 0.50 g, and 25 % of its members overturn" in told
     never = page_of(WEAK, overturning_share=0.0, stations=20, records=40)
     assert "no member overturns" in " ".join(never.details)
-    assert "stations" not in " ".join(page_of(overturning_share=0.05, stations=20, records=40).details)
+    for share, told in ((0.1, False), (0.101, True)):
+        details = page_of(overturning_share=share, stations=20, records=40).details
+        assert ("stations" in " ".join(details)) is told
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_the_page_of_a_structure_on_a_support_lists_the_other_places():
+    """Its own is that of the worst period; 0.1/0.05 m, 0.1/0.2 m; what could not be checked is said with its reason."""
+    place = place_from_config({"name": "roof", "period_s": [0.2, 0.6], "participation": 1.3})
+    at = dict(zip(("worst", "met", "unknown", "ground"), (*place.supports[1:4], None), strict=True))
+    page = CheckedStructure(
+        name="wall",
+        structure=Block.of_size(0.6, 2.0),
+        checked=replace(FORMULAS, dynamic=found(False, 9)),
+        place=place,
+    )
+    met, missed = (replace(FORMULAS, dynamic=found(is_met, 3)) for is_met in (True, False))
+    pages = [
+        replace(page, support=at["worst"]),
+        replace(page, support=at["met"], checked=met, overturning_share=0.25, stations=20),
+        replace(page, support=at["unknown"], checked=None, refusal="the spectrum ends at 1 s."),
+        replace(page, support=at["ground"], checked=missed),
+    ]
+    (sheet,) = structures_data(pages, DesignSpectrum.ntc(1.0, 2.5, 0.3), Settings().for_pages_to_sign).sheets
+    linear, nonlinear = (f"{check.ratio:.2f}" for check in FORMULAS.checks)
+    places = sheet.answers[0].basis.periods
+    assert places.heads == ("Place", "linear", "nonlinear", "dynamic", "Conclusion", "Overturns")
+    assert [[getattr(cell, "text", cell) for cell in line] for line in places.rows] == [
+        ["T_b 0.263 s", linear, nonlinear, "2.00", "verified by C8.7.1.2.1.9", "25\u00a0%"],
+        ["T_b 0.302 s", "–", "–", "–", "It could not be checked: the spectrum ends at 1 s.", "–"],
+        ["on the ground (for comparison)", linear, nonlinear, "0.500", "not verified by C8.7.1.2.1.9", "–"],
+    ]
 
 
 @pytest.mark.usefixtures("undrawn")

@@ -23,16 +23,19 @@ from rocking.assessment.rows import (
 )
 from rocking.assessment.scene import on_the_ground
 from rocking.catalogue.catalogue import CatalogueRecord
-from rocking.errors import RockingError
+from rocking.errors import ConfigurationError, RecordError, RockingError
 from rocking.motion import integrate
 from rocking.products.trade.rows import TradeMethod, TradeRow
+from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.reports.explore import RECORD_SCRIPT
 from rocking.structures import Block
 from rocking.study.job import Study, assess_catalogued, rows_of
 from rocking.study.kept import Kept, keep, kept_in
 from rocking.study.outputs import STEPS, kept_of, outcome_of, outputs_of, store_of
+from rocking.study.own_files import OwnStation, assess_stations
 from rocking.study.plan import MADE_FROM
+from rocking.study.selection import opened
 from rocking.study.settings import Settings, StudyTrade, settings_sha256
 from rocking.study.summary import summarise
 from rocking.study.summary_tables import write_summary
@@ -327,3 +330,39 @@ def test_a_processed_file_and_one_that_cannot_say_are_left_as_they_are_unless_al
 def test_a_raw_file_is_processed_unless_never():
     assert len(_opened(RAW).processing) > len(_opened(RAW, "never").processing)
     assert _opened(RAW).high_pass_frequency == 0.1
+
+
+@pytest.mark.parametrize(("settings", "fidelity"), [
+    ({}, "standard"), ({"reports": False}, "quick"), ({"reports": False, "histories": True}, "standard"),
+])  # fmt: skip
+def test_what_is_drawn_is_followed_whole(settings: dict, fidelity: str) -> None:
+    quick = Study({}, Settings(fidelity="quick", **settings)).assessment
+    assert quick == replace(quick, fidelity=fidelity)
+
+
+@pytest.mark.parametrize(("own", "of_study", "peak_g"), [
+    ("pga 0.3 g", None, 0.3), (None, "pga 0.2 g", 0.2), ("pga 0.3 g", "pga 0.2 g", 0.3),
+])  # fmt: skip
+def test_a_record_is_scaled_as_its_row_says_and_else_the_study(tmp_path: Path, own, of_study, peak_g) -> None:
+    study = Study({}, Settings(scale_to=of_study))
+    horizontal, _ = study.open(replace(_record(tmp_path), scale_to=own or ""))
+    assert max(record.peak_acceleration for record in horizontal) == pytest.approx(peak_g * GRAVITY)
+    with pytest.raises(
+        RecordError, match=r"none of 1 records could be read; the first: gone: file 'gone\.AT2' is"
+    ):
+        opened(study, [CatalogueRecord("gone", "gone.AT2", folder=tmp_path)])
+
+
+def test_an_output_that_is_a_file_or_one_file_for_two_reports_is_refused_before_any_work(
+    tmp_path: Path,
+) -> None:
+    station = OwnStation(_record(tmp_path), ())
+    scenes = on_the_ground({"block": Block.of_size(0.5, 3.0)})
+    for words, arguments in (
+        ("structure is 'pier', but must be one of those in the list: block.", ("pier", None, None)),
+        ("output is 'a.pdf', but is a folder; give the file as --pdf a.pdf.", (None, Path("a.pdf"), None)),
+        ("but there are 2: made, made; give --output FOLDER.", (None, None, tmp_path / "a.pdf")),
+    ):
+        with pytest.raises(ConfigurationError) as caught:
+            next(assess_stations([station, station], scenes, *arguments))
+        assert words in str(caught.value)
