@@ -166,9 +166,7 @@ def _read_sac(content: bytes, options: Options) -> list[Accelerogram]:
     for trace in traces:
         _check_extremes(stated_by_sac(trace.stats), trace.data)
         try:
-            inventory = (
-                None if options.unit and not options.inventory else inventory_for(trace.stats, options)
-            )
+            inventory = inventory_for(trace.stats, options)
         except UndeclaredError as error:
             silent = "unit is not declared, for a SAC file declares none, and"
             raise UndeclaredError(f"{silent} {error}", unit=None) from None
@@ -182,13 +180,8 @@ def _taken(
 ) -> list[Accelerogram]:
     """Return the accelerograms of traces as the file holds them, with what obspy warned of.
 
-    Raises RecordError where counts, which an inventory describes, are declared to be in a unit, or are called velocity.
+    Raises RecordError where a name calls counts, which an inventory turns into acceleration, something else.
     """
-    if inventory is not None and options.unit:
-        raise RecordError(
-            f"unit is {options.unit!r}, but by the inventory the samples are counts; omit one of the two.",
-            unit=options.unit,
-        )
     if inventory is not None:
         options.unit_of("m/s2")
     records = []

@@ -23,7 +23,15 @@ SACPZ = rb"(\*.*\n)*\s*(ZEROS|POLES|CONSTANT)\s+-?\d"
 
 
 def inventory_for(stats: Any, options: Options) -> Any:
-    """Return the inventory given, else the one in the folder that names this network and station, or None."""
+    """Return the inventory given, else the one in the folder that names this network and station, or None.
+
+    Raises RecordError where a unit is given as well, UndeclaredError where none is found.
+    """
+    if options.inventory is not None and options.unit is not None:
+        counts = (
+            f"unit is {options.unit!r}, but by the inventory the samples are counts; omit one of the two."
+        )
+        raise RecordError(counts, unit=options.unit)
     if options.inventory is not None:
         return inventory_of(options.inventory)
     if options.unit is not None or options.folder is None:

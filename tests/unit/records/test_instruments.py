@@ -423,3 +423,15 @@ def test_what_is_no_inventory_is_named_with_what_may_be_given(miniseed: Path, te
     assert "dataless SEED" in str(error.value) and ("poles and zeros" in str(error.value)) == (
         "ZEROS" in text
     )
+
+
+@pytest.mark.parametrize("form", ["MSEED", "SAC"])
+def test_a_unit_next_to_an_inventory_is_refused(tmp_path: Path, form: str) -> None:
+    """The one says that the samples are acceleration, the other that they are counts; either won, unsaid."""
+    trace().write(str(tmp_path / "record"), format=form)
+    (tmp_path / "given.xml").write_text(XML.format(units="M/S**2"))
+    with refused(RecordError, "unit", "cm/s2"):
+        read(tmp_path / "record", unit="cm/s2", inventory=tmp_path / "given.xml")
+    (tmp_path / "made_vel").write_bytes((tmp_path / "record").read_bytes())
+    with refused(RecordError, "unit"):
+        read(tmp_path / "made_vel")
