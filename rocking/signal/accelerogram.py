@@ -238,7 +238,7 @@ class Accelerogram(Drawn):
 
     def warned(self, *warnings: RockingWarning) -> "Accelerogram":
         """Return a copy with more warnings."""
-        return replace(self, warnings=(*self.warnings, *warnings))
+        return replace(self, warnings=(*self.warnings, *warnings)) if warnings else self
 
     def to_obspy(self) -> Any:
         """Return an obspy Trace of the acceleration, m/s², from which from_obspy makes this accelerogram again.

@@ -139,8 +139,10 @@ _FILLING = re.compile(rb"(?i)(?:[ \t]+nan)+\s*\Z")
 
 def without_filling(body: bytes) -> tuple[bytes, tuple[RockingWarning, ...]]:
     """Return rows of numbers without the NaN that fill up the last one, and a warning where there were any."""
-    bare = body[:-4000] + _FILLING.sub(b"\n", body[-4000:])
-    return bare, () if bare == body else (RockingWarning(RecordKind.ROW_FILLED_UP),)
+    match = _FILLING.search(body, max(0, len(body) - 4000)) if b"nan" in body[-200:].lower() else None
+    if match is None:
+        return body, ()
+    return body[: match.start()] + b"\n", (RockingWarning(RecordKind.ROW_FILLED_UP),)
 
 
 def whole(values: np.ndarray, declared: int, per_line: int) -> tuple[np.ndarray, tuple[RockingWarning, ...]]:
