@@ -3,7 +3,7 @@
 A class of a page names the variable of the template that holds it: a `TableCell` is `table_cell` there.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path
 from typing import Any, ClassVar, Literal
@@ -451,8 +451,6 @@ def as_data(thing: Any) -> Any:
     """Return a page as JSON holds it: a dataclass by the names of its fields."""
     if is_dataclass(thing) and not isinstance(thing, type):
         return {field.name: as_data(getattr(thing, field.name)) for field in fields(thing)}
-    if isinstance(thing, Mapping):
-        return {key: as_data(value) for key, value in thing.items()}
     return [as_data(item) for item in thing] if isinstance(thing, list | tuple) else thing
 
 
@@ -463,9 +461,6 @@ def pictures_in(thing: Any) -> Iterator[Picture]:
     elif is_dataclass(thing) and not isinstance(thing, type):
         for field in fields(thing):
             yield from pictures_in(getattr(thing, field.name))
-    elif isinstance(thing, Mapping):
-        for value in thing.values():
-            yield from pictures_in(value)
     elif isinstance(thing, list | tuple):
         for value in thing:
             yield from pictures_in(value)

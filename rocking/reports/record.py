@@ -750,11 +750,8 @@ def _notices(report: RecordReport) -> list[Notice]:
     ):
         still = "No structure uplifts: the ground acceleration never reaches an uplift acceleration."
         notices.append(Notice(still, strong=False))
-    scaled = [row for row in tables.record if row.scale_factor != 1]
-    if scaled:
-        factors = _unique(plain(row.scale_factor) for row in tables.record) or "; ".join(
-            f"component {words(row.component)}: {plain(row.scale_factor)}" for row in scaled
-        )
+    if any(row.scale_factor != 1 for row in tables.record):
+        factors = _unique(plain(row.scale_factor) for row in tables.record)
         text = f"Not the recorded amplitude. The file was multiplied by a declared factor (×\u00a0{factors})."
         notices.append(Notice(text))
     if not tables.comparison:

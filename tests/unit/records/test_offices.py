@@ -14,6 +14,7 @@ from rocking.catalogue.listing import listing_text
 from rocking.errors import CatalogueError, RecordError
 from rocking.records import read
 from rocking.records.kinds import RecordKind
+from rocking.records.sheet import table_of_workbook
 from rocking.study.workspace import write_catalogue
 from rocking.warnings import RockingWarning
 from tests.folders import list_folder
@@ -97,6 +98,14 @@ def test_a_workbook_that_leaves_something_open_is_to_be_saved_as_csv(
     numbers = [[t, a, 2 * a] for t, a in zip(TIMES.tolist(), MOTION.tolist(), strict=True)]
     with refused(RecordError, "sheets"):
         read(workbook(tmp_path / "made.xlsx", [head, *numbers], *titles))
+
+
+def test_a_sheet_of_eight_rows_holds_a_series_and_of_seven_none(tmp_path: Path) -> None:
+    rows = [["Time (s)", "NS (g)"], *([t, a] for t, a in zip(TIMES.tolist(), MOTION.tolist(), strict=True))]
+    text = table_of_workbook(workbook(tmp_path / "made.xlsx", rows[:9]).read_bytes())
+    assert len(text.splitlines()) == 9
+    with refused(RecordError, "sheets", ()):
+        table_of_workbook(workbook(tmp_path / "made.xlsx", rows[:8]).read_bytes())
 
 
 def test_damaged_workbooks_and_other_archives_are_refused_in_a_sentence(tmp_path: Path) -> None:

@@ -24,6 +24,7 @@ from rocking.structures.crackable import crushing
 from rocking.structures.kinds import StructureKind
 from rocking.tables import cell
 from rocking.warnings import RockingWarning
+from tests.unit.assessment.made_rows import failure
 
 from .conftest import HOSTILE, assessed, of_structures, pages, shaken
 
@@ -246,6 +247,22 @@ def test_nothing_that_lifts_no_structure_and_no_pulse_are_told_first():
         data = report.page()
         assert any(notice in one_notice.text for one_notice in data.notices)
         assert report.pdf().startswith(b"%PDF")
+
+
+@pytest.mark.usefixtures("undrawn")
+@pytest.mark.parametrize(("failures", "last"), [
+    (2, "s1: m1"), (3, "s2: m2"), (4, "Another 2 failures in failures.csv."),
+])  # fmt: skip
+def test_few_failures_and_every_factor_are_told_above_everything(example, failures, last):
+    rows = [failure("", f"s{k}", f"m{k}", "e") for k in range(failures)]
+    (record,) = example.tables.record
+    scaled = [
+        replace(record, component=name, scale_factor=factor) for name, factor in (("NS", 2.0), ("EW", 3.0))
+    ]
+    tables = replace(example.tables, failures=rows, record=scaled)
+    factors, *told = replace(example, tables=tables).page().notices
+    assert factors.text.endswith("a declared factor (×\u00a02, 3).")
+    assert [notice.text for notice in told] == [*(f"s{k}: m{k}" for k in range(min(failures - 1, 2))), last]
 
 
 def test_of_a_hundred_structures_few_are_drawn_and_the_others_named(example):
