@@ -263,18 +263,17 @@ def trials(
             peaks.setdefault(line, []).append(max(known))
     found = {}
     for line, of_line in peaks.items():
-        strong = sum(peak > 1.0 for peak in of_line)
-        is_weak = len(of_line) >= _FEWEST_TRIED and max(of_line) < _WEAK
+        is_weak = max(of_line) < _WEAK
+        unusual = of_line if is_weak else [peak for peak in of_line if peak > 1.0]
         words = f"{counted(len(of_line), 'file')}, {min(of_line):.3g}–{max(of_line):.3g} g"
-        if not is_weak and (strong < _FEWEST_TRIED or strong <= _STRONG_SHARE * len(of_line)):
+        if len(unusual) < _FEWEST_TRIED or len(unusual) <= _STRONG_SHARE * len(of_line):
             found[line] = Trial(words, may_hold=True)
             continue
-        how_many = f"all {len(of_line)} files" if is_weak else f"{strong} of its {len(of_line)} files"
         where = f"below {_WEAK:g}" if is_weak else "above 1"
         why = (
-            f"so {how_many} would be {where} g, as no folder of records is; leave the unit "
-            "out of the answer, and fill in the column unit of the catalogue for each, or take the ? away again to "
-            "insist."
+            f"so {len(unusual)} of its {len(of_line)} files would be {where} g, as no folder of records is; leave the "
+            "unit out of the answer, and fill in the column unit of the catalogue for each, or take the ? away again "
+            "to insist."
         )
         found[line] = Trial(why, may_hold=layouts.insists(line, why))
     return found

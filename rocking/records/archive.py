@@ -154,7 +154,7 @@ class _Packed:
             raise RecordError(
                 f"{called or plain(name)}: the file cannot be unpacked, {error}; unpack the archive yourself.",
                 file=name,
-            ) from None
+            ) from error
 
     def whole(self, name: str, largest: int, called: str = "") -> bytes:
         """Return a member. Raises RecordError where it is larger than allowed, or cannot be unpacked."""
@@ -175,14 +175,14 @@ def _packed(archive: Path, place: str) -> _Packed:
     try:
         state = archive.stat()
         return _opened_once(str(archive), place, state.st_mtime_ns, state.st_size, os.getpid())
-    except (RecordError, MemoryError):
+    except (RecordError, MemoryError, AttributeError, NameError):  # the last two are faults of ours
         raise
     except Exception as error:  # the libraries raise what they like of an archive that is damaged
         ending = ending_of(place or archive.name)
         kind = "HDF5" if ending in _WORKSPACES else "zip" if ending == ".zip" else "tar"
         raise RecordError(
             f"damaged {kind} archive, {error}; fetch it again.", format=f"{kind} archive"
-        ) from None
+        ) from error
 
 
 @lru_cache(maxsize=8)

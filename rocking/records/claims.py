@@ -157,12 +157,8 @@ _OF_NO_MOTION = re.compile(
 )
 """The velocity of a site, or of a recorder, is no record."""
 _SERIES_IN_NAME = re.compile(r"(?i)(?<![a-z])(?:(vt2)|dt2)(?![a-z\d])|\.(?:(vel|vtx|semv)|disp?|semd)$")
-_SPECTRA = r"\w*spe[ck]tr\w*|spettr\w*|psa|psv|fas|fft|fourier"
-_SPECTRUM = re.compile(
-    r"(?i)(?<![a-z])((?:response|fourier|power|design|pseudo|spectral|elastic|amplitude|hazard)\w*[ _-]+(?:\w+[ _-]+)?"
-    r"spectr(?:um|a|al)|spectr(?:um|a) of|(?:pseudo[ -]?)?spectral acceleration|espectro de respuesta|"
-    r"spettro di risposta|antwortspektr\w*|spectre de réponse|tepki spektrum\w*)(?![a-z])"
-)
+_SPECTRA = r"\w*spe[ck]tr\w*|spettr\w*|psa|psv|fas|fft|fourier|спектр\w*|φάσμα"
+_SPECTRUM = re.compile(rf"(?i)(?<![a-z])(?:{_SPECTRA})(?![a-z])|スペクトル|反应谱")
 _OF_MOTION = re.compile(
     r"(?i)match|compatib|consistent|scaled to|target|time[ -]?(history|series)|accelerogram"
 )
@@ -218,7 +214,7 @@ _ABSCISSA = re.compile(r"(?i)\s*(period|freq(uency)?)\b.*|f(_hz)?|.*[(\[]\s*hz\s
 _ORDINATE = re.compile(r"(?i)\s*(p?s[av]|sd|fas|fourier|spectr\w*)\b.*")
 _OTHER_TITLE = re.compile(
     r"(?i)(?<![a-z])((?:shear |axial )?strains?|(?:shear |normal )?stress(?:es)?|forces?|moments?|pressure|jerk|"
-    rf"{_SPECTRA}|спектр\w*|φάσμα)(?![a-z])|(スペクトル|反应谱)"
+    rf"{_SPECTRA})(?![a-z])|スペクトル|反应谱"
 )
 _OF_TARGET = re.compile("(?i)match|compatib|consistent|target|scaled to|spectrally")
 
@@ -244,7 +240,7 @@ _BEFORE_UNIT = re.compile(r"\s+in\s+|\s*[/,]\s*|[\s_]+")
 _WORDS_OF_OTHERS = re.compile(
     r"(?i)(?<![a-z])(gyro(?:scope)?|angular|magnet(?:ic|ometer)|rotation|tilt|pressure|volt(?:age)?|counts?|drift|"
     r"arias|husid|energy|power|jerk|slip|uplift|shear strain|strain|stress|forces?|moments?|shear|periods?|"
-    rf"freq(?:uency)?|sv|sa|sd|{_SPECTRA}|спектр\w*|relative|rel|norm(?:ali[sz]ed)?|error|residual|resultant|srss|"
+    rf"freq(?:uency)?|sv|sa|sd|{_SPECTRA}|relative|rel|norm(?:ali[sz]ed)?|error|residual|resultant|srss|"
     r"vector[ _]sum|rotd\d*|geo(?:metric)?[ _]?mean)(?![a-z])|[\[(](f|hz|mm|cm|m|in|ft|[mµu]?v|kn|k?pa|psi|-|%)[\])]$"
 )
 """Other quantities, accelerations that are not those of the ground in one direction, and units of what is neither."""
@@ -392,7 +388,7 @@ def claims_of_name(file: str) -> tuple[Claim, ...]:
         found.append(Claim("unit", unit, Where.FILE_NAME, match[0].strip("_")))
     words = spaced(name)
     quantity = other_quantity(words)
-    if re.search(rf"(?i)(?<![a-z])(?:{_SPECTRA})(?![a-z])", words) and not _OF_MOTION.search(words):
+    if _SPECTRUM.search(words) and not _OF_MOTION.search(words):
         quantity = "spectrum"
     if series := _SERIES_IN_NAME.search(name):
         quantity = "velocity" if series.lastindex else "displacement"

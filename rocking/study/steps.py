@@ -29,9 +29,9 @@ from rocking.assessment.store import LARGEST, RecordStore, decoded, encoded
 from rocking.catalogue import CatalogueRecord
 from rocking.errors import RockingError, fault_in_words
 from rocking.records import Accelerogram
-from rocking.records.miniseed import miniseed_of, samples_in
 from rocking.study.job import Opened, Study, rows_of, write_record
 from rocking.study.kept import undamaged
+from rocking.study.miniseed import miniseed_of, samples_in
 from rocking.study.outputs import STEPS, TABLES, store_of, times_of
 from rocking.tables import Row, read_whole, write_tables, write_whole, written_together
 

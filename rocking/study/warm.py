@@ -19,9 +19,9 @@ import rocking.study.jobs  # noqa: F401
 from rocking.assessment.compilation import compile_all, load_all
 from rocking.assessment.store import computation_version
 from rocking.errors import RockingError
-from rocking.records.miniseed import look_for_readers
 from rocking.study.apart import PREPARED
 from rocking.study.job import prepare
+from rocking.study.miniseed import look_for_readers
 from rocking.study.products import PRODUCTS
 from rocking.study.settings import package_sha256, read_settings
 from rocking.study.work import work_of

@@ -39,7 +39,7 @@ FLOORS = [
 ]
 ONLY_IN = {
     "pydantic": ("described.py", "catalogue/readings.py"),
-    "obspy": ("records/", "signal/accelerogram.py", "catalogue/files.py"),
+    "obspy": ("records/", "signal/accelerogram.py", "catalogue/files.py", "study/miniseed.py"),
     "numba": ("motion/", "pulses/", "sine_pulse/", "contacts/"),
     "matplotlib": ("reports/", "products/"),
     "typst": ("reports/",),

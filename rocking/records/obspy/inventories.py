@@ -28,9 +28,7 @@ def inventory_for(stats: Any, options: Options) -> Any:
     Raises RecordError where a unit is given as well, UndeclaredError where none is found.
     """
     if options.inventory is not None and options.unit is not None:
-        counts = (
-            f"unit is {options.unit!r}, but by the inventory the samples are counts; omit one of the two."
-        )
+        counts = f"unit is {options.unit!r}, but by the inventory they are counts; omit one of the two."
         raise RecordError(counts, unit=options.unit)
     if options.inventory is not None:
         return inventory_of(options.inventory)

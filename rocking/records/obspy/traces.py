@@ -288,13 +288,10 @@ def site(trace: Any, inventory: Any) -> dict[str, Any]:
         is_unknown = bool(_NO_ORIENTATION.search(said))
         orientation = inventory.get_orientation(trace.id, trace.stats.starttime)
         dip = float(orientation.get("dip") or 0.0)
-        step = float(trace.stats.delta)
-        rates = [] if trace.stats.get("processing") else [float(each.sample_rate or 0) for each in active]
-        warnings = tuple(
-            RockingWarning.of(RecordKind.RATE_UNLIKE_STEP, rate_hz=rate, time_step_s=step)
-            for rate in rates
-            if rate and abs(rate * step - 1) > 0.01
-        )
+        warnings: tuple[RockingWarning, ...] = ()
+        step, rate = float(trace.stats.delta), float(active[0].sample_rate or 0)
+        if rate and abs(rate * step - 1) > _SAME_FREQUENCY and not trace.stats.get("processing"):
+            warnings = (RockingWarning.of(RecordKind.RATE_UNLIKE_STEP, rate_hz=rate, time_step_s=step),)
         if is_unknown and abs(dip) <= STEEP:
             warnings = (*warnings, RockingWarning(RecordKind.ORIENTATION_UNKNOWN, trace.id))
         elif orientation.get("azimuth") is not None:

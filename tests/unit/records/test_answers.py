@@ -312,7 +312,7 @@ def test_two_rates_in_a_head_are_asked(tmp_path: Path, head: str) -> None:
 
 
 @pytest.mark.parametrize(("peaks", "answer", "why"), [
-    ((0.3, 0.35), "t, a cm/s2", "all 2 files would be below 0.001 g"),
+    ((0.3, 0.35), "t, a cm/s2", "2 of its 2 files would be below 0.001 g"),
     ((2.2, 2.9), "t, a g", "2 of its 2 files would be above 1 g"),
     ((2.2, 2.9, 6.0), "t, a g", "3 of its 3 files would be above 1 g"),
 ])  # fmt: skip
