@@ -215,8 +215,11 @@ def _scaled(rows: Sequence[FragilitySummaryRow]) -> str:
         return ""
     out = max(row.stations_out for row in rows)
     sentence = f" Records are scaled by {number(max(factors), 2)} at the most"
+    do = "does" if out == 1 else "do"
     return (
-        f"{sentence}; {counted(out, 'station')} do not reach the highest level so." if out else f"{sentence}."
+        f"{sentence}; {counted(out, 'station')} {do} not reach the highest level so."
+        if out
+        else f"{sentence}."
     )
 
 

@@ -23,7 +23,7 @@ from rocking.assessment.rows import (
     agreement_rows,
 )
 from rocking.fragility.measures import compared
-from rocking.products.fragility.report import fragility_data, fragility_figure, ida_frame
+from rocking.products.fragility.report import fragility_data, fragility_figure, fragility_table, ida_frame
 from rocking.products.fragility.rows import FragilityRow, FragilitySummaryRow, IdaRow, IntensityMeasureRow
 from rocking.products.fragility.work import Fragilities
 from rocking.reports.design_figure import (
@@ -331,6 +331,45 @@ def test_the_document_of_the_fragility_names_records_stations_units_and_what_gov
     (part,) = Fragilities().panel(FRAGILITY).parts
     assert part.table.rows == (row,)
     assert Fragilities().panel({FragilitySummaryRow: [], IdaRow: []}) is None
+
+
+def test_the_row_of_a_curve_says_what_stations_reach_and_both_ends_of_what_is_not_known():
+    def of_curve(**values):
+        (row,) = fragility_table(
+            [filled(FragilitySummaryRow, **PIER, **MEDIAN | values)], ida_frame(FRAGILITY)
+        ).table.rows
+        return row
+
+    for values, at, cell in (
+        ({"median_low": 0.0}, 1, "pgv 0.20 (–) m/s"),
+        ({"median_upper": 0.2}, 1, "pgv 0.20 (0.13–0.31) m/s"),
+        ({"median_upper": 0.15, "by": "stones"}, 1, "pgv 0.15 to 0.20, by the stones (0.13–0.31) m/s"),
+        ({"dispersion": 0.456}, 2, "0.46"),
+        ({"stations_at_median": 2, "factor_for_median": 23.4}, 4, "2 of 3 (factor 23)"),
+        ({"stations_at_median": 2}, 4, "2 of 3"),
+        ({"stations": 10, "stations_at_median": 9, "factor_for_median": 2.0}, 4, "9 of 10"),
+        ({"stations": 10, "stations_at_median": 8, "factor_for_median": 2.0}, 4, "8 of 10 (factor 2.0)"),
+        (
+            {"annual_rate": 1e-3, "annual_rate_low": 4e-4, "annual_rate_high": 2e-3},
+            7,
+            "0.0010 (0.00040–0.0020)",
+        ),
+        ({"annual_rate_low": 4e-4, "annual_rate_high": 2e-3}, 7, "0.00040–0.0020"),
+    ):
+        assert of_curve(**values)[at] == cell
+    assert [len(of_curve(annual_rate_high=rate)) for rate in (0.0, 1e-9)] == [7, 8]
+
+
+@pytest.mark.parametrize(("values", "told"), [
+    ({}, ""), ({"largest_scale_factor": 12.3}, " Records are scaled by 12 at the most."),
+    ({"largest_scale_factor": 12.3, "stations_out": 1},
+     " Records are scaled by 12 at the most; 1 station does not reach the highest level so."),
+    ({"annual_rate_high": 1e-3}, " A rate is given by both ends alone where fewer than nine in ten"),
+])  # fmt: skip
+def test_the_caption_of_the_curves_says_how_far_records_were_scaled(values, told):
+    row = filled(FragilitySummaryRow, **PIER, **MEDIAN | values)
+    after = fragility_table([row], ida_frame(FRAGILITY)).caption.partition("let it stand again.")[2]
+    assert after.startswith(told) and bool(after) is bool(told)
 
 
 @pytest.mark.parametrize(
