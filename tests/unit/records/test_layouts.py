@@ -150,6 +150,22 @@ def test_a_last_row_that_is_cut_counts_in_no_peak_of_a_question(tmp_path: Path) 
     assert asked.value.question.signature.peaks == f"{np.abs([MOTION, OTHER, UP]).max():.3g}"
 
 
+@pytest.mark.parametrize(("first", "factor", "above"), [
+    ("600", 1, "n, "), ("598", 1, ""), ("600 0.01", 1, "n, dt, "), ("600 1", 1, "n, dt, "), ("600 1.5", 1, ""),
+    ("600 20", 1, "n, hz, "), ("600 2000", 1, "n, hz, "), ("600 2001", 1, ""), ("600 19", 1, ""), ("600 20.5", 1, ""),
+    ("0.01 600", 1, "dt, n, "), ("1.5 600", 1, ""), ("1 0.01", 0.4, "-, dt, "), ("1 0.01", 0.6, ""),
+    ("1 0.0005", 0.4, "-, dt, "),
+    ("1 0.05", 0.4, "-, dt, "), ("1 0.051", 0.4, ""), ("1 0.0004", 0.4, ""), ("2 0.01", 0.4, ""),
+])  # fmt: skip
+def test_numbers_above_a_series_are_proposed_as_what_they_can_be(
+    tmp_path: Path, first: str, factor: float, above: str
+) -> None:
+    (tmp_path / "made.txt").write_text("\n".join(first.split()) + "\n" + table(factor * np.cos(7 * TIMES)))
+    with pytest.raises(AskedError) as asked:
+        read(tmp_path / "made.txt")
+    assert asked.value.question.proposal.partition("one series")[0] == above
+
+
 @pytest.mark.parametrize(("answer", "above"), [
     ("skip 1, n, dt, one series m/s2", "1 600 0.01"), ("skip 2, n, dt, hz, one series m/s2", "600 0.01 0.5 0.6"),
 ])  # fmt: skip

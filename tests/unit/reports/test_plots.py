@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 import rocking
 from rocking.assessment.rows import ComparisonRow, PulseRow
+from rocking.reports.design_figure import design_summary_figure, spectrum_periods
 from rocking.reports.panels import draw_rotation
 from rocking.reports.scatter import prediction_scatter
 from rocking.reports.style import (
@@ -273,6 +274,28 @@ def test_a_response_is_drawn_over_the_critical_rotation_where_that_is_asked():
     critical = BLOCK.mechanism().critical_rotation
     assert np.allclose(rotation.get_ydata() / critical, relative.get_ydata(), rtol=1e-12)
     assert np.abs(WHOLE.relative_rotation).max() == pytest.approx(WHOLE.rotation_ratio, rel=1e-3)
+
+
+@pytest.mark.parametrize(("count", "labels"), [
+    (1, ["components", "mean of 1", "design level"]), (60, ["components", "mean of 60", "design level"]),
+    (61, ["5 to 95 % of the components", "median", "mean of 61", "design level"]),
+])  # fmt: skip
+def test_of_more_spectra_than_can_be_told_apart_the_quantiles_are_drawn_at_the_design_level(count, labels):
+    level = rocking.DesignSpectrum.ntc(2.0, 2.5, 0.3)
+    periods = spectrum_periods(level)
+    assert periods[[0, -1]] == pytest.approx([0.04, min(4.0, level.longest_period)], rel=0.1)
+    spectra = np.random.default_rng(count).uniform(0, 5, (count, periods.size))
+    (axes,) = design_summary_figure(spectra.tolist(), level).axes
+    assert sorted(axes.get_legend_handles_labels()[1]) == sorted(labels)
+    *drawn, mean, design = (line.get_ydata() for line in axes.lines)
+    assert mean == pytest.approx(spectra.mean(axis=0)) and design == pytest.approx(
+        level.acceleration(periods)
+    )
+    assert np.array(drawn) == pytest.approx(spectra if count <= 60 else np.median(spectra, axis=0)[None])
+    for band in axes.collections:
+        edges = band.get_paths()[0].vertices[1 : periods.size + 1, 1], np.quantile(spectra, 0.05, axis=0)
+        assert edges[0] == pytest.approx(edges[1])
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("period [s]", "spectral acceleration [m/s²]")
 
 
 def test_a_name_is_cut_by_its_width_and_not_by_its_letters():
