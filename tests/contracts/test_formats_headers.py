@@ -127,6 +127,20 @@ def test_unam_columns_are_ten_wide_where_the_header_names_no_width() -> None:
     assert (plain.acceleration == other.acceleration).all()
 
 
+def test_the_seventh_channel_of_cicese_has_the_first_header_of_the_second_block() -> None:
+    """Six of the first channel, in its digits and directions of their own, and the second channel as the seventh."""
+    text = MADE["UNAM/CICESE"][0]()
+    blocks = re.sub(
+        r"(.*)C1-C6(.*?: )/(.*)/(.*)\n", r"\1C1-C6\2" + r"/\3" * 6 + "\n" + r"\1C7-C12\2/\4\n", text
+    )
+    names = [f"N{angle}E" for angle in (10, 20, 30, 40, 50, 60)]
+    head, rule, rows = blocks.replace("/N45E" * 6, f"/{'/'.join(names)}").rpartition(f"{'-' * 79}\n")
+    wide = "".join(row[:10] * 6 + row[10:] + "\n" for row in rows.splitlines())
+    found = read_text(f"{head.replace('2F10.4', '7F10.4')}{rule}{wide}")
+    assert [record.component for record in found] == [*names, "V"]
+    assert 2 * found[-1].acceleration == pytest.approx(found[0].acceleration, abs=2e-6)
+
+
 def test_the_third_of_three_channels_of_a_recorder_is_vertical_by_its_place(monkeypatch) -> None:
     """A second instrument on the same recorder begins again with X."""
     header = {"delta": 0.01, "station": "MADE", "kinemetrics_evt": {}, "_format": "KINEMETRICS_EVT"}

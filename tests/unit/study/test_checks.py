@@ -19,7 +19,7 @@ from rocking.assessment.rows import MechanismRow, RecordRow, RecordRows
 from rocking.assessment.scene import load_scenes, on_the_ground
 from rocking.codes.check import DynamicCheck
 from rocking.codes.kinds import CheckKind
-from rocking.errors import ConfigurationError
+from rocking.errors import ConfigurationError, RockingError
 from rocking.floors.place import place_from_config
 from rocking.motion.response import ModelCheck
 from rocking.products.checks.conclusion import code_conclusion_in_words, code_conclusions
@@ -177,6 +177,26 @@ def test_a_fault_in_the_checks_of_a_structure_costs_no_other(study, monkeypatch)
     assert {row.structure for row in rows} == {*structures} - {"parapet"} != set()
     assert any(line.startswith("parapet: ") and "parapet (ZeroDivisionError" in line for line in told)
     assert (folder / "structures.pdf").read_bytes().startswith(b"%PDF")
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_a_structure_whose_mechanisms_are_refused_is_told_with_the_reason_and_costs_no_other(
+    study, monkeypatch
+):
+    settings, folder = study
+
+    def refuse(page, *_):
+        if page.name == "parapet":
+            raise RockingError("its forces are not known.")
+        return page
+
+    monkeypatch.setattr("rocking.products.checks.work._with_mechanisms", refuse)
+    told = []
+    rows, _ = write_checks(
+        Study(on_the_ground(STRUCTURES), read_settings(settings | DESIGN)), folder, [], [], told.append
+    )
+    assert "parapet: its forces are not known." in told
+    assert {row.structure for row in rows} == {"front"}
 
 
 @pytest.mark.usefixtures("undrawn")

@@ -56,6 +56,26 @@ def test_a_face_names_a_work_and_tables_that_there_are(product: Product) -> None
     assert product.does
 
 
+OPENING, AFTER, MEASURED, STAYS = "opens_records", "after_records", "is_measured", "stays"
+FACES = {
+    "checks": {AFTER},
+    "fragility": {OPENING, STAYS},
+    "trade": {OPENING, AFTER, MEASURED, STAYS},
+    "map": {AFTER},
+}
+"""What is said of each product, as docs/using/results.md tells: what it reads, and whether it stays where it is off."""
+
+
+@pytest.mark.parametrize("product", PRODUCTS, ids=IDS)
+def test_a_product_opens_records_follows_them_and_stays_as_its_face_says(product: Product) -> None:
+    assert {flag for flag in (OPENING, AFTER, MEASURED, STAYS) if getattr(product, flag)} == FACES[
+        product.name
+    ]
+    assert (product.folder, product.pool) == {
+        "checks": ("summary", "checks.pool"), "fragility": ("fragility", ""),
+    }.get(product.name, ("summary", ""))  # fmt: skip
+
+
 @pytest.mark.parametrize("product", PRODUCTS, ids=IDS)
 def test_it_names_settings_that_there_are(product: Product) -> None:
     told = Settings().values_of(product.settings)
