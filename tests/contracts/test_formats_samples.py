@@ -191,6 +191,28 @@ def test_a_count_that_cannot_be_is_refused(name: str, declared: str) -> None:
     assert caught.value.field in COUNTED
 
 
+A_LINE = {
+    "PEER AT2": 8, "PEER AT2: of 2008": 8, "USGS SMC": 8, "DYNA (ESM, ITACA, AFAD)": 1, "EMOD3D text": 6, "RESORCE": 5,
+    "ESD": 10, "AFAD/NSMN text": 1, "CSMNC": 8, "columns of numbers: titled": 1, "columns of numbers: two headers": 8,
+    **dict.fromkeys(("COSMOS V1/V2", "CSMIP V1/V2", "USC Volume 1", "RENADIC", "BHRC", "UNAM/CICESE"), 0),
+}  # fmt: skip
+"""The most numbers of a line, by the description of the format; 0 where the end of a channel is marked."""
+
+
+@pytest.mark.parametrize("name", A_LINE)
+def test_one_line_of_numbers_more_than_declared_is_told_and_more_refused(name: str) -> None:
+    text = MADE[name][0]()
+    at = next(m for m in re.finditer(rf"(?<![\d.-]){N}(?![\d.])", text) if m.start() > 3)
+
+    def declaring(count: int) -> list[Accelerogram]:
+        return read_made(name, f"{text[: at.start()]}{count:2d}{text[at.end() :]}")
+
+    kinds = {warning.kind for record in declaring(N - A_LINE[name]) for warning in record.warnings}
+    assert (RecordKind.SAMPLES_SURPLUS in kinds) == (A_LINE[name] > 0)
+    with refused(RecordError, "samples"):
+        declaring(N - A_LINE[name] - 1)
+
+
 @pytest.mark.parametrize(("name", "field"), [
     *((name, "duration") for name in ("RENADIC", "BHRC", "USC Volume 1", "CSMIP V1/V2: film")),
     *((name, "the duration") for name in ("DYNA (ESM, ITACA, AFAD)", "UNAM/CICESE", "CWB")),
