@@ -98,7 +98,8 @@ def test_under_a_flat_slab_a_facade_is_a_column_of_a_frame():
 @pytest.mark.parametrize("rotation", [0.0, 0.05, -0.05])
 def test_marks_point_as_forces_do(rotation):
     """Loads down on the wall, the thrust outwards against it, ties from behind it to its outer face."""
-    behind = np.vstack(FACADE.outline(rotation))[:, 0].min()
+    outlines = [outline @ [1, 1j] for outline in FACADE.outline(rotation)]
+    behind = np.concatenate(outlines).real.min()
     marks = FACADE.marks(rotation)
     assert np.ptp([mark.line[0, 0] for mark in marks if mark.kind == "tie"]) < 1e-12, "one anchorage"
     for mark in marks:
@@ -119,6 +120,12 @@ def test_marks_point_as_forces_do(rotation):
     places = np.array([complex(*place) for place in acting])
     turned = np.where(places.imag > 3.5, hinge + np.exp(-1j * rotation) * (places - hinge), places)
     assert [complex(*mark.line[1]) for mark in marks] == pytest.approx(turned.tolist(), abs=1e-12)
+    for outline, thickness, low, high in zip(
+        outlines, (0.6, 0.5, 0.4), (0, 3.5, 6.5), (3.5, 6.5, 9), strict=True
+    ):
+        corners = np.array([-thickness + 1j * low, 1j * low, 1j * high, -thickness + 1j * high])
+        turns = hinge + np.exp(-1j * rotation) * (corners - hinge) if low else corners
+        assert outline == pytest.approx(turns, abs=1e-12)
 
 
 def second_derivative(path, step=4e-3):
