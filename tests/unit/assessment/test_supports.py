@@ -10,6 +10,7 @@ import pytest
 from rocking.assessment import motions as kept_motions
 from rocking.assessment.assessor import Assessor, with_histories
 from rocking.assessment.case import SceneResult
+from rocking.assessment.methods import Method
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.rows import rows_of_record, worst_period_each
 from rocking.assessment.scene import Scene, on_the_ground
@@ -74,8 +75,10 @@ def test_on_the_ground_it_is_what_it_is_without_a_support():
 
 def test_a_pair_and_its_vertical_component_go_through_the_support():
     first, second, up = motion(), motion("HNN", 9), motion("HNZ", 10, vertical=True)
-    result = FULL.assess("r", [first, second], on_roof([0.2, 0.6]), up)
+    result = replace(FULL, motion_measures=True).assess("r", [first, second], on_roof([0.2, 0.6]), up)
     assert len(result.periods) > 3
+    of_all = {"velocity pulse", "pulses", "supports", "directions", "responses", "variations"}
+    assert result.durations.keys() == of_all | {*Method}
     for station in result.periods:
         assert station.directions is not None
         assert station.directions.ensembles is not None
