@@ -188,6 +188,10 @@ def test_the_courses_of_a_wall_carry_its_floors(slab):
     loads = {"floor_loads": (8e3, 5e3), "eccentricity": 0.05, "top_slab": slab}
     wall = Facade((3.0, 3.0), (0.4, 0.4), 18e3, crack_storey=1, crack="known", **loads)
     body, *slabs = wall.stack().courses
+    laid = wall.stack().at_rest
+    assert laid.softness == 0 and np.isinf(laid.drops).all(), (
+        "nothing of a stack gives, and its courses fall by turning"
+    )
     weights, heights = np.array([43.2e3, 8e3, 5e3]), np.array([3.0, 3.0, 6.0])
     if slab == "flat":
         (above,) = slabs

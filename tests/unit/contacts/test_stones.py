@@ -10,12 +10,9 @@ from rocking import (
     Arch,
     ArchOnPiers,
     Block,
-    Facade,
     Frame,
     MotionError,
-    Spire,
     StructureError,
-    Wall,
 )
 from rocking.contacts.dynamics import StackResponse, follow_stack
 from rocking.quantities import GRAVITY
@@ -26,11 +23,6 @@ from tests.refusals import refused
 ARCH = Arch(10.0, 1.5, np.radians(157.5), 13)
 PIERS = ArchOnPiers(4.0, 0.7, np.radians(150), 11, pier_width=1.6, pier_height=3.0)
 PORTAL = Frame(Block.of_size(1.0, 8.0), 2, 0.3)
-BEFORE = {
-    "spire": (2222, "0x1.0a42ca767832bp-17", "0x1.567f0a086b62fp-15"),
-    "wall": (8343, "0x1.2d76e839afe07p-4", "0x1.c1716d2d2ed83p-3"),
-    "façade": (4362, "0x1.bd4d2da5b96a1p-6", "0x1.1820f097a97bdp-5"),
-}
 STILL = Accelerogram(np.zeros(200), 0.01)
 
 
@@ -53,30 +45,6 @@ def energies(stones: Stones, response: StackResponse) -> np.ndarray:
     places, velocities = response.places, response.velocities
     moving = masses * (velocities[..., :2] ** 2).sum(axis=-1) + inertias * velocities[..., 2] ** 2
     return (moving / 2 + masses * GRAVITY * places[..., 1]).sum(axis=1)
-
-
-def test_stacks_move_as_they_did_before_there_were_stones():
-    """Numbers of the kernel that knew stacks alone; nothing of a stack gives, and its courses fall by turning."""
-    times = np.arange(0, 1.2, 0.005)
-    motion = Accelerogram(np.append(4 * np.sin(2 * np.pi * times / 0.6), np.zeros(10)), 0.005)
-    tied = {
-        "tie_heights": (6.0,),
-        "tie_stiffness": 500e3,
-        "tie_strength": 5e3,
-        "tie_plastic_elongation": 0.5,
-    }
-    for stack, before in (
-        (Spire(3.0, 15.0).stack(), BEFORE["spire"]),
-        (Wall(1.6, 1.6, 0.25).stack(4), BEFORE["wall"]),
-        (Facade((3.5, 3.0), (0.6, 0.6), 20e3, **tied).stack(), BEFORE["façade"]),
-    ):
-        assert stack.at_rest.softness == 0 and np.isinf(stack.at_rest.drops).all()
-        found = follow_stack(stack, motion)
-        steps, *turns = before
-        assert found.steps == steps
-        assert found.largest_turns[[0, -1]] == pytest.approx(
-            [float.fromhex(turn) for turn in turns], rel=1e-12
-        )
 
 
 def test_statics_of_stones_is_that_of_the_mechanism():
