@@ -5,14 +5,22 @@ import math
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 
-import decided
 import numpy as np
 import pytest
 
 from rocking.assessment import decide as decides
-from rocking.assessment.decide import ORDER, CrackFacts, Limit, Verdict, may_change, step
+from rocking.assessment.decide import (
+    ORDER,
+    CrackFacts,
+    Limit,
+    Verdict,
+    may_change,
+    severity,
+    step,
+    worst_first,
+)
 from rocking.assessment.kinds import AssessmentKind
-from rocking.warnings import RockingWarning
+from rocking.warnings import Kind, RockingWarning
 
 OPEN, THROWN = RockingWarning(AssessmentKind.CONTACTS_OPEN), RockingWarning(AssessmentKind.COURSES_THROWN)
 SAFEST_FIRST = (
@@ -27,8 +35,15 @@ SAFEST_FIRST = (
 
 
 @dataclass(frozen=True, kw_only=True)
-class Facts(decided.AllFacts):
+class Facts(decides.Facts):
     """Facts of the mechanisms with what evidence has found, in one object."""
+
+    friction_needed: float = math.nan
+    warnings: tuple[RockingWarning, ...] = ()
+    held: bool = False
+    beyond: Kind | None = None
+    anchors_slide: bool = False
+    needs_stones: bool = False
 
     @property
     def limits(self):
@@ -432,6 +447,32 @@ def test_a_single_run_is_no_share_of_the_stacks_beside_it():
     assert decide(Facts(run_ratio=math.inf, stacks=(14, 14))).share_in_words == "100\u00a0%"
 
 
+@pytest.mark.parametrize("found", [{"cracks": (crack(0),), "stacks": (0, 64)}, {"cracks": (), "rests": True}])
+def test_8b_what_anchors_let_go_probably_stands_at_best_whatever_the_runs(found):
+    decision = decide(Facts(anchors_slide=True, **found))
+    assert (str(decision.verdict), decision.share, decision.interval) == ("probably stands", 0.0, (0.0, 0.0))
+    assert kinds(decision.warnings) == [AssessmentKind.ANCHOR_GIVES]
+    assert kinds(decision.would_settle) == [AssessmentKind.ANCHORS]
+    assert word(cracks=(crack(50),), anchors_slide=True) == "probably overturns"
+
+
+def test_severity_is_the_word_then_the_share_then_the_reserve_then_the_rotation():
+    """What is not known counts as least; of several cases of a name the worst counts, then the sum of their shares."""
+    told, untold = decide(Facts(cracks=(crack(12),))), decide(Facts(cracks=(crack(12),), warnings=(OPEN,)))
+    nothing = decide(Facts(cracks=()))
+    assert severity(told, factor=1.5, rotation_ratio=0.4) == (told.verdict.badness, 12 / 64, -1.5, 0.4)
+    assert severity(untold) == (untold.verdict.badness, 12 / 64, -math.inf, -1.0)
+    assert severity(nothing) == (nothing.verdict.badness, -1.0, -math.inf, -1.0)
+    cases = [("a", severity(told)), ("b", severity(told)), ("b", severity(told)), ("c", severity(untold))]
+    cases += [
+        ("d", severity(told)),
+        ("d", severity(nothing)),
+        ("e", severity(told)),
+        ("e", (0, -1.0, 0.0, 0.0)),
+    ]
+    assert worst_first(cases) == ["c", "d", "b", "a", "e"]
+
+
 def test_10_a_doubt_leaves_only_the_least_share():
     decision = decide(Facts(cracks=(crack(12),), warnings=(OPEN,)))
     assert str(decision.verdict) == "cannot be told"
@@ -439,6 +480,8 @@ def test_10_a_doubt_leaves_only_the_least_share():
     assert decision.share_in_words == "at least 19\u00a0%"
     assert kinds(decision.would_settle) == [AssessmentKind.CONTACT_DYNAMICS]
     assert decision.why == "contacts open; 12 of 64 members overturn with the hinge"
+    either = decide(Facts(cracks=(crack(0), crack(30, name="upper")), warnings=(OPEN,)))
+    assert either.interval == (0.0, 1.0)
 
 
 def test_10_a_missing_component_is_not_settled_by_contact_dynamics():
@@ -603,24 +646,6 @@ def test_the_decision_is_that_of_the_table():
         assert str(decide(facts).verdict) == oracle(facts), facts
         met.add(str(decide(facts).verdict))
     assert met == set(SAFEST_FIRST)
-
-
-@pytest.mark.parametrize("draws", [2_000, pytest.param(50_000, marks=pytest.mark.slow)])
-def test_the_decision_is_that_of_one_walk_through_the_table(draws):
-    """All that it says; doubts in the order of their kinds."""
-    chance = numbers(7)
-    for _ in range(draws):
-        facts = replace(
-            drawn(chance),
-            anchors_slide=chance() < 0.1,
-            needs_stones=chance() < 0.1,
-            as_stones="as voussoirs" if chance() < 0.2 else "",
-        )
-        facts = replace(facts, stackable=facts.stacks is None and chance() < 0.6)
-        found, expected = decide(facts), decided.decide(facts)
-        # told by repr, as nan is nan
-        other_model = found.other_model  # of which it said nothing
-        assert repr(found) == repr(replace(expected, other_model=other_model)), facts
 
 
 def share_of_the_table(facts):
