@@ -8,8 +8,8 @@ import re
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from functools import cached_property, lru_cache
-from typing import Any, Literal, TypeVar
+from functools import lru_cache
+from typing import Any, Literal
 
 from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import NUMBER, SECONDS, acceleration_factor, acceleration_unit
@@ -106,7 +106,8 @@ def agreed(what: What, claims: Collection[Claim]) -> Any:
     for person in persons:
         if against and not any(_same(person, claim) for claim in against):
             error = AnswerContradictedError if person.where == Where.ANSWER else RecordError
-            mend = _MEND[against[0].where == Where.FILE_NAME]
+            is_named = against[0].where == Where.FILE_NAME
+            mend = "type that, or rename the file" if is_named else "omit it, or correct the file"
             raise error(
                 f"{what} is {person}, but the file says {against[0]}; {mend}.", **{what: person.value}
             )
@@ -123,9 +124,6 @@ def agreed(what: What, claims: Collection[Claim]) -> Any:
         )
     holding = (claim for claim in spoken if claim in persons or claim in inside)
     return next((claim.value for claim in holding if not persons or _same(claim, persons[0])), None)
-
-
-_MEND = ("omit it, or correct the file", "type that, or rename the file")
 
 
 def point_apart(first: str, second: str) -> bool:
@@ -540,17 +538,10 @@ def _step_of(match: re.Match[str]) -> float | None:
     return value * SECONDS.get(unit, 1.0) if unit in SECONDS or (match["step"] and not unit) else None
 
 
-T = TypeVar("T")
-
-
-def _the_only(values: Collection[T]) -> T | None:
-    """Return the value of which there is one, None of none or several."""
-    return next(iter(values)) if len(values) == 1 else None
-
-
 def azimuth_of_sensor(lines: Sequence[str]) -> str:
     """Return the azimuth of the only sensor that the lines of a header speak of, "" where none or several do."""
-    return _the_only({match[1] for line in lines if (match := _OF_SENSOR.search(line))}) or ""
+    found = {match[1] for line in lines if (match := _OF_SENSOR.search(line))}
+    return found.pop() if len(found) == 1 else ""
 
 
 @dataclass(frozen=True)
@@ -566,33 +557,23 @@ class Declarations:
         steps = said.stated_steps
         is_resampled = any(_SAMPLED.search(line) for line in lines if not _OF_PEAK.search(line))
         is_apart = is_resampled and bool(steps) and steps[-1] > steps[0] * (1 + _SAME_STEP)
-        if is_apart or (len(steps) > 1 and said.time_step is None):
+        if is_apart or (len(steps) > 1 and said.only("time_step") is None):
             return cls(tuple(replace(claim, where=Where.HEAD) for claim in said.claims))
         return said
 
     def _values(self, what: What) -> list[Any]:
         return list(dict.fromkeys(claim.value for claim in self.claims if claim.what == what))
 
-    @cached_property
-    def unit(self) -> str | None:
-        """The unit of acceleration, None where it says none, or several."""
-        return _the_only(self._values("unit"))
+    def only(self, what: What) -> Any:
+        """Return the one value of `what`, None where it says none, or several: one of two rates is the recorder's."""
+        own = (claim for claim in self.claims if claim.what == what and claim.where != Where.SPOKEN)
+        values = list({str(claim.value).upper(): claim.value for claim in own}.values())
+        return values[0] if len(values) == 1 else None
 
-    @cached_property
+    @property
     def stated_steps(self) -> tuple[float, ...]:
         """The steps [s] of every rate that is spoken of, but for those of filters, the least first."""
         return tuple(sorted(self._values("time_step")))
-
-    @cached_property
-    def time_step(self) -> float | None:
-        """The step, s, None where it says none, or several: one of two rates is that of the recorder."""
-        declared = Declarations(tuple(claim for claim in self.claims if claim.where != Where.SPOKEN))
-        return _the_only(declared.stated_steps)
-
-    @cached_property
-    def component(self) -> str:
-        """Where the only channel points, "" where it says nothing, or several things."""
-        return _the_only({name.upper(): name for name in self._values("direction")}.values()) or ""
 
     def count(self, held: int) -> str:
         """Return the number of samples that a text declares, of several that which is `held`; "" where it says none."""

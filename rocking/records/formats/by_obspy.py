@@ -178,12 +178,9 @@ def _read_sac(content: bytes, options: Options) -> list[Accelerogram]:
 def _taken(
     traces: Any, inventory: Any, unit: str | None, options: Options, warnings: tuple[RockingWarning, ...]
 ) -> list[Accelerogram]:
-    """Return the accelerograms of traces as the file holds them, with what obspy warned of.
-
-    Raises RecordError where a name calls counts, which an inventory turns into acceleration, something else.
-    """
+    """Return the accelerograms of traces as the file holds them, with what obspy warned of."""
     if inventory is not None:
-        options.unit_of("m/s2")
+        options.unit_of("m/s2")  # the name of the file may say something else
     records = []
     for record in from_traces(traces, inventory, unit, options.response, "apply"):
         step = options.time_step_of(record.time_step)

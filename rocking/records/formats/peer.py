@@ -92,7 +92,7 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     if point_apart(named, component):
         warnings += (RockingWarning.of(RecordKind.DIRECTION_SAID_TWICE, component, other=named),)
     # A sentence says where a channel points, and does not name it.
-    facts = directed({"component": component or declarations.component})
+    facts = directed({"component": component or declarations.only("direction") or ""})
     facts |= {"component": component, "processed": True, "warnings": warnings}
     if re.search(r"\bmatched\b", head[0], re.I):
         facts["warnings"] += (RockingWarning(RecordKind.MATCHED_TO_SPECTRUM),)

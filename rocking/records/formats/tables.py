@@ -161,7 +161,7 @@ class NumberTable:
         is_title = len(undeclared) < 2 and not any(
             re.search(r"[:=]|^[\d\s.,;+-]+$", line) for line in undeclared
         )
-        is_all_said = bool(self.said.unit and (self.said.time_step or self.counts))
+        is_all_said = bool(self.said.only("unit") and (self.said.only("time_step") or self.counts))
         return (is_title or is_all_said) and not any(map(speaks_of_factor, self.words))
 
 
@@ -339,7 +339,7 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
         raise seen.fault or RecordError("its numbers cannot be separated.")
     table, body, values, drawn = seen.table, seen.body, seen.values, seen.drawn
 
-    has_step = bool(above or options.time_step or table.said.time_step)
+    has_step = bool(above or options.time_step or table.said.only("time_step"))
     steps = table.said.stated_steps or Declarations(claims_of_name(options.file)).stated_steps
     question = Question(signature, _holds(table, drawn, values), drawn.proposal(has_step, steps))
     notes = (*seen.notes, *factor_warnings((*table.comments, *table.words, *table.tail)))
@@ -366,7 +366,7 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
         raise (answer.wrong(str(error)) if answer else error) from None
     if len(records) == 1:
         notes += warnings_of_claims(records[0], table.said)
-    said = table.said.component
+    said = table.said.only("direction")
     if len(records) == 1 and said and (not records[0].component or names_acceleration(records[0].component)):
         records = [replace(records[0], **directed({"component": said}))]
     whose = f"read as {answer.text!r}, by {answer.whose}" if answer else ""
@@ -462,25 +462,25 @@ def _drawn(table: NumberTable, values: np.ndarray, is_parted: bool, declared: fl
     width = table.width
     labels = table.labels or (ColumnLabel(""),) * width
     if width == 1 or (width > 2 and not table.labels and _runs_along_rows(values, width, is_parted)):
-        series = Column("acceleration", unit=labels[0].unit or said.unit)
+        series = Column("acceleration", unit=labels[0].unit or said.only("unit"))
         above = () if table.counts else _first_numbers(values, declared)
         a_line = width if width > 1 else 0
-        return TableLayout((series,), True, per_line=a_line, above=above, time_step=said.time_step)
+        return TableLayout((series,), True, per_line=a_line, above=above, time_step=said.only("time_step"))
     rows = values[: values.size - values.size % width].reshape(-1, width)
     columns = [_column(label, column, said) for label, column in zip(labels, rows.T, strict=True)]
     times = [label.is_time for label in labels]
     for place, label in enumerate(labels):
         if label.text == "T" and sum(times) > 1 and not _is_clock(rows[1:, place]):
-            columns[place] = Column("acceleration", unit=said.unit)  # transverse
+            columns[place] = Column("acceleration", unit=said.only("unit"))  # transverse
         if columns[place].role == "time":
             continue
         if _LETTER.fullmatch(label.text) and any(other.is_plain_acceleration for other in labels):
             columns[place] = Column(
-                "open", unit=said.unit
+                "open", unit=said.only("unit")
             )  # v and u next to "a" are of velocity and displacement
     if not table.labels and {column.role for column in columns} <= {"time", "other"}:
-        columns[1:] = [Column("open", unit=said.unit)] * (width - 1)  # a motion that rises evenly
-    return TableLayout(tuple(columns), time_step=said.time_step)
+        columns[1:] = [Column("open", unit=said.only("unit"))] * (width - 1)  # a motion that rises evenly
+    return TableLayout(tuple(columns), time_step=said.only("time_step"))
 
 
 def _column(label: ColumnLabel, numbers: np.ndarray, said: Declarations) -> Column:
@@ -494,7 +494,7 @@ def _column(label: ColumnLabel, numbers: np.ndarray, said: Declarations) -> Colu
         return Column("other") if is_count else Column("time", seconds=label.seconds or 1.0)
     is_named = bool(label.unit) or label.is_direction or label.is_plain_acceleration
     is_motion = is_named and not _climbs_evenly(numbers)  # or its name and its numbers say two things
-    return Column("acceleration" if is_motion else "open", unit=label.unit or said.unit)
+    return Column("acceleration" if is_motion else "open", unit=label.unit or said.only("unit"))
 
 
 _LETTER = re.compile(r"(?i)[vdux]")
@@ -615,7 +615,13 @@ def _fitted(answer: LayoutAnswer, layout: TableLayout, table: NumberTable, drawn
             raise answer.wrong(f"column {place} of this file holds times.")
         if label.other:
             raise answer.wrong(f"column {place} of this file is {label.other} by its name, {label.text!r}.")
-        component = label.component if label.is_direction else said.component if len(labels) < 3 else ""
+        component = (
+            label.component
+            if label.is_direction
+            else (said.only("direction") or "")
+            if len(labels) < 3
+            else ""
+        )
         if point_apart(component, column.name):
             raise answer.wrong(f"column {place} of this file is {component!r} by its own words.")
     return replace(layout, is_answer=True)

@@ -166,11 +166,7 @@ def _check_epochs(trace: Any, inventory: Any) -> None:
     said: dict[str, str] = {}
     for described in _channels_at(trace, inventory):
         if described.response and (of := described.response.instrument_sensitivity):
-            points = (
-                f"azimuth {described.azimuth:g}°, dip {described.dip}"
-                if described.azimuth is not None
-                else "no azimuth"
-            )
+            points = f"azimuth {described.azimuth}, dip {described.dip}"
             words = f"{of.value:g} counts per {of.input_units}, {points}"
             said.setdefault(words, f"{words} (from {described.start_date})")
     if len(said) > 1:

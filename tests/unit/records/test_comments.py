@@ -55,11 +55,11 @@ def test_the_direction_of_a_lone_series_is_what_its_comments_say(
     ],
 )  # fmt: skip
 def test_what_names_no_direction_declares_none(comment):
-    assert Declarations.of([comment]).component == ""
+    assert Declarations.of([comment]).only("direction") is None
 
 
 def test_two_comments_that_differ_declare_nothing():
-    assert Declarations.of(["Component: NS", "Component: EW"]).component == ""
+    assert Declarations.of(["Component: NS", "Component: EW"]).only("direction") is None
 
 
 def test_a_direction_at_the_head_of_a_column_is_not_overruled(tmp_path: Path):
@@ -78,7 +78,7 @@ def test_a_direction_at_the_head_of_a_column_is_not_overruled(tmp_path: Path):
      "шаг по времени: 0.005 с", "частота дискретизации: 200 Гц", "ρυθμός δειγματοληψίας: 200 Hz", "fs: 0.2 kHz"],
 )  # fmt: skip
 def test_comments_declare_the_step(comment):
-    assert Declarations.of([comment]).time_step == pytest.approx(0.005, rel=1e-12)
+    assert Declarations.of([comment]).only("time_step") == pytest.approx(0.005, rel=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -102,7 +102,7 @@ def test_comments_declare_the_step(comment):
     ],
 )
 def test_comments_declare_the_unit(comment):
-    assert Declarations.of([comment]).unit in ("gal", "cm/s2")
+    assert Declarations.of([comment]).only("unit") in ("gal", "cm/s2")
 
 
 COLOMBIA = """SERVICIO GEOLOGICO COLOMBIANO- RED NACIONAL DE ACELEROGRAFOS DE COLOMBIA
