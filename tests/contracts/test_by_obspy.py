@@ -107,13 +107,15 @@ def test_the_unit_of_a_list_of_samples(form: str) -> None:
         read_content(content.replace(b"Counts", b"VOLTS"), "f", Options())
 
 
-@pytest.mark.parametrize("form", ["SLIST", "TSPAIR"])
-def test_a_list_of_samples_that_is_cut_is_refused(form: str) -> None:
-    """obspy reads what is left without a word."""
+@pytest.mark.parametrize(("form", "a_line"), [("SLIST", 4), ("TSPAIR", 1)])
+def test_a_list_of_samples_that_is_cut_is_refused(form: str, a_line: int) -> None:
+    """obspy reads what is left without a word. Of 40 samples, six a line, the last holds four."""
     content = by_obspy(form)
     cut = content[: content.rindex(b"\n", 0, -2) + 1]
-    with refused(RecordError, "samples"):
-        read_content(cut, "f", Options(unit="m/s2"))
+    head = content.partition(b"\n")[0].replace(b" 40 samples", b" 0 samples") + b"\n"
+    for text, samples in ((cut, 40 - a_line), (head, 0)):
+        with refused(RecordError, "samples", samples):
+            read_content(text, "f", Options(unit="m/s2"))
 
 
 def test_a_file_of_win_without_a_second_is_refused() -> None:

@@ -76,6 +76,13 @@ def test_times_are_told_with_their_machine_and_the_search_for_sines_apart(rows):
     assert rows[TradeMethod.ENSEMBLE, ""].cpu_s > usual
 
 
+@pytest.mark.parametrize(("repeats", "seconds"), [(0, 8), (1, 1), (3, 2)])
+def test_a_response_is_timed_by_the_median_of_the_repeats_after_its_first_run(monkeypatch, repeats, seconds):
+    clock = iter([5, 13, 20, 21, 30, 33, 40, 42])  # 8 s, then 1, 3 and 2 s
+    monkeypatch.setattr(trade_module, "process_time", lambda: next(clock))
+    assert trade_module._timed(lambda: "answer", repeats) == ("answer", seconds)
+
+
 def test_a_fault_of_one_structure_or_record_costs_no_other_and_is_a_row(
     rows, records, tmp_path, monkeypatch, capsys
 ):

@@ -245,7 +245,11 @@ def test_spectrum_agrees_with_the_integration_of_one_block(record, tmp_path):
     target = tmp_path / "spectrum.csv"
     assert main(["spectrum", str(record), "--unit", "g", "--output", str(target)]) == 0
     table = rows(target)
-    assert len(table) == 40 * 40
+    across, up = (
+        [float(row[name]) for row in table] for name in ("frequency_parameter_rad_s", "uplift_multiplier")
+    )
+    assert sorted(across)[::40] == pytest.approx(0.5 * 20 ** (np.arange(40) / 39))
+    assert sorted(up)[::40] == pytest.approx(0.02 * 50 ** (np.arange(40) / 39))
     rocks = [row for row in table if 0 < float(row["rotation_ratio"]) < math.inf]
     chosen = rocks[len(rocks) // 2]
     p, multiplier = float(chosen["frequency_parameter_rad_s"]), float(chosen["uplift_multiplier"])
