@@ -186,6 +186,16 @@ def test_each_case_stands_in_the_quadrant_of_who_says_that_it_falls():
     assert light[0] == pytest.approx(np.log10([0.1, 0.5])) and light[2][0] == pytest.approx(np.log10(0.2))
     texts = [text.get_text() for text in axes.texts]
     assert {"2 missed", "2 right", "1 false\nalarm", "2 rock in both,", "1 within factor two"} <= set(texts)
+    assert (axes.get_xlabel(), axes.get_ylabel()) == (
+        "closed form (1: critical)",
+        "integration (1: critical)",
+    )
+    for ticks, labels in (
+        (axes.get_xticks(), axes.get_xticklabels()),
+        (axes.get_yticks(), axes.get_yticklabels()),
+    ):
+        (least, first), *known = zip(ticks, (label.get_text() for label in labels), strict=True)
+        assert first == f"≤ {10**least:g}" and known[:2] == [(-1, "0.1"), (0, "1")] and known[2][1] == "falls"
     beside = [text.get_text().replace("\u00a0", " ") for text in key.texts]
     assert beside[1:5] == ["60 %", "misses 1 of 2", "20 %", "misses 1 of 2"]
 
