@@ -1,6 +1,7 @@
 """Where one degree of freedom does not tell whether a structure stands, and what contact dynamics then says."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ from rocking.assessment.contacts import (
 )
 from rocking.assessment.decide import Decision, decide, step
 from rocking.assessment.evidence.bodies import friction_needed, why_open
+from rocking.assessment.evidence.runs import Friction
 from rocking.assessment.inputs import CaseInputs
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.motions import GroundMotions, Motion, ground_motions
@@ -396,6 +398,24 @@ def test_the_friction_that_a_rocking_block_needs_is_that_of_its_centre_of_mass(a
     less, more = (block.on_joints(Joints(factor * needed)) for factor in (0.98, 1.02))
     assert friction_needed([less], motions, AssessmentSettings()) == pytest.approx(needed, rel=0.01)
     assert np.isnan(friction_needed([more], motions, AssessmentSettings()))
+
+
+@pytest.mark.parametrize("as_stones, runs", [("", 64), ("as voussoirs", 1)])
+def test_one_run_of_stones_says_what_sixty_four_stacks_do_of_a_friction_that_is_short(
+    as_stones, runs, monkeypatch
+):
+    monkeypatch.setattr("rocking.assessment.evidence.runs.friction_needed", lambda *_: 0.9)
+    monkeypatch.setattr("rocking.assessment.evidence.runs.cracked", lambda structure, name: structure)
+    asked = SimpleNamespace(
+        structure=SimpleNamespace(joints=Joints(0.5, as_stones=as_stones)),
+        counting=[SimpleNamespace(description="crack")],
+        sliding=(),
+        case=SimpleNamespace(ensembles=None),
+        motions=None,
+        settings=None,
+    )
+    limit = Friction().look(asked)
+    assert (limit.warning.kind, limit.value, limit.lifted_by) == (AssessmentKind.FRICTION_SHORT, 0.9, runs)
 
 
 def test_a_block_whose_corner_needs_more_friction_than_it_has_only_probably_stands():

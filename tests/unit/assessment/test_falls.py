@@ -17,6 +17,7 @@ from rocking.assessment.falls import (
     STONES_DRAWS,
     Falls,
     Model,
+    _Stones,
     falls_along,
     reserve,
 )
@@ -24,6 +25,7 @@ from rocking.assessment.motions import GroundMotions
 from rocking.assessment.reserve import reserve_of_members
 from rocking.assessment.settings import AssessmentSettings
 from rocking.fragility.hazard import Hazard
+from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import Block, Structure, structure_from_config
 
@@ -110,6 +112,16 @@ def test_a_wall_whose_anchors_slide_out_is_followed_as_stacks_also_at_rest():
 
 def test_of_an_arch_on_piers_only_its_stones_may_say_that_it_stands():
     assert under(PIERS, 0.5, [0.1, math.inf], contacts=False) == Falls(0.5, 1.0, Model.NONE)
+
+
+def test_stones_fall_from_the_middle_of_their_rung_on():
+    stones = _Stones(PIERS, shaken(0.4), SETTINGS)
+    stones._rungs = np.array([0, 3])
+    lifts = cracks(PIERS).counting.least_multiplier * GRAVITY / shaken(0.4).peak_acceleration
+    places = (-0.51, -0.49, 2.49, 2.51)
+    assert [stones.share_at(lifts * APART**place) for place in places] == [0.0, 0.5, 0.5, 1.0]
+    stones._rungs = np.empty(0)
+    assert math.isnan(stones.share_at(1.0))
 
 
 @pytest.mark.process

@@ -212,6 +212,12 @@ def test_an_arch_has_the_voussoirs_that_it_states():
 BODY = Stone(((0, 0), (1, 0), (1, 1), (0, 1)), 1.0, (0.5, 0.5), 0.2)
 
 
+def test_the_faces_of_a_stone_are_its_first_and_its_last_edge():
+    """5 m from (1, 1) to (4, 5), and 13 m from (9, 2) to (14, 14)."""
+    stone = replace(BODY, corners=((1, 1), (4, 5), (14, 14), (9, 2)))
+    assert stone.faces == pytest.approx((5.0, 13.0))
+
+
 @pytest.mark.parametrize(
     ("make", "words"),
     [
