@@ -73,3 +73,4 @@ def test_a_person_can_read_what_a_notebook_shows():
         for unreadable in ("lambda", "<", " at 0x", "array", "..."):
             assert unreadable not in text, text
         assert not re.search(r"\d\.\d{6,}", text), text
+    assert "array" not in repr(rocking.Arch(15.0, 2.25, math.radians(157.5)).capacity_curve())

@@ -20,6 +20,7 @@ from rocking.codes.static_check import kinematic_check
 from rocking.errors import RockingError, SizeError, StructureError
 from rocking.reports.drawings import bay_of
 from rocking.structures import Facade, Joints, LoadedWall
+from rocking.structures.held_wall import Opening
 from rocking.structures.kinds import StructureKind
 from tests.refusals import refused
 
@@ -47,6 +48,17 @@ def triangle(wall):
 @pytest.mark.parametrize(("behind", "stopped"), [("nothing", False), ("floors", True), ("cross_walls", True)])
 def test_what_stands_behind_its_top_lets_a_triangle_fall_outwards_only(behind, stopped):
     assert triangle(replace(FRONT, behind=behind)).structure.one_sided == stopped
+
+
+@pytest.mark.parametrize("foot, hold", [(0.0, 6.0), (1.0, 5.0), (0.0, 2.5)])
+def test_strips_of_a_triangle_integrate_what_bends_where_the_wall_changes(foot, hold):
+    """Cubics that bend at 3 m, where the wall is thinner from and a floor bears, over the height of the triangle."""
+    held = {"behind": "cross_walls", "restitution": 0.5, "tie_heights": (6.0,), "tie_stiffness": 5e6}
+    wall = Facade((3.0, 3.0), (0.5, 0.4), 18e3, floor_loads=(8e3, 5e3), **held).held_wall
+    heights, shares = np.array(wall._strips(Opening(foot=foot, hold=hold, between=True))).T
+    assert shares.sum() == pytest.approx(1.0)
+    bent = max(hold - 3.0, 0.0) ** 4 / 4 / (hold - foot)
+    assert shares @ np.maximum(heights - 3.0, 0.0) ** 3 == pytest.approx(bent)
 
 
 @pytest.mark.parametrize(("held", "expected"), [(True, 0.268880), (False, 0.162855)])
