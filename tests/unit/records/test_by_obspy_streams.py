@@ -54,6 +54,26 @@ def test_pieces_of_a_channel_with_unlike_rates_are_refused() -> None:
         rocking.from_obspy(Stream([trace(), later]), unit="nm/s2")
 
 
+def test_a_gap_is_refused_with_its_time() -> None:
+    first, later = trace(), trace()
+    later.stats.starttime += 40
+    with refused(RecordError, "channel", first.id) as caught:
+        rocking.from_obspy(Stream([first, later]), unit="nm/s2")
+    assert "has a gap at 30 s" in str(caught.value)
+
+
+def test_a_sensitivity_without_stages_turns_counts_into_the_motion_in_its_units() -> None:
+    """Of a seismometer the velocity is differentiated, by central differences."""
+    of_velocity = (COUNTS - COUNTS.mean()) / 200000
+    for units, motion in (
+        ("M/S**2", of_velocity),
+        ("M/S", np.gradient(of_velocity, 0.01)),
+        ("CM/S**2", of_velocity / 100),
+    ):
+        (record,) = rocking.from_obspy(trace(), inventory=inventory(units))
+        assert record.acceleration == pytest.approx(motion, abs=1e-12)
+
+
 @pytest.mark.parametrize(("units", "field"), [("M/S**2", ""), ("M/S", "quantity"), ("V", "unit")])
 def test_removing_the_sensitivity_leaves_the_unit_that_the_response_states(units: str, field: str) -> None:
     """As remove_sensitivity leaves a trace: divided, with the offset of the recorder, and its response attached."""
