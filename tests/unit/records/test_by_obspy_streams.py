@@ -72,6 +72,13 @@ def test_a_sensitivity_without_stages_turns_counts_into_the_motion_in_its_units(
     ):
         (record,) = rocking.from_obspy(trace(), inventory=inventory(units))
         assert record.acceleration == pytest.approx(motion, abs=1e-12)
+        with refused(RecordError, "response", "stages"):
+            rocking.from_obspy(trace(), inventory=inventory(units), response="full")
+    in_gal = read_inventory(io.BytesIO(XML.format(units="CM/S**2").encode()), format="STATIONXML")
+    later = trace()
+    later.stats.starttime = UTCDateTime(2020, 1, 1)
+    with refused(RecordError, "response", "CM/S**2"):
+        rocking.from_obspy(later, inventory=in_gal, response="full")
 
 
 @pytest.mark.parametrize(("units", "field"), [("M/S**2", ""), ("M/S", "quantity"), ("V", "unit")])

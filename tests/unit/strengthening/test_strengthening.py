@@ -160,8 +160,11 @@ def test_a_bound_at_the_target_holds_and_one_just_above_it_does_not():
 def test_a_range_of_which_no_value_holds_names_its_last_two():
     made = _made(np.full((GRID, 30), 0.5))
     assert math.isnan(made.value) and math.isnan(made.needed_stations)
-    assert (
-        "0.9 m" in made.words and f"{VALUES[-2]:.3g} m" in made.words and "give larger values" in made.words
+    half = made.tried[0].in_words
+    assert half.startswith("50\u00a0%") and made.words == (
+        f"breadth: no value from 0.2 m to 0.9 m can be shown to keep the share that overturns at or below 10\u00a0%: "
+        f"at the largest one it is {half}, one step below it, {VALUES[-2]:.3g} m, {half}; 30 stations of 30 "
+        f"earthquakes, give larger values. As given {half} overturn."
     )
 
 
