@@ -138,6 +138,10 @@ def point_apart(first: str, second: str) -> bool:
 
 WORDS_OF_ACCELERATION = r"(?:(?<![a-z])(?:acc|acel|beschl|[iİ]vme|ускорени|επιτάχυνση)\w*|加速度)"
 _ACCELERATION = re.compile(rf"(?i){WORDS_OF_ACCELERATION}")
+_UNITS = (
+    r"(?:(?<![a-z])(?:units?|unidade?s?|unit[aà]|unités?|einheit(?:en)?|birim(?:i|ler)?|ед(?:иниц\w*|\. ?изм\.?)|"
+    r"μονάδ\w*)(?![a-z])|単位|单位)"
+)
 _OTHER: dict[str, re.Pattern[str]] = {
     "velocity": re.compile(
         r"(?i)(?<![a-z])(?:vel(?:oc?\w*|(?![a-z]))|vitesse|h[ıi]z[ıi]?(?![a-z]))|geschwindigkeit|скорость|速度|ταχύτητα|"
@@ -146,7 +150,7 @@ _OTHER: dict[str, re.Pattern[str]] = {
     "displacement": re.compile(
         r"(?i)(?<![a-z])(?:displ?(?:ac\w*|(?![a-z]))|desp(?:laz)\w*|despl?(?![a-z])|spostament\w*|d[eé]placement|"
         r"deslocamento|yer ?de[gğ]i[sş]tirme)|verschiebung|перемещение|変位|变位|位移|μετατόπιση|"
-        r"(?m:(?<![a-z])(?:units?|unidade?s?|unit[aà]|unités?|einheit|birim)[^:=\n]*[:=]\s*[(\[]?[cm]?m[)\]]?\s*$)"
+        rf"(?m:{_UNITS}(?: \w+){{0,2}} ?[:=：]\s*[(\[]?[cm]?m[)\]]?\s*$)"
     ),
 }
 _QUANTITIES: set[str] = {"spectrum", *_OTHER}
@@ -154,6 +158,8 @@ _OF_NO_MOTION = re.compile(
     r"(?i)shear|wave|vs[ _,]?30|\bond[ae]s?\b|welle|\bdalga\b|muestreo|chantillon|abtast|örnekle|campion"
 )
 """The velocity of a site, or of a recorder, is no record."""
+_OF_OTHER_PEAK = re.compile(r"(?i)(?<![a-z])(?:pgv|pgd|arias|peak|max\w*)[^\n]*")
+"""A peak velocity, which next to a unit of acceleration is one of the same motion."""
 _SERIES_IN_NAME = re.compile(r"(?i)(?<![a-z])(?:(vt2)|dt2)(?![a-z\d])|\.(?:(vel|vtx|semv)|disp?|semd)$")
 _SPECTRA = r"\w*spe[ck]tr\w*|spettr\w*|psa|psv|fas|fft|fourier|спектр\w*|φάσμα"
 _SPECTRUM = re.compile(rf"(?i)(?<![a-z])(?:{_SPECTRA})(?![a-z])|スペクトル|反应谱")
@@ -194,9 +200,9 @@ def _of_spectrum(said: str) -> RecordError:
     )
 
 
-def refuse_other_quantity(text: str) -> None:
-    """Raise RecordError when `text`, a header, speaks of another quantity."""
-    if quantity := other_quantity(text):
+def refuse_other_quantity(text: str, has_unit: bool = False) -> None:
+    """Raise RecordError when `text`, a header, speaks of another quantity; has_unit: whether it states acceleration."""
+    if quantity := other_quantity(_OF_OTHER_PEAK.sub("", text) if has_unit else text):
         raise of_another(quantity)
 
 
@@ -224,7 +230,8 @@ def refuse_other_table(above: str, columns: Sequence[str]) -> None:
     """
     if columns and (_ABSCISSA.fullmatch(columns[0]) or any(map(_ORDINATE.fullmatch, columns[1:]))):
         raise _of_spectrum(", ".join(columns[:4]))
-    refuse_other_quantity(above)
+    has_unit = any(map(unit_of_column, columns)) or bool(Declarations.of(above.split("\n")).only("unit"))
+    refuse_other_quantity(above, has_unit)
     if (word := _OTHER_TITLE.search(above)) and not (_ACCELERATION.search(above) or _OF_TARGET.search(above)):
         raise of_another(word[0].lower())
 
@@ -424,10 +431,6 @@ _OF_VALUES = re.compile(
     rf"(?i){WORDS_OF_ACCELERATION}|(?<![a-z])(amplitud|values?\b|valor[ei]|werte|valeurs)"
 )
 """Words next to which a unit in brackets is that of the numbers: elsewhere "(G)" may be the code of a network."""
-_UNITS = (
-    r"(?:(?<![a-z])(?:units?|unidade?s?|unit[aà]|unités?|einheit(?:en)?|birim(?:i|ler)?|ед(?:иниц\w*|\. ?изм\.?)|"
-    r"μονάδ\w*)(?![a-z])|単位|单位)"
-)
 _LEAD = re.compile(
     rf"(?i)(?P<sure>{_UNITS}(?:[^:=：.]*[:=：]|\s+(?:of|are|is|in|-))?\s*[(\[]?\s*|{WORDS_OF_ACCELERATION}\s*[:=,：]\s*)|"
     r"\b(?:in|en|em|σε|в)\s+(?!units?\b)|[(\[（]\s*"
@@ -584,10 +587,7 @@ class Declarations:
 
 
 def warnings_of_claims(channel: Accelerogram, said: Declarations) -> tuple[RockingWarning, ...]:
-    """Return a warning where the peak or the direction of the only channel is not what the text above it says.
-
-    Of a channel that has no direction of its own, where the text says two.
-    """
+    """Return a warning where the text says two directions, or another one or another peak than the only channel."""
     warnings = []
     peaks = [claim.value for claim in said.claims if claim.what == "peak"]
     if peaks and not any(_SAME["peak"](peak, (channel.peak_acceleration,)) for peak in peaks):

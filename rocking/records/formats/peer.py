@@ -64,10 +64,11 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     head, size = _head(content)
     assert size is not None  # by which the file is known
     text = "\n".join(head)
+    declarations = Declarations.of(head)
+    has_unit = any(claim.what == "unit" for claim in declarations.claims)
     # What a line of its own says counts more than a title that speaks of an accelerogram.
     for line in head:
-        refuse_other_quantity(line)
-    declarations = Declarations.of(head)
+        refuse_other_quantity(line, has_unit)
     declared = count("NPTS", size["npts"])
     agreed("samples", declarations.claims)
     body = after_lines(content.lstrip(b"\n"), len(head))
@@ -76,8 +77,7 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     values, warnings = whole(numbers(bare if is_filled else body), declared, per_line=8)
     warnings += filled
     said = [*declarations.claims, *options.said]
-    may_be_in_g = np.abs(values).max() * GRAVITY <= RARE_PEAK
-    if may_be_in_g and any(claim.what == "unit" for claim in declarations.claims):
+    if has_unit and np.abs(values).max() * GRAVITY <= RARE_PEAK:
         said.append(Claim("unit", "g", Where.FORMAT, "an AT2 of PEER is in g"))
     unit = agreed("unit", said) or ""
     parts = [part.strip() for part in head[1].split(",")] if len(head) > 1 else [""]

@@ -190,6 +190,22 @@ def test_other_quantities_are_known_in_the_languages_of_heads(text: str) -> None
 
 
 @pytest.mark.parametrize(
+    "head", ["PGV = 30 cm/s", "Max velocity 30 cm/s at 2.3 s", "Arias intensity 1.2 m/s"]
+)
+def test_a_peak_velocity_next_to_a_unit_of_acceleration_is_no_other_quantity(
+    tmp_path: Path, head: str
+) -> None:
+    path = tmp_path / "made.csv"
+    for above in (f"# {head}\nt,NS (m/s2)\n", f"# {head}\n# units: m/s2\nt,NS\n"):
+        path.write_text(above + table(TIMES, 0.1 * MOTION, parted=","))
+        assert read(path)[0].acceleration == pytest.approx(0.1 * MOTION, abs=1e-6)
+    assert read(at2(tmp_path, first=head))
+    path.write_text(f"# {head}\nt,NS\n" + table(TIMES, 0.1 * MOTION, parted=","))
+    with refused(RecordError, "quantity"):
+        read(path, unit="m/s2")
+
+
+@pytest.mark.parametrize(
     "text", ["shear wave velocity 300 m/s", "Vs30", "velocidad de muestreo", "加速度", "cm/s/s", "cm/s^2"]
 )
 def test_the_velocity_of_a_site_or_of_a_recorder_is_no_record(text: str) -> None:
