@@ -8,12 +8,17 @@ import pytest
 
 from rocking import Accelerogram, Block, Facade, Verdict
 from rocking.assessment.assessor import Assessor
-from rocking.assessment.cracks import loses_seat_at
+from rocking.assessment.case import CaseResult
+from rocking.assessment.cracks import CrackEnsembles, FollowedCrack, loses_seat_at
+from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.kinds import AssessmentKind
+from rocking.assessment.methods import Method
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.reserve import reserve_of_members
 from rocking.assessment.scene import CheckTerms, Scene
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
+from rocking.motion.response import Response
+from rocking.structures import Outcome
 
 FRONT = Facade((3.0,), (0.5,), 20e3, floor_loads=(5e3,), crack="known", crack_storey=1)
 
@@ -50,6 +55,22 @@ def test_a_front_that_stands_falls_once_its_floor_is_said_to_lose_a_short_bearin
         assert lost.verdict is Verdict.OVERTURNS
     else:
         assert AssessmentKind.SEATS in {warning.kind for warning in lost.cases[""].facts(FRONT).settling}
+
+
+@pytest.mark.parametrize(
+    "run, members, lost", [(0.1, 0.1, False), (0.1, 0.5, True), (0.5, 0.1, True), (0.5, 0.5, True)]
+)
+def test_a_bearing_is_lost_under_the_run_or_a_member_that_moves_so_far(run, members, lost):
+    """At 0.4 of the critical rotation; of four members two turn as far as said."""
+    loss = FRONT.linkages[0].moved_from_bearings(0.4 * FRONT.mechanism().positive.critical_rotation)
+    response = Response(rotation_ratio=run, outcome=Outcome.ROCKS)
+    several = Ensemble(np.array([0.1, members, members, math.inf]), {}, EnsembleSettings())
+    followed = CrackEnsembles((FollowedCrack("as described", 0.0, several),))
+    case = CaseResult(component="", responses={Method.MECHANISM_ON_RECORD: response}, ensembles=followed)
+    found = case.losing_seats(FRONT, loss)
+    assert found.seat_lost is lost
+    assert found.ensembles.followed[0].ensemble.overturning_members == (3 if members > 0.4 else 1)
+    assert case.losing_seats(FRONT, math.inf) is case
 
 
 def test_the_reserve_counts_what_loses_its_bearing():
