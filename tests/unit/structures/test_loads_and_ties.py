@@ -66,6 +66,19 @@ def test_acceleration_is_that_of_positions_and_energy(case, sign):
         assert float(found) == pytest.approx(expected, rel=1e-9)
 
 
+@pytest.mark.parametrize("name", CASES)
+def test_places_velocities_and_accelerations_are_slopes_of_one_another(name):
+    step = 1e-5
+    for linkage in CASES[name][0].linkages:
+        before, here, after = (linkage.motion(np.array([0.02 + k * step])) for k in (-1, 0, 1))
+        slopes = (
+            (after.centroids - before.centroids) / (2 * step),
+            (after.velocities - before.velocities) / (2 * step),
+        )
+        np.testing.assert_allclose(slopes[0], here.velocities, rtol=1e-6, atol=1e-8)
+        np.testing.assert_allclose(slopes[1], here.accelerations, rtol=1e-6, atol=1e-8)
+
+
 def test_without_loads_a_facade_is_a_block_and_a_loaded_wall_a_wall():
     """To 1e-12, at zero and in the limit of vanishing loads and stiffness."""
     block, wall = Block.of_size(0.6, 6.0).mechanism(), Wall(2.0, 1.4, 0.3).mechanism()
