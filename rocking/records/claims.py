@@ -139,7 +139,7 @@ def point_apart(first: str, second: str) -> bool:
 WORDS_OF_ACCELERATION = r"(?:(?<![a-z])(?:acc|acel|beschl|[iİ]vme|ускорени|επιτάχυνση)\w*|加速度)"
 _ACCELERATION = re.compile(rf"(?i){WORDS_OF_ACCELERATION}")
 _UNITS = (
-    r"(?:(?<![a-z])(?:units?|unidade?s?|unit[aà]|unités?|einheit(?:en)?|birim(?:i|ler)?|ед(?:иниц\w*|\. ?изм\.?)|"
+    r"(?:(?<![a-z])(?:y?units?|unidade?s?|unit[aà]|unités?|einheit(?:en)?|birim(?:i|ler)?|ед(?:иниц\w*|\. ?изм\.?)|"
     r"μονάδ\w*)(?![a-z])|単位|单位)"
 )
 _OTHER: dict[str, re.Pattern[str]] = {
@@ -432,7 +432,7 @@ _OF_VALUES = re.compile(
 )
 """Words next to which a unit in brackets is that of the numbers: elsewhere "(G)" may be the code of a network."""
 _LEAD = re.compile(
-    rf"(?i)(?P<sure>{_UNITS}(?:[^:=：.]*[:=：]|\s+(?:of|are|is|in|-))?\s*[(\[]?\s*|{WORDS_OF_ACCELERATION}\s*[:=,：]\s*)|"
+    rf"(?i)(?P<sure>{_UNITS}(?:[^:=：.]*[:=：]|\s+(?:of|are|is|in|-))?\s*['(\[]?\s*|{WORDS_OF_ACCELERATION}\s*[:=,：]\s*)|"
     r"\b(?:in|en|em|σε|в)\s+(?!units?\b)|[(\[（]\s*"
 )
 """The words that a unit may follow, and whether what follows them is one whatever the line speaks of."""
@@ -441,15 +441,15 @@ _OF_SAMPLING = (
     r"tiempo|tempo|temporale|temps|времени|χρόνου)"
 )
 _TIMING = re.compile(
-    r"(?i)(?<![a-z])(?:(?P<step>dt|δt|delta(?: ?t)?|time[ _-]?(?:step|interval|increment)|"
+    r"(?i)(?<![a-z])(?:(?P<step>dt|δt|delta(?:[ _]?t)?|t(?:ime)?[ _-]?(?:step|interval|increment)|"
     r"(?:sampl|digiti)\w*[ _-](?:interval|period|step|time)|(?:equal(?:ly)? )?spac(?:ing|ed)(?: at)?|intervals?|every|"
     rf"intervalo|(?:paso|passo|pas|intervall?[oe]|per[ií]odo|шаг|βήμα) {_OF_SAMPLING}|интервал|"
     r"abtast(?:intervall|schritt)|zeitschritt|(?:örnekleme|zaman) (?:aralığı|adımı)|(?:采样|时间)间隔|"
     r"(?:サンプリング|時間)間隔)|"
-    r"(?P<rate>fs|(?:sampl\w*|data|digiti\w*)[ _-](?:rate|freq\w*)|samples ?(?:per|/) ?s(?:ec(?:ond)?)?|"
-    r"(?:tasa|frecuencia|velocidad|razón|taxa|frequência|frequenza|fréquence|частота|συχνότητα|ρυθμός) "
+    r"(?P<rate>fs|(?:sampl\w*?|data|digiti\w*)[ _-]?(?:rate|freq\w*)|samples ?(?:per|/) ?s(?:ec(?:ond)?)?|"
+    r"(?:tasa|fre[cq]\w*\.?|velocidad|razón|taxa|fréquence|частота|συχνότητα|ρυθμός) "
     rf"{_OF_SAMPLING}|muestras por segundo|abtast(?:rate|frequenz)|örnekleme (?:frekansı|hızı)|"
-    r"(?:サンプリング周波数|采样频?率))|sampl(?:ing|ed at)|digiti[sz]ed at|muestreo)"
+    r"(?:サンプリング(?:周波数|レート)|[采採]样频?率))|sampl(?:ing|ed at)|digiti[sz]ed at|muestreo)"
     r"(?:\s*[(\[_]\s*(?P<in>[^\W\d_]+)\s*[)\]]?)?\s*(?:[:=：]|is|of)?\s*"
     rf"(?P<of>1/)?(?P<value>\d+,\d+|{NUMBER})\s*\(?(?P<unit>[^\W\d_]+)?(?:\s*\.?\s*$|,(?!\d)|[;)\]]|\s/\s)"
 )
@@ -469,9 +469,9 @@ _OF_FILTER = re.compile(
 _FEWEST_PER_SECOND = 10.0
 """The lowest rate that a recorder has, Hz: below, a number of hertz is that of a motion."""
 _SAMPLES = re.compile(
-    rf"(?i)(?:^|[\s,;(])({NUMBER})\s+(?:data )?(?:points|samples|values)\b(?!\s+(?:per|across|a|each|in)\b|/)|"
-    r"(?<![a-z])(?:(?:npts|ndata|(?:#|(?:n[or]?|num(?:ber|ero)?|n[uú]mero|total|nombre|anzahl|число|количество|αριθμός)\b)"
-    r"[.º]? ?(?:total )?(?:of |de |di |d['’]|der )?(?:data )?(?:points|samples|data|values|datos|muestras|puntos|"
+    rf"(?i)(?:^|[\s,;(])({NUMBER})\s+(?:data )?(?:points|samples|values)\b(?!\s+(?:per|across|a|each|in)\b|\s*/)|"
+    r"(?<![a-z])(?:(?:npts|npoints|ndata|(?:#|(?:n[or]?|num(?:ber|ero)?|n[uú]mero|total|cantidad|nombre|anzahl|число|количество|αριθμός)\b)"
+    r"[.º]? ?(?:total )?(?:of |de |di |d['’]|der )?(?:data )?(?:points|samples|data|values|dat[io]s?|muestras|puntos|"
     r"campioni|punti|échantillons|(?:abtast)?werte|punkte|amostras|точек|отсч[её]тов|σημείων)|"
     r"(?:veri|nokta|örnek) sayısı|"
     r"(?:データ|采样|数据)?点数|データ数)\s*[:=：]?|(?:data )?(?:points|samples)\s*[:=])\s*(\d{2,})(?:\.0*)?(?![\d.])"
@@ -627,7 +627,7 @@ def _units(line: str) -> set[str]:
         for lead in _LEAD.finditer(clause):
             words = clause[lead.end() :].split()
             is_sure = lead["sure"] or "/" in "".join(words[:1]) or of_line or _OF_VALUES.search(clause)
-            spelt = (" ".join(words[:count]).rstrip(".,;)]") for count in range(5, 0, -1)) if is_sure else ()
+            spelt = (" ".join(words[:count]).rstrip(".,;)]'") for count in range(5, 0, -1)) if is_sure else ()
             found += [unit for word in spelt if (unit := acceleration_unit(word))][:1]
     return set(found)
 

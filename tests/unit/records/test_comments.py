@@ -75,7 +75,8 @@ def test_a_direction_at_the_head_of_a_column_is_not_overruled(tmp_path: Path):
      "dt (ms) = 5", "Abtastintervall: 5 ms", "Δt = 0.005 s", "dt = 1/200 s", "paso de tiempo: 0.005 s",
      "SAMPLING RATE (HZ) 200", "intervallo di campionamento: 0,005 s",
      "taxa de amostragem: 200 Hz", "örnekleme aralığı (sn): 0.005", "采样率: 200",
-     "шаг по времени: 0.005 с", "частота дискретизации: 200 Гц", "ρυθμός δειγματοληψίας: 200 Hz", "fs: 0.2 kHz"],
+     "шаг по времени: 0.005 с", "частота дискретизации: 200 Гц", "ρυθμός δειγματοληψίας: 200 Hz", "fs: 0.2 kHz",
+     "delta_t = 0.005 s", "Samplerate: 200 Hz", "freq. campionamento: 200 Hz", "サンプリングレート: 200 Hz"],
 )  # fmt: skip
 def test_comments_declare_the_step(comment):
     assert Declarations.of([comment]).only("time_step") == pytest.approx(0.005, rel=1e-12)
@@ -92,6 +93,8 @@ def test_comments_declare_the_step(comment):
         "(cm/s2) of acceleration",
         "unidade de aceleração: cm/s2",
         "ACC_UNITS=gal",
+        "'acc_unit': 'cm/s2'",
+        "yunit: cm/s^2",
         "aceleración en cm/seg2",
         "единицы: см/с²",
         "Μονάδα: gal",
@@ -198,7 +201,8 @@ def test_what_ends_the_numbers_is_no_number(tmp_path: Path, end):
     "comment",
     ["600 points at 0.01 s", "NPTS = 600", "NUMERO DE DATOS: 600", "Number of points: 600, 8 points across",
      "NPTS 600", "Anzahl der Werte: 600", "numero di punti: 600", "número de amostras: 600", "データ数: 600",
-     "число точек: 600", "nokta sayısı: 600", "αριθμός σημείων: 600", "Samples = 600"],
+     "число точек: 600", "nokta sayısı: 600", "αριθμός σημείων: 600", "Samples = 600", "npoints = 600",
+     "cantidad de datos: 600"],
 )  # fmt: skip
 def test_the_number_of_samples_that_comments_declare_is_held_against_them(tmp_path: Path, comment):
     head = f"# {comment}\n# units: m/s2\n# dt = 0.01 s\n"
