@@ -17,7 +17,7 @@ from rocking.records.formats.layouts import NAME, AskedError, Layouts, Question,
 from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import OF_COUNTS
 from rocking.records.read import printable, read_raw
-from rocking.signal.accelerogram import Accelerogram
+from rocking.signal.accelerogram import WEAK_PEAK, Accelerogram
 from rocking.signal.kinds import SignalKind
 from rocking.signal.measures import end_of_shaking
 from rocking.signal.processing import process, velocity
@@ -241,8 +241,6 @@ _FEWEST_TRIED = 2
 """Files of an answer whose peaks together are not those of a folder of records."""
 _STRONG_SHARE = 1 / 3
 """The share of files above 1 g that no folder of records has: of NGA-West2 less than one in a hundred is."""
-_WEAK = 0.001
-"""g; no folder of records whose pages say nothing lies below as a whole."""
 
 
 def trials(
@@ -263,13 +261,13 @@ def trials(
             peaks.setdefault(line, []).append(max(known))
     found = {}
     for line, of_line in peaks.items():
-        is_weak = max(of_line) < _WEAK
+        is_weak = max(of_line) * GRAVITY < WEAK_PEAK
         unusual = of_line if is_weak else [peak for peak in of_line if peak > 1.0]
         words = f"{counted(len(of_line), 'file')}, {min(of_line):.3g}–{max(of_line):.3g} g"
         if len(unusual) < _FEWEST_TRIED or len(unusual) <= _STRONG_SHARE * len(of_line):
             found[line] = Trial(words, may_hold=True)
             continue
-        where = f"below {_WEAK:g}" if is_weak else "above 1"
+        where = f"below {WEAK_PEAK / GRAVITY:g}" if is_weak else "above 1"
         why = (
             f"so {len(unusual)} of its {len(of_line)} files would be {where} g, as no folder of records is; leave the "
             "unit out of the answer, and fill in the column unit of the catalogue for each, or take the ? away again "

@@ -23,6 +23,8 @@ LARGEST_PEAK = 5 * GRAVITY
 """m/s²; the largest recorded so far is 4.4 g (Iwate-Miyagi 2008, IWTH25), so what is above is a wrong unit."""
 RARE_PEAK = 3 * GRAVITY
 """m/s²; a handful of records of the world exceed it."""
+WEAK_PEAK = 0.001 * GRAVITY
+"""m/s²; no folder of records whose pages say nothing lies below as a whole."""
 
 SHORTEST_STEP = 1e-4
 """s; no accelerograph has a shorter one."""

@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 
-from rocking.quantities import GRAVITY, is_number
+from rocking.quantities import GRAVITY, acceleration_factor, is_number
 from rocking.records.claims import (
     Claim,
     Declarations,
@@ -20,7 +20,7 @@ from rocking.records.direction import directed
 from rocking.records.formats.format import Format, Layout, Options
 from rocking.records.formats.text import after_lines, count, lines, number, numbers, whole, without_filling
 from rocking.records.kinds import RecordKind
-from rocking.signal.accelerogram import RARE_PEAK, Accelerogram
+from rocking.signal.accelerogram import RARE_PEAK, WEAK_PEAK, Accelerogram
 from rocking.warnings import RockingWarning
 
 _STEPS = (
@@ -65,10 +65,10 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     assert size is not None  # by which the file is known
     text = "\n".join(head)
     declarations = Declarations.of(head)
-    has_unit = any(claim.what == "unit" for claim in declarations.claims)
+    units = {claim.value for claim in declarations.claims if claim.what == "unit"}
     # What a line of its own says counts more than a title that speaks of an accelerogram.
     for line in head:
-        refuse_other_quantity(line, has_unit)
+        refuse_other_quantity(line, bool(units))
     declared = count("NPTS", size["npts"])
     agreed("samples", declarations.claims)
     body = after_lines(content.lstrip(b"\n"), len(head))
@@ -77,7 +77,9 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     values, warnings = whole(numbers(bare if is_filled else body), declared, per_line=8)
     warnings += filled
     said = [*declarations.claims, *options.said]
-    if has_unit and np.abs(values).max() * GRAVITY <= RARE_PEAK:
+    peak = np.abs(values).max()
+    # Numbers in g under a head that says cm/s² would be 980 times too weak.
+    if peak * GRAVITY <= RARE_PEAK and any(peak * acceleration_factor(unit) < WEAK_PEAK for unit in units):
         said.append(Claim("unit", "g", Where.FORMAT, "an AT2 of PEER is in g"))
     unit = agreed("unit", said) or ""
     parts = [part.strip() for part in head[1].split(",")] if len(head) > 1 else [""]
