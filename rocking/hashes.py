@@ -1,7 +1,7 @@
 """SHA-256 of what bytes, files and objects say: how a record is known by its content, and a result by its input."""
 
 import hashlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import fields, is_dataclass
 from pathlib import Path
 from typing import Protocol, runtime_checkable
@@ -43,14 +43,10 @@ def sha256_of_content(value: object) -> str:
 def _content(value: object) -> object:
     if value is None or isinstance(value, bool | int | float | str):
         return value
-    if isinstance(value, np.generic):
-        return value.item()
-    if isinstance(value, np.ndarray):
+    if isinstance(value, np.ndarray | np.generic):
         return value.dtype.str, value.shape, sha256_of_bytes(value.tobytes())
     if isinstance(value, tuple | list):
         return tuple(_content(item) for item in value)
-    if isinstance(value, Mapping):
-        return tuple((_content(key), _content(item)) for key, item in value.items())
     if is_dataclass(value) and not isinstance(value, type):
         of_fields = []
         for field in fields(value):

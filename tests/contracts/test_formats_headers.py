@@ -228,6 +228,17 @@ def test_the_instrument_names_a_station_of_renadic(line: str) -> None:
     assert read_text(text)[0].station == line
 
 
+@pytest.mark.parametrize(("printed", "warnings"), [
+    ("100.000", ()), ("****.**", (RockingWarning.of(RecordKind.RATE_NO_NUMBER, rate="****.**"),)),
+    ("101.000", (RockingWarning.of(RecordKind.RATE_UNLIKE_STEP, rate_hz=101.0, time_step_s=0.01),)),
+])  # fmt: skip
+def test_the_step_of_bhrc_is_that_of_its_duration_and_its_rate_only_warns(
+    printed: str, warnings: tuple[RockingWarning, ...]
+) -> None:
+    (record,) = read_text(made_files.bhrc().replace("100.000", printed))
+    assert (record.time_step, record.warnings) == (0.01, warnings)
+
+
 @pytest.mark.parametrize(
     ("place", "is_buried"),
     [("Downhole", True), ("Depth 30 m", True), ("-156 m", True), ("Downhole: 100 ft", True), ("Downhole: 2 m", False),

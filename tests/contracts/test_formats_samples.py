@@ -155,8 +155,16 @@ def test_a_peak_that_contradicts_the_header_is_refused(name: str) -> None:
     ("CSMIP V1/V2: of 1983", "POINTS OF ACCEL", "POINTS OF VELOC", ("header", 'POINTS OF ACC DATA')),
     ("PEER AT2", "DATABASE RECORD\nQuake, 1/2/1999, Station, 45\nACCELERATION",
      "ACCELEROGRAM\nQuake, 1/2/1999, Station, 45\nVELOCITY", ("quantity", 'velocity')),
+    ("PEER AT2", "DT= 0.01", "DT= 1e-9", ("time_step", 1e-9)),
+    ("K-NET/KiK-net", "100Hz", "1e101Hz", ("the rate", "1e101")),
+    ("UNAM/CICESE", f"{'-' * 79}\n CANAL", "x\n CANAL", ("header", "DATOS DE ACELERACION")),
+    ("USGS SMC", "1.0000000E+02", "-1.000000E+02", ("rate", -100.0)),
+    ("USGS SMC", "  1.7000000E+38\n", "\n", ("header", (48, 41))),
+    ("BHRC", "/&\n", "/&\n 1 2\n 3 4\n", ("lines", 2)),
 ])  # fmt: skip
-def test_other_quantities_and_units_are_refused_by_name(name: str, old: str, new: str, named: tuple) -> None:
+def test_other_quantities_units_and_numbers_that_cannot_be_are_refused_by_name(
+    name: str, old: str, new: str, named: tuple
+) -> None:
     text = MADE[name][0]()
     assert old in text
     with refused(RecordError, *named):

@@ -25,6 +25,7 @@ from rocking.floors.support import Mode, Support
 from rocking.motion.batch import rocking_spectrum
 from rocking.pulses import predicting_pulse
 from rocking.quantities import GRAVITY
+from rocking.records.formats.text import even_step
 from rocking.signal.processing import Processing, process
 from rocking.signal.rotation import aligned, rotd
 from rocking.sine_pulse.maximum import pulse_spectrum, sides_under
@@ -32,6 +33,7 @@ from rocking.structures.equivalent_block import EquivalentBlock
 from rocking.structures.joints import Joints
 from rocking.structures.stack import Held, Stack
 from rocking.structures.stones import counted_voussoirs
+from rocking.study.settings import Settings
 from tests.refusals import refused
 
 BLOCK = rocking.Block(2.0, 0.2)
@@ -93,6 +95,9 @@ def test_the_ends_of_a_range_are_allowed_and_nothing_beyond(
 
 @pytest.mark.parametrize("make, error, field", [
     (lambda: CodeTerms(limit_state="SLU"), ConfigurationError, "limit_state"),
+    (lambda: Settings(pulse=3), ConfigurationError, "pulse"),
+    (lambda: even_step(STILL[:1]), RecordError, "times"),
+    (lambda: rocking.plot(RECORD.time_step), RockingError, "thing"),
     (lambda: CodeTerms(support=0.3), ConfigurationError, "support"),
     (lambda: CodeTerms(support_loss=0.0), ConfigurationError, "support_loss"),
     (lambda: replace(CODE, soil="F"), ConfigurationError, "soil"),

@@ -6,6 +6,7 @@ import io
 import json
 import math
 import os
+import threading
 from enum import StrEnum
 from pathlib import Path
 
@@ -190,6 +191,15 @@ def test_files_written_together_appear_when_the_disk_has_them_all(tmp_path: Path
     assert steps[-1] == ("sync", tmp_path.name)
     assert [(tmp_path / name).read_bytes() for name in ("a.csv", "b.csv")] == [b"a.csv", b"b.csv"]
 
+    def starts_none(*_: object) -> None:
+        raise RuntimeError("can't start new thread")
+
+    monkeypatch.setattr(threading.Thread, "start", starts_none)
+    with tables.written_together():
+        write_whole(tmp_path / "c.csv", b"c")
+        write_whole(tmp_path / "d.csv", b"d")
+    assert [what for what, _ in steps[5:]] == ["sync", "sync", "name", "name", "sync"]
+
 
 def test_a_disk_that_takes_no_more_is_named_in_a_sentence(tmp_path: Path, monkeypatch) -> None:
     def full(handle: int) -> None:
@@ -198,7 +208,11 @@ def test_a_disk_that_takes_no_more_is_named_in_a_sentence(tmp_path: Path, monkey
     monkeypatch.setattr(os, "fsync", full)
     with refused(RockingError, "file", "made.csv"):
         write_whole(tmp_path / "made.csv", b"x" * 5000)
+    with refused(RockingError, "file", "made.csv"), tables.written_together():
+        write_whole(tmp_path / "made.csv", b"x" * 5000)
     assert list(tmp_path.iterdir()) == []
+    with refused(RockingError, "file", "made.csv"):
+        write_whole(Path(__file__) / "made.csv", b"x")
 
 
 def test_a_data_package_describes_each_column_once() -> None:

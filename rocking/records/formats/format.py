@@ -569,8 +569,7 @@ def check_equal(field: str, first: float, second: float, relative: float = 1e-3)
 
 def check_end(rows: list[str]) -> None:
     """Check that nothing but blanks follows the last channel. Raises RecordError: a channel is cut."""
-    if any(row.strip() for row in rows):
+    if more := sum(bool(row.strip()) for row in rows):
         raise RecordError(
-            f"{len(rows)} lines follow the last whole channel: another is cut; fetch it again.",
-            lines=len(rows),
+            f"{more} lines follow the last whole channel: another is cut; fetch it again.", lines=more
         )

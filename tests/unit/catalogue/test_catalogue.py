@@ -14,6 +14,7 @@ from typing import Any, ClassVar
 import numpy as np
 import pytest
 
+import rocking
 from rocking import Arch, extract_pulses, integrate, predict_maximum
 from rocking.catalogue import CatalogueRecord, files, load_catalogue, open_station
 from rocking.catalogue.catalogue import catalogue_text, repeated
@@ -78,9 +79,13 @@ def test_components_by_name_and_in_the_order_given(folder: Path) -> None:
     vertical, horizontal = open_station(record).horizontal
     assert (vertical.component, horizontal.component) == ("UD", "NS") and not horizontal.warnings
     assert vertical.warnings[-1] == RockingWarning(RecordKind.VERTICAL_AS_HORIZONTAL, "UD")
-    (record,) = load_catalogue(write(folder, row(component="XX")))
-    with refused(RecordError, "component", "XX"):
-        open_station(record)
+    for cells, field, value in (
+        ({"component": "XX"}, "component", "XX"),
+        ({"file": "obspy:none.AT2", "sha256": ""}, "file", "none.AT2"),
+    ):
+        (record,) = load_catalogue(write(folder, row(**cells)))
+        with refused(RecordError, field, value):
+            open_station(record)
 
 
 def test_all_defects_stand_in_one_message(folder: Path) -> None:
@@ -344,7 +349,9 @@ def test_every_file_is_listed_with_what_it_is(folder: Path) -> None:
     both = "".join(f"{i / 100},{i % 2},{4 * (i % 2)}\n" for i in range(99))
     named(folder, "mixed.csv", f"time,NS (g),EW (g)\n{both}")
     named(folder, "tale.txt", "once upon a time\n")
+    (folder / "link.AT2").symlink_to(Path(rocking.__file__).parents[1] / "records/synthetic_strong_pulse.AT2")
     listed = {found.file: found for found in list_folder(folder)[0]}
+    assert listed["link.AT2"].refusal == "it is a link that leads out of the folder; copy the file instead."
     table = listed["table.csv"]
     assert [channel.component for channel in table.channels] == ["NS", "EW", "UD"]
     assert [channel.samples for channel in table.channels] == [50, 50, 50]

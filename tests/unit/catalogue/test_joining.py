@@ -8,7 +8,7 @@ import pytest
 from rocking.catalogue import CatalogueRecord, load_catalogue, open_station
 from rocking.catalogue.catalogue import catalogue_text
 from rocking.catalogue.folder import catalogue_of_folder
-from rocking.catalogue.listing import warnings_of
+from rocking.catalogue.listing import listing_text, warnings_of
 from rocking.records.claims import direction_in_name
 from rocking.records.kinds import RecordKind
 from rocking.warnings import RockingWarning
@@ -198,6 +198,8 @@ def test_of_three_horizontal_components_the_two_at_a_right_angle_are_the_pair(tm
     for component in ("000", "045", "090"):
         peer(tmp_path, f"{component}.AT2", component)
     assert set(rows(tmp_path)) == {"000.AT2;090.AT2", "045.AT2"}
+    listed, (pair, _) = list_folder(tmp_path)
+    assert f"Joined:\n  {pair['id']}: 000.AT2, 090.AT2\n\n" in listing_text(listed)
 
 
 def test_where_two_pairs_could_be_meant_none_is(tmp_path: Path) -> None:
@@ -215,6 +217,14 @@ def test_pairs_whose_unit_is_typed_later_are_one_row_from_the_start(tmp_path: Pa
     assert {file.blanks for file in listed} == {("unit",)} and "Fill in unit." in made[0]["note"]
     (station,) = opened(tmp_path, unit="um/s2")
     assert len(station.horizontal) == 2
+
+
+def test_files_of_which_one_declares_its_unit_are_no_pair(tmp_path: Path) -> None:
+    bare(tmp_path, "a_000.csv", 1.3, "time (s),acc (g)\n")
+    bare(tmp_path, "a_090.csv", 1.4)
+    listed, made = list_folder(tmp_path, unit="g")
+    assert len(made) == 2
+    assert {file.separation for file in listed} == {RockingWarning(RecordKind.DECLARED_BY_SOME)}
 
 
 def test_the_names_of_a_row_are_those_of_files_that_give_none(tmp_path: Path) -> None:

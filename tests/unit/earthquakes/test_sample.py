@@ -107,6 +107,8 @@ def test_components_and_processings_of_a_station_are_one():
 def test_as_many_names_as_records_are_asked_for():
     with refused(ConfigurationError, "events", 1):
         ClusterSample.of([Named(), Named()], events=["one"])
+    with refused(ConfigurationError, "events", 1):
+        ClusterSample(("a", "b"), ("one",))
 
 
 def test_the_bounds_of_scattered_stations_are_those_of_clopper_and_pearson():

@@ -1,5 +1,6 @@
 """Files that were once misread, or refused though they are good: each made as it lies in some collection."""
 
+import re
 from pathlib import Path
 
 import made_files
@@ -33,6 +34,9 @@ def opened_once(folder: Path, text: str, answer: str) -> None:
 
 def rows(*columns: np.ndarray, parted: str = ",") -> str:
     return "".join(parted.join(f"{value:.6f}" for value in row) + "\n" for row in np.transpose(columns))
+
+
+THREE = rows(TIMES, MOTION, MOTION)
 
 
 def test_raw_and_corrected_components_are_not_joined(tmp_path: Path) -> None:
@@ -174,6 +178,7 @@ def test_a_column_of_times_for_each_channel_repeats_nothing(tmp_path: Path, firs
     "time (s),acc (m/s2)\n" + rows(TIMES, MOTION) + ",\n,,\n ; \n",
     "time (s),acc (m/s2),,\n" + rows(TIMES, MOTION).replace("\n", ",,\n"),
     "dt=0.01\nacc: m/s2\n" + rows(MOTION),
+    "dt=0.01\nNPTS = 600\npoints: 601\nacc: m/s2\n" + rows(MOTION),
     "dt=0.01 / acc: m/s2\n" + rows(MOTION),
     "t,acc_g\n" + rows(TIMES, MOTION / 9.80665),
     "time,acc_g\n" + rows(TIMES, MOTION / 9.80665),
@@ -184,12 +189,19 @@ def test_what_offices_write_around_a_table(tmp_path: Path, text: str) -> None:
     assert record.time_step == 0.01 and np.allclose(record.acceleration, MOTION, atol=1e-5)
 
 
-def test_a_row_whose_last_cell_is_empty_is_refused(tmp_path: Path) -> None:
-    text = "time (s),N (m/s2),E (m/s2)\n" + rows(TIMES, MOTION, MOTION)
-    lines = text.split("\n")
-    lines[50] = lines[50].rpartition(",")[0] + ","
-    with refused(RecordError, "columns", 2):
-        opened(tmp_path, "\n".join(lines), "made.csv")
+@pytest.mark.parametrize(("text", "field", "value"), [
+    ("time (s),N (m/s2),E (m/s2)\n" + re.sub(r"(\n0\.5.*,).*", r"\1", THREE), "columns", 2),
+    ("time (s),N (m/s2),E (m/s2)\n" + re.sub(r"(\n0\.5.*,).*,", r"\1,", THREE), "cell", ""),
+    (rows(TIMES, MOTION, parted=" ") + "6.000000\n", "columns", 1),
+    ("acc (m/s2)\n" + 40 * "12\n" + "12-34\n", "samples", None),
+    ("t (s),N (m/s2)\n" + "".join(f"{i}e-8,{a:.6f}\n" for i, a in enumerate(MOTION)), "times", 1e-8),
+    ("# NPTS = 601\n# points: 602\nt (s),N (m/s2)\n" + rows(TIMES, MOTION), "samples", 600),
+])  # fmt: skip
+def test_a_table_with_a_damaged_row_step_or_count_is_refused(
+    tmp_path: Path, text: str, field: str, value: object
+) -> None:
+    with refused(RecordError, field, value):
+        opened(tmp_path, text, "made.csv", unit="m/s2")
 
 
 def test_small_letters_in_the_titles_of_the_mexican_standard(tmp_path: Path) -> None:

@@ -403,10 +403,11 @@ def test_an_option_that_brings_code_is_refused(tmp_path, capsys, option):
         ("tolerance: " + "1" * 5000, "not valid YAML"),
         ("results: " + "x" * 5_000_000, "larger than"),
         ("tolerance: 1e-6\ntolerance: 1e-3", "given twice"),
+        ("? [tolerance]\n: 1e-3", "a key must be a text"),
         ("\n".join(f"k{n}: 1" for n in range(70_000)), "larger than"),
         ("results: !!python/object/apply:os.getcwd []", "not valid YAML"),
     ],
-    ids=["aliases", "brackets", "digits", "size", "twice", "many keys", "tag"],
+    ids=["aliases", "brackets", "digits", "size", "twice", "list", "many keys", "tag"],
 )
 def test_a_config_that_hangs_or_is_read_in_silence_is_refused(tmp_path, text, words):
     (tmp_path / "config.yaml").write_text(text)
@@ -416,11 +417,26 @@ def test_a_config_that_hangs_or_is_read_in_silence_is_refused(tmp_path, text, wo
 
 @pytest.mark.parametrize("text", ["1:30", "011", "0x1f", "1_000", "yes", "2020-01-01"])
 def test_what_yaml_1_1_would_turn_into_something_else_is_a_text(tmp_path, text):
-    assert scalar_value(text) == text
+    assert scalar_value(text) == text and scalar_value(f"[{text}") == f"[{text}"
     (tmp_path / "config.yaml").write_text(f"friction_coefficient: {text}\r\nresults: out\r\n")
     config = check_config_file(tmp_path / "config.yaml")
     with pytest.raises(ConfigurationError, match="setting friction_coefficient is"):
         make_plan(config)
+
+
+@pytest.mark.parametrize(("error", "status", "said"), [
+    (KeyboardInterrupt(), 130, "rocking: stopped.\n"),
+    (ModuleNotFoundError("No module named 'fcntl'", name="fcntl"), 1, "rocking: this command needs Linux or macOS;"),
+    (OSError(28, "No space left", "a.csv"), 1, "rocking: a.csv: No space left.\n"),
+    (OSError("of nothing"), 1, "rocking: file: of nothing.\n"),
+])  # fmt: skip
+def test_what_stops_a_command_is_one_line(record, monkeypatch, capsys, error, status, said):
+    def stopped(*_):
+        raise error
+
+    monkeypatch.setattr("rocking.study.own_files.read_files", stopped)
+    assert main(["read", str(record)]) == status
+    assert capsys.readouterr().err.startswith(said)
 
 
 def test_without_a_verb_the_usage_says_that_one_is_missing(capsys):

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 
@@ -15,6 +16,7 @@ from rocking.assessment.rows import (
     rows_of_record,
 )
 from rocking.structures import Block
+from rocking.study.documents import made_or_failed
 from rocking.study.outputs import outputs_of
 from rocking.study.summary import summarise
 from rocking.study.summary_tables import write_summary
@@ -128,5 +130,8 @@ def test_a_report_that_cannot_be_made_costs_its_record_nothing(tmp_path: Path, m
     (fault,) = outcome.rows[FailureRow]
     assert (fault.record, fault.stage) == (record.id, "document")
     assert fault.message.startswith("a fault of rocking in report.pdf (KeyError")
+    for of_the_machine in (OSError, MemoryError):
+        with pytest.raises(of_the_machine):
+            made_or_failed(tmp_path / "report.pdf", Mock(side_effect=of_the_machine), job.log)
     assert outcome.rows[ComparisonRow] and outcome.rows[VerdictRow]
     assert (job.results / record.id / "report.pdf").read_bytes().startswith(b"%PDF")

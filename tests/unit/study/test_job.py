@@ -237,7 +237,11 @@ def test_a_fault_of_this_package_costs_no_other_record_and_asks_to_be_reported(t
     results.mkdir()
     take(records[0], job)
     take(records[1], replace(job, study=replace(job.study, scenes=_study().scenes)))
-    first, second = (outcome.rows for outcome in outcomes_in(results, records))
+    monkeypatch.setattr(Study, "open", lambda *_: 1 / 0)
+    records.append(_record(tmp_path, "third"))
+    take(records[2], job)
+    first, second, third = (outcome.rows for outcome in outcomes_in(results, records))
+    assert "ZeroDivisionError: division by zero" in third[FailureRow][0].message
     assert {failure.structure for failure in first[FailureRow]} == {"faulty"}
     for failure in first[FailureRow]:
         assert "faulty (ZeroDivisionError: of the machine)" in failure.message

@@ -75,6 +75,24 @@ def test_a_component_beside_a_file_that_is_not_given_is_named(folder: Path) -> N
         (StudyKind.SIBLING_NOT_USED, "RSN1_MADE_ST-UP.AT2"),
     }
     assert not stations_of(paths(folder), NOTHING).warnings
+    (folder / "RSN1_MADE_ST180.AT2").write_text("PEER\n")
+    assert stations_of(paths(folder)[:1], NOTHING).warnings == own.warnings
+
+
+def test_a_file_of_a_vertical_component_alone_is_no_record_and_one_of_another_step_is_its_own(
+    folder: Path,
+) -> None:
+    east, north, up = paths(folder)
+    with pytest.raises(RecordError, match=f"^{up.name}: it holds no horizontal component"):
+        stations_of([up], NOTHING)
+    north.write_text(FILES[north.name].replace("DT= 0.01", "DT= 0.02"))
+    own = stations_of([east, north], NOTHING)
+    assert [len(station.channels) for station in own.stations] == [1, 1]
+    apart = {(StudyKind.FILE_APART, east.name), (StudyKind.FILE_APART, north.name)}
+    assert apart <= {(warning.kind, warning.about) for warning in own.warnings}
+    up.write_text(FILES[up.name].replace("1/2/1999", "3/4/1998"))
+    (warning,) = stations_of([east, up], NOTHING).warnings
+    assert (warning.kind, warning.about) == (StudyKind.FILE_WITHOUT_RECORD, up.name)
 
 
 def test_a_k_net_triple_is_one_record(tmp_path: Path) -> None:

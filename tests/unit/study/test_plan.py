@@ -2,11 +2,13 @@
 
 import hashlib
 import os
+import platform
 import shutil
 import time
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from rocking.assessment.kinds import AssessmentKind
@@ -14,8 +16,8 @@ from rocking.catalogue import CatalogueRecord
 from rocking.errors import ConfigurationError
 from rocking.study import settings as settings_module
 from rocking.study.job import prepare
-from rocking.study.plan import Plan, make_plan, study_warnings
-from rocking.study.settings import Settings, read_settings, settings_sha256
+from rocking.study.plan import Plan, check_files, make_plan, study_warnings, versions
+from rocking.study.settings import Settings, StudyDesign, read_settings, settings_sha256
 from tests.refusals import refused
 
 ROOT = Path(__file__).parents[3]
@@ -122,10 +124,11 @@ def test_results_that_cannot_be_written_are_refused_before_any_work(tmp_path: Pa
 
 
 def test_a_job_on_another_machine_needs_files_next_to_the_catalogue_and_their_hashes(tmp_path: Path) -> None:
-    Path("layouts.csv").write_text("answer\n")
     known = f"a,a.AT2,{SHA256}\nb,b.AT2,\n"
     plan = make_plan(_write(tmp_path, known), by_name=True)
     a, b = plan.records.values()
+    assert plan.answers_of(a) == {str(tmp_path / "layouts.csv"): ""}
+    Path("layouts.csv").write_text("answer\n")
     assert plan.files_of(a) == [str(tmp_path / "a.AT2")]
     assert plan.files_of(replace(a, inventory="a.xml")) == [str(tmp_path / "a.AT2"), str(tmp_path / "a.xml")]
     assert plan.answers_of(a) == {str(tmp_path / "layouts.csv"): hashlib.sha256(b"answer\n").hexdigest()}
@@ -136,6 +139,13 @@ def test_a_job_on_another_machine_needs_files_next_to_the_catalogue_and_their_ha
     assert list(plan.of("b").records) == ["b"]
     with refused(ConfigurationError, "record", "c"):
         plan.of("c")
+
+
+def test_a_file_or_a_library_that_is_not_there(monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(ConfigurationError, match=r"setting design_spectrum\.points is 'none\.csv'"):
+        check_files(Settings(design_spectrum=StudyDesign(points="none.csv")))
+    monkeypatch.setattr("rocking.study.plan._LIBRARIES", ("numpy", "no-such-library"))
+    assert versions() == {"python": platform.python_version(), "numpy": np.__version__}
 
 
 def test_what_changes_no_number_does_not_change_the_hash_of_the_settings(tmp_path: Path) -> None:

@@ -85,6 +85,10 @@ def test_what_is_not_there_is_said(folder: Path) -> None:
         results.table("sums")
     with refused(RockingError, "folder"):
         rocking.open_results(folder / "nowhere")
+    (folder / "study").mkdir()
+    (folder / "study" / "results").symlink_to(folder)
+    with pytest.raises(RockingError, match=f"tables of a record; name {folder / 'study' / 'results'}."):
+        rocking.open_results(folder / "study")
 
 
 def test_the_tables_of_records_assessed_one_by_one_are_gathered(tmp_path: Path) -> None:
