@@ -11,7 +11,7 @@ from scipy.integrate import quad
 from rocking.motion import integrate
 from rocking.pulses.pulse import Pulse
 from rocking.signal.accelerogram import Accelerogram
-from rocking.structures import Arch, Block, Outcome, Wall
+from rocking.structures import Arch, Block, EquivalentBlock, Outcome, Wall
 
 BLOCK = Block(1.0, 0.25, restitution=0.85).mechanism()
 WALL = Wall(2.0, 3.0, 0.5, restitution=0.8).mechanism()
@@ -105,6 +105,25 @@ def test_similar_structures_under_time_scaled_records(seed, scale):
         small, large = integrate(one, record, 1e-10), integrate(other, scaled, 1e-10)
         assert small.outcome is large.outcome
         assert large.rotation_ratio == pytest.approx(small.rotation_ratio, rel=1e-7)
+
+
+@FEW
+@given(seed=SEEDS, p=st.floats(0.5, 10), critical=st.floats(1e-3, 1.0), scale=st.floats(0.1, 3.0))
+def test_every_equivalent_block_is_the_universal_one(seed, p, critical, scale):
+    """In x = φ/φ_cr, p t and ü_g/(g λ) only η remains."""
+    one, other = (
+        EquivalentBlock(
+            frequency_parameter=1.0, critical_rotation=1.0, acceleration_scale=1.0, restitution=0.8
+        ),
+        EquivalentBlock(
+            frequency_parameter=p, critical_rotation=critical, acceleration_scale=scale, restitution=0.8
+        ),
+    )
+    record = noise(seed, one, step=0.05)
+    same = Accelerogram(record.acceleration * other.uplift_multiplier, record.time_step / p)
+    here, there = integrate(one, record), integrate(other, same)
+    assert here.outcome is there.outcome
+    assert there.rotation_ratio == pytest.approx(here.rotation_ratio, rel=1e-8)
 
 
 @pytest.mark.parametrize("name", MECHANISMS)
