@@ -220,3 +220,12 @@ def test_rungs_are_followed_about_what_falls_below_the_median_or_stands_above_it
 )
 def test_the_reserve_in_figures(low, median, figures):
     assert Reserve(low=low, median=median, high=math.nan, limit=3.0).in_figures == figures
+
+
+def test_at_the_reserve_so_many_members_of_the_ensemble_overturn():
+    record = _record(3.0, 2)
+    found = reserve_of_members(BLOCK.mechanism(), GroundMotions.of(record), EnsembleSettings(reserve=20.0))
+    low = rocking.assess(record.scaled(0.8 * found.low), BLOCK).overturning_share
+    median = rocking.assess(record.scaled(found.median), BLOCK).overturning_share
+    high = rocking.assess(record.scaled(1.3 * found.high), BLOCK).overturning_share
+    assert low <= 0.1 and 0.2 <= median <= 0.8 and high >= 0.9

@@ -448,3 +448,11 @@ def test_a_check_prints_its_numbers_the_verdict_and_the_ratio_of_each_clause():
         found = rocking.check(rocking.Block.of_size(breadth=breadth, height=2.0), spectrum)
         for check in found.checks:
             assert f"{check.clause} {word}, ratio {check.capacity / check.demand:#.3g}" in repr(found)
+
+
+def test_the_linear_check_is_never_below_the_onset_and_the_nonlinear_neither():
+    for structure in (Block.of_size(0.3, 1.0), Block.of_size(0.6, 9.0), facade(), Arch(5.0, 0.75, 2.6)):
+        for soil in "ACD":
+            check = kinematic_check(structure, DesignSpectrum.ntc(3.0, 2.4, 0.4, soil))
+            assert check.linear.capacity >= check.damage_level
+            assert check.nonlinear.capacity >= check.damage_level
