@@ -371,6 +371,7 @@ def test_the_filters_leave_what_they_name(page):
 
 def test_the_keyboard_is_enough(page, browser):
     from selenium.webdriver.common.keys import Keys
+    from selenium.webdriver.support.ui import WebDriverWait
 
     cells = page("#matrix tbody button[data-record='0']")
     cells[0].click()
@@ -381,7 +382,7 @@ def test_the_keyboard_is_enough(page, browser):
     failed = browser.switch_to.active_element
     assert failed.get_attribute("data-record") == "1"
     failed.send_keys(Keys.ENTER)
-    assert "synthetic_00001" in page("#title")[0].text
+    WebDriverWait(browser, PATIENCE).until(lambda at: "synthetic_00001" in page("#title")[0].text)
 
 
 def test_a_record_that_failed_says_why(page, browser):
