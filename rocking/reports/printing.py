@@ -233,8 +233,6 @@ def field_of(name: str, row: Row | None, si: str = "") -> str:
     si: the unit that it has in the row.
     """
     value = getattr(row, name, None)
-    if isinstance(value, bool):
-        return "yes" if value else "no"
     if isinstance(value, float) and name not in _CHOSEN:
         return ratio(value) if name.endswith("rotation_ratio") else number(value / unit_of(si).size)
     return plain(value) if isinstance(value, float | int) else words(value)

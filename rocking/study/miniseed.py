@@ -41,8 +41,6 @@ def samples_in(path: Path) -> list[np.ndarray]:
     """Return the samples of each channel in a file that holds what `miniseed_of` gave."""
     from obspy import read
 
-    if not path.stat().st_size:
-        return []
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return [trace.data for trace in read(str(path), format="MSEED")]

@@ -160,7 +160,6 @@ def test_a_peak_that_contradicts_the_header_is_refused(name: str) -> None:
     ("UNAM/CICESE", f"{'-' * 79}\n CANAL", "x\n CANAL", ("header", "DATOS DE ACELERACION")),
     ("USGS SMC", "1.0000000E+02", "-1.000000E+02", ("rate", -100.0)),
     ("USGS SMC", "  1.7000000E+38\n", "\n", ("header", (48, 41))),
-    ("BHRC", "/&\n", "/&\n 1 2\n 3 4\n", ("lines", 2)),
 ])  # fmt: skip
 def test_other_quantities_units_and_numbers_that_cannot_be_are_refused_by_name(
     name: str, old: str, new: str, named: tuple

@@ -6,9 +6,9 @@ import io
 import json
 import math
 import os
-import threading
 from enum import StrEnum
 from pathlib import Path
+from unittest.mock import Mock
 
 import numpy as np
 import pandas as pd
@@ -190,11 +190,7 @@ def test_files_written_together_appear_when_the_disk_has_them_all(tmp_path: Path
     assert [what for what, _ in steps] == ["sync", "sync", "name", "name", "sync"]
     assert steps[-1] == ("sync", tmp_path.name)
     assert [(tmp_path / name).read_bytes() for name in ("a.csv", "b.csv")] == [b"a.csv", b"b.csv"]
-
-    def starts_none(*_: object) -> None:
-        raise RuntimeError("can't start new thread")
-
-    monkeypatch.setattr(threading.Thread, "start", starts_none)
+    monkeypatch.setattr(tables.files, "ThreadPoolExecutor", Mock(side_effect=RuntimeError))
     with tables.written_together():
         write_whole(tmp_path / "c.csv", b"c")
         write_whole(tmp_path / "d.csv", b"d")

@@ -19,7 +19,7 @@ from rocking.codes.check import (
     StructureCheck,
     says_nothing,
 )
-from rocking.codes.code_capacity import LIMIT_STATES, CodeCapacity
+from rocking.codes.code_capacity import LIMIT_STATES
 from rocking.codes.design_spectrum import DesignSpectrum, NtcSpectrum, PointSpectrum
 from rocking.codes.kinds import CheckKind
 from rocking.codes.selection import SETS, Selection
@@ -224,7 +224,7 @@ def _sheets(
                         way=words.phrase(checked.governing.description),
                         bars=(bars,),
                         sure=_sure(page, checked.dynamic, words),
-                        assumptions=tuple(_assumptions(page, checked.governing, words)),
+                        assumptions=tuple(_assumptions(page, checked, words)),
                         basis=_basis(page, checked, conclusion, everywhere, variant_strips, words),
                     )
                     pages.append(
@@ -508,9 +508,10 @@ def _reserve(page: CheckedStructure, words: Sentences) -> tuple[str, str]:
     )
 
 
-def _assumptions(page: CheckedStructure, mechanism: CodeCapacity, words: Sentences) -> list[str]:
+def _assumptions(page: CheckedStructure, checked: StructureCheck, words: Sentences) -> list[str]:
     """What the checks take for given, to be confirmed on site."""
     structure = page.structure
+    mechanism = checked.governing
     given = [value for value in structure.described.values if value.value is not False]
     sizes = ", ".join(words.described(value) for value in given)
     lines = [words("{sizes}.", sizes=sizes[:1].upper() + sizes[1:])]
@@ -546,14 +547,9 @@ def _assumptions(page: CheckedStructure, mechanism: CodeCapacity, words: Sentenc
                 displacement=words.quantity(mechanism.support_loss, "m"),
             )
         )
-    checked = page.checked
-    ties = (
-        [tie.tie.strength for mechanism in checked.mechanisms for tie in mechanism.static.side.ties]
-        if checked
-        else []
-    )
-    strengths_elsewhere = [restraint.ties for restraint in checked.restraints] if checked else []
-    if any(map(math.isinf, (*ties, *strengths_elsewhere))):
+    strengths = [tie.tie.strength for each in checked.mechanisms for tie in each.static.side.ties]
+    strengths += [restraint.ties for restraint in checked.restraints]
+    if any(map(math.isinf, strengths)):
         lines.append(
             words("A tie has no strength: it is assumed never to break, and its force is not checked.")
         )

@@ -313,11 +313,7 @@ def _seen_of(content: bytes) -> _Seen | None:
     if pointed is None:
         decimals = "the commas are decimal signs or part columns; write points, or semicolons."
         return _Seen(table, fault=RecordError(decimals, decimals=","))
-    seen = _Seen(table, pointed)
-    try:
-        return seen.below(_above(table, None, pointed)[1])
-    except RecordError as error:
-        return replace(seen, fault=error)
+    return _Seen(table, pointed).below(_above(table, None, pointed)[1])
 
 
 def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:

@@ -89,7 +89,7 @@ def test_a_header_that_contradicts_itself_is_refused(name: str, old: str, new: s
     ("USGS SMC", "1.0000000E+02", "1.0000000E+06", ("rate", 1e6)),
     ("UNAM/CICESE", f"V\n{'-' * 79}", "V\n", ("header", "DATOS DE ACELERACION")),
     ("UNAM/CICESE", "DATOS DE ACELERACION:", "DATOS:", ("header", "begins with DATOS DE ACELERACION")),
-    ("RENADIC", "/&  END OF DATA\n", "/&  END OF DATA\nmore\n", ("lines", 2)),
+    ("RENADIC", "/&  END OF DATA\n", "/&  END OF DATA\nmore\n", ("lines", 1)),
     ("BHRC", "0.400", "9" * 60, ("time_step", 2.5e58)),
 ])  # fmt: skip
 def test_what_no_recorder_writes_is_refused_by_name(name: str, old: str, new: str, named: tuple) -> None:

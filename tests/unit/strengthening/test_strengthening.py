@@ -183,6 +183,8 @@ def test_all_that_was_found_is_in_its_words_and_its_frame():
         "can be shown: these values are left out, and what holds is shown below them alone. Under 3 components it "
         "cannot be told, which counts as overturning. The linear check of the code asks for 0.4 m."
     ).replace(" %", "\u00a0%")
+    some = replace(tried[0], shares=np.append(np.ones(29), np.nan))
+    assert some.in_words.endswith(" at the first 29 stations")
     frame, most = made.frame(), 1 - 0.1 ** (1 / 30)
     assert frame.breadth_m.tolist() == VALUES.tolist() and set(frame.stations) == {30}
     assert frame.share.tolist() == shares.mean(axis=1).tolist()

@@ -10,6 +10,7 @@ import os
 import shutil
 import sys
 from pathlib import Path
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -431,10 +432,7 @@ def test_what_yaml_1_1_would_turn_into_something_else_is_a_text(tmp_path, text):
     (OSError("of nothing"), 1, "rocking: file: of nothing.\n"),
 ])  # fmt: skip
 def test_what_stops_a_command_is_one_line(record, monkeypatch, capsys, error, status, said):
-    def stopped(*_):
-        raise error
-
-    monkeypatch.setattr("rocking.study.own_files.read_files", stopped)
+    monkeypatch.setattr("rocking.study.own_files.read_files", Mock(side_effect=error))
     assert main(["read", str(record)]) == status
     assert capsys.readouterr().err.startswith(said)
 

@@ -79,9 +79,7 @@ def test_a_component_beside_a_file_that_is_not_given_is_named(folder: Path) -> N
     assert stations_of(paths(folder)[:1], NOTHING).warnings == own.warnings
 
 
-def test_a_file_of_a_vertical_component_alone_is_no_record_and_one_of_another_step_is_its_own(
-    folder: Path,
-) -> None:
+def test_a_vertical_file_alone_is_no_record_and_one_of_another_step_is_its_own(folder: Path) -> None:
     east, north, up = paths(folder)
     with pytest.raises(RecordError, match=f"^{up.name}: it holds no horizontal component"):
         stations_of([up], NOTHING)
