@@ -11,7 +11,7 @@ from made_files import MADE, MADE_BINARY, content_of, format_of, read_text
 
 from rocking.errors import RecordError
 from rocking.records.formats import Options, by_obspy
-from rocking.records.formats.format import Layout, keyed
+from rocking.records.formats.format import Layout, keyed, universal
 from rocking.records.kinds import RecordKind
 from rocking.records.read import read_content
 from rocking.warnings import RockingWarning
@@ -164,6 +164,8 @@ def test_times_of_jma_and_afad_are_utc() -> None:
     assert {record.start_time for record in read_text(MADE["JMA CSV"][0]())} == {"2016-04-14T12:26:20Z"}
     (record,) = read_text(MADE["DYNA (ESM, ITACA, AFAD): filtered anew"][0]())
     assert record.start_time == "2023-02-06T01:17:07.332030Z"
+    times = ("2018/13/24 19:51:43", "0001/01/01 00:00:00", "2018/01/24 19:51:43.5")
+    assert [universal(time, 9.0) for time in times] == ["", "", "2018-01-24T10:51:43.500000Z"]
 
 
 def test_the_origin_of_an_earthquake_comes_before_the_time_of_a_record() -> None:

@@ -155,6 +155,7 @@ def test_a_peak_that_contradicts_the_header_is_refused(name: str) -> None:
     ("CSMIP V1/V2: of 1983", "POINTS OF ACCEL", "POINTS OF VELOC", ("header", 'POINTS OF ACC DATA')),
     ("PEER AT2", "DATABASE RECORD\nQuake, 1/2/1999, Station, 45\nACCELERATION",
      "ACCELEROGRAM\nQuake, 1/2/1999, Station, 45\nVELOCITY", ("quantity", 'velocity')),
+    ("PEER AT2", "PEER", "STRONG GROUND MOTION RECORDS OF TURKIYE\nPEER", ("format", "PEER AT2, AFAD/NSMN text")),
     ("PEER AT2", "DT= 0.01", "DT= 1e-9", ("time_step", 1e-9)),
     ("K-NET/KiK-net", "100Hz", "1e101Hz", ("the rate", "1e101")),
     ("UNAM/CICESE", f"{'-' * 79}\n CANAL", "x\n CANAL", ("header", "DATOS DE ACELERACION")),

@@ -36,9 +36,6 @@ def rows(*columns: np.ndarray, parted: str = ",") -> str:
     return "".join(parted.join(f"{value:.6f}" for value in row) + "\n" for row in np.transpose(columns))
 
 
-THREE = rows(TIMES, MOTION, MOTION)
-
-
 def test_raw_and_corrected_components_are_not_joined(tmp_path: Path) -> None:
     """One station, one earthquake, one step: north as it was recorded, east as it was corrected."""
     text = made_files.csmnc()
@@ -190,8 +187,8 @@ def test_what_offices_write_around_a_table(tmp_path: Path, text: str) -> None:
 
 
 @pytest.mark.parametrize(("text", "field", "value"), [
-    ("time (s),N (m/s2),E (m/s2)\n" + re.sub(r"(\n0\.5.*,).*", r"\1", THREE), "columns", 2),
-    ("time (s),N (m/s2),E (m/s2)\n" + re.sub(r"(\n0\.5.*,).*,", r"\1,", THREE), "cell", ""),
+    ("time (s),N (m/s2),E (m/s2)\n" + re.sub(r"(\n0\.5.*,).*", r"\1", rows(TIMES, MOTION, MOTION)), "columns", 2),
+    ("time (s),N (m/s2),E (m/s2)\n" + re.sub(r"(\n0\.5.*,).*,", r"\1,", rows(TIMES, MOTION, MOTION)), "cell", ""),
     (rows(TIMES, MOTION, parted=" ") + "6.000000\n", "columns", 1),
     ("acc (m/s2)\n" + 40 * "12\n" + "12-34\n", "samples", None),
     ("t (s),N (m/s2)\n" + "".join(f"{i}e-8,{a:.6f}\n" for i, a in enumerate(MOTION)), "times", 1e-8),

@@ -149,6 +149,8 @@ def test_every_document_has_one_order_of_records_and_structures_and_counts_the_s
     mapped = severity_map(worst_period_each(rows), [])
     assert [other_row.record for other_row in mapped.rows] == RECORDS
     assert list(mapped.heads) == STRUCTURES
+    (line,) = severity_map([replace(rows[0], support_period_s=0.25)], []).rows
+    assert line.cells[0].text.endswith(" at\u00a00.25\u00a0s")
     table = structure_table(rows)
     assert [line[0].text for line in table.rows] == STRUCTURES
     at = table.heads.index("Worst record")

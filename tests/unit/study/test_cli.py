@@ -429,7 +429,6 @@ def test_what_yaml_1_1_would_turn_into_something_else_is_a_text(tmp_path, text):
     (KeyboardInterrupt(), 130, "rocking: stopped.\n"),
     (ModuleNotFoundError("No module named 'fcntl'", name="fcntl"), 1, "rocking: this command needs Linux or macOS;"),
     (OSError(28, "No space left", "a.csv"), 1, "rocking: a.csv: No space left.\n"),
-    (OSError("of nothing"), 1, "rocking: file: of nothing.\n"),
 ])  # fmt: skip
 def test_what_stops_a_command_is_one_line(record, monkeypatch, capsys, error, status, said):
     monkeypatch.setattr("rocking.study.own_files.read_files", Mock(side_effect=error))
