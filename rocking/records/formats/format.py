@@ -14,7 +14,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 
 from rocking.errors import RecordError, UndeclaredError
-from rocking.quantities import NUMBER, acceleration_factor, acceleration_unit, positive
+from rocking.quantities import NUMBER, acceleration_factor, acceleration_unit, counted, positive
 from rocking.records.claims import Claim, Where, agreed, claims_of_name, of_another, refuse_other_quantity
 from rocking.records.direction import directed
 from rocking.records.doors import advice
@@ -571,5 +571,6 @@ def check_end(rows: list[str]) -> None:
     """Check that nothing but blanks follows the last channel. Raises RecordError: a channel is cut."""
     if more := sum(bool(row.strip()) for row in rows):
         raise RecordError(
-            f"{more} lines follow the last whole channel: another is cut; fetch it again.", lines=more
+            f"below the last whole channel the file holds {counted(more, 'line')}: another is cut; fetch it again.",
+            lines=more,
         )
