@@ -437,11 +437,16 @@ def _is_row(line: str, width: int) -> bool:
 def _plain_rows(table: NumberTable, below: bytes) -> tuple[NumberTable, bytes, tuple[RockingWarning, ...]]:
     """Return a table with its tail, its rows of numbers without the empty cells behind them, and what there is to say.
 
-    NaN may fill up the last row of a series. Raises RecordError where a cell is empty.
+    NaN may fill up the last row of a series, or be all that the last row of columns holds next to its time. Raises
+    RecordError where a cell is empty.
     """
     body, tail = _parted(below, table.width)
-    may_be_filled = not table.labels and table.width > 2
-    bare, notes = text.without_filling(body) if may_be_filled else (body, ())
+    bare, notes = text.without_filling(body) if table.width > 2 or table.labels else (body, ())
+    if notes and table.labels:
+        last = body[body.rstrip().rfind(b"\n") + 1 :].decode("latin-1")
+        cells = [cell.strip().lower() for cell in _SEPARATOR.split(last) if cell.strip()]
+        is_left_out = len(cells) == table.width and {*cells[table.labels[0].is_time :]} == {"nan"}
+        bare, notes = (body[: len(body) - len(last.encode("latin-1"))], notes) if is_left_out else (body, ())
     if _EMPTY_LAST.search(bare):
         bare = _EMPTY_END.sub(b"", bare)
     if _EMPTY_CELL.search(bare):

@@ -134,7 +134,7 @@ def column_width(row: str) -> int:
     return points[1] - points[0] if len(points) > 1 else max(1, len(row.rstrip()))
 
 
-_FILLING = re.compile(rb"(?i)(?:[ \t]+nan)+\s*\Z")
+_FILLING = re.compile(rb"(?i)(?:[ \t,;]+nan)+[\s,;]*\Z")
 
 
 def without_filling(body: bytes) -> tuple[bytes, tuple[RockingWarning, ...]]:

@@ -273,7 +273,7 @@ def test_a_tail_that_states_a_unit_is_part_of_the_page(tmp_path: Path) -> None:
         read(path, unit="g")
 
 
-@pytest.mark.parametrize("tail", ["6.01 x", "nan nan", "6.0x 0.1", "0.1 0.2 0.3", "12.5"])
+@pytest.mark.parametrize("tail", ["6.01 x", "nan 0.1", "6.0x 0.1", "0.1 0.2 0.3", "12.5"])
 def test_a_damaged_row_at_the_end_is_no_tail(tmp_path: Path, tail: str) -> None:
     path = tmp_path / "made.csv"
     path.write_text("t NS(m/s2)\n" + table(TIMES, MOTION) + tail + "\n")

@@ -433,6 +433,21 @@ def test_the_filling_of_the_last_row_is_left_out(tmp_path):
 
 
 @pytest.mark.parametrize(
+    ("last", "is_left_out"),
+    [("6.000,NaN,NaN", True), ("NaN,nan,NaN\n\n", True), ("6.000,NaN,0.1", False), ("6.000,0.1,NaN", False)],
+)
+def test_a_last_row_of_columns_without_a_value_is_left_out(tmp_path, last, is_left_out):
+    page = table("t (s),NS (m/s2),EW (m/s2)\n", TIMES, *WAVES[:2]) + last
+    if not is_left_out:
+        with refused(RecordError, "samples", "NaN"):
+            opened(tmp_path, page)
+        return
+    for record, wave in zip(opened(tmp_path, page), WAVES, strict=False):
+        assert record.acceleration == pytest.approx(wave, abs=1e-5)
+        assert RecordKind.ROW_FILLED_UP in {warning.kind for warning in record.warnings}
+
+
+@pytest.mark.parametrize(
     "others", ["gx,gy", "gyro_x,mag_z", "roll,pitch", "Gyro X (deg/s),Mag X (uT)", "wx (dps),T (bar)"]
 )
 def test_the_other_axes_of_a_sensor_are_no_accelerations(tmp_path, others):
