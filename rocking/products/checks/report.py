@@ -547,7 +547,7 @@ def _assumptions(page: CheckedStructure, checked: StructureCheck, words: Sentenc
                 displacement=words.quantity(mechanism.support_loss, "m"),
             )
         )
-    strengths = [tie.tie.strength for each in checked.mechanisms for tie in each.static.side.ties]
+    strengths = [tie.tie.strength for capacity in checked.mechanisms for tie in capacity.static.side.ties]
     strengths += [restraint.ties for restraint in checked.restraints]
     if any(map(math.isinf, strengths)):
         lines.append(

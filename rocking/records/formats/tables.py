@@ -443,10 +443,12 @@ def _plain_rows(table: NumberTable, below: bytes) -> tuple[NumberTable, bytes, t
     body, tail = _parted(below, table.width)
     bare, notes = text.without_filling(body) if table.width > 2 or table.labels else (body, ())
     if notes and table.labels:
-        last = body[body.rstrip().rfind(b"\n") + 1 :].decode("latin-1")
-        cells = [cell.strip().lower() for cell in _SEPARATOR.split(last) if cell.strip()]
-        is_left_out = len(cells) == table.width and {*cells[table.labels[0].is_time :]} == {"nan"}
-        bare, notes = (body[: len(body) - len(last.encode("latin-1"))], notes) if is_left_out else (body, ())
+        last = body[body.rstrip().rfind(b"\n") + 1 :]
+        cells = [cell for cell in _SEPARATOR.split(last.decode("latin-1").strip().lower()) if cell]
+        values = cells[1:] if table.labels[0].is_time else cells
+        bare = body.removesuffix(last)
+        if len(cells) != table.width or {*values} != {"nan"}:
+            bare, notes = body, ()
     if _EMPTY_LAST.search(bare):
         bare = _EMPTY_END.sub(b"", bare)
     if _EMPTY_CELL.search(bare):
