@@ -223,6 +223,11 @@ def test_what_is_no_variant_is_refused_in_one_sentence(tmp_path, variants, sente
     assert "structure 1 (front)" in str(refusal.value)
 
 
+def test_of_variants_each_that_is_none_is_told(tmp_path):
+    with pytest.raises(ConfigurationError, match="(?s)variant 1: it is 8, .*variant 2: it is 9, "):
+        listed(tmp_path, f"{FRONT}, variants: [8, 9]")
+
+
 def test_a_variant_that_is_added_computes_no_other_case_again(tmp_path):
     class Counting(dict):
         """A store that says what was computed."""

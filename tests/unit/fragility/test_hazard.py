@@ -214,6 +214,7 @@ def test_the_discrete_nrml_holds_the_curve_in_units_of_openquake(tmp_path):
     curve = _lognormal()
     curve.to_nrml(tmp_path / "pier.xml", name="stone pier & wall")
     (model,) = ElementTree.parse(tmp_path / "pier.xml").getroot()
+    assert model.tag == f"{NRML}fragilityModel"
     function = model.find(f"{NRML}fragilityFunction")
     assert (function.get("id"), function.get("format")) == ("stone pier & wall", "discrete")
     imls, poes = function
@@ -293,3 +294,13 @@ def test_a_rate_is_told_where_nine_in_ten_stations_reach_where_half_of_it_is_mad
         never = (1 - weak / 10) * 1e-3
         at_once = never + weak / 10 * 4e-3
         assert rate.low < never < at_once < rate.high
+
+
+def test_the_rate_that_no_station_tells_is_at_most_that_of_all_at_once():
+    """None falls up to 0.5 and nothing is known above, where the ground is as often as 1e-3/0.5² = 4e-3 a year."""
+    shares = np.tile(np.where(LEVELS > 0.5, np.nan, 0.0), (3, 1))
+    ends = LEVELS[[0, -1]]
+    rate = fragility_of(LEVELS, shares, ClusterSample.scattered("abc")).annual_rate(
+        Hazard(ends, 1e-3 * ends**-2.0)
+    )
+    assert rate.low == 0.0 and rate.high == pytest.approx(4e-3, rel=0.04)

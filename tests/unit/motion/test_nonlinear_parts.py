@@ -165,16 +165,20 @@ def test_a_chain_that_could_grow_higher_than_the_peaks_is_followed() -> None:
 
 @pytest.mark.parametrize("k", [0, 1])
 def test_overturning_is_proved_where_nothing_to_come_can_hold_it(k: int) -> None:
-    """hold is the acceleration over gravity that cannot bring the side back: at 3/10 it needs more than 3 of 10."""
+    """hold is the acceleration over gravity that cannot bring the side back: at 3/10 it needs more than 2.4 of 8.
+
+    Both components are doubled, so that gravity is 10 − 2 · 1 at the least.
+    """
     grid = np.zeros((2, 9))
     grid[:, 5] = 1.0  # one piece
     sides = plain_sides(grid=grid, hold=np.array([[0.3], [0.25]]), end=np.array([1.0, 1.0]))
-    strength = 10 * sides.hold[k, 0]
+    strength = 8 * sides.hold[k, 0] / 2
+    member = Member(2.0, 2.0, (0.9, 0.8))
     for factor, proved in ((0.999, True), (1.001, False)):
-        motion = ground([0.0, -strength * factor, 1.0])
+        motion = ground([0.0, -strength * factor, 0.5], [0.0, 0.0, -1.0])
         for arc, speed, lost in ((0.5, 0.1, proved), (1.0, 0.1, True), (0.5, -0.1, False)):
             outward = kernel.RockingState(0, 0.0, arc, speed, 1, arc, 0.1)
-            assert kernel._lost(sides, np.zeros((2, 8)), motion, MEMBER, k, outward) == lost
+            assert kernel._lost(sides, np.zeros((2, 8)), motion, member, k, outward) == lost
 
 
 def test_a_short_step_keeps_its_promises() -> None:

@@ -64,6 +64,30 @@ def test_hold_bounds_every_rotation_further_out(name):
         assert own.kernel.hold[0, j] <= lowest + 1e-12
 
 
+BRACED = Facade((6.0,), (0.6,), 20e3, tie_heights=(5.0,), tie_stiffness=3e5, tie_strength=6e3)
+
+
+@pytest.mark.parametrize("name", [*ALL, "tied facade"])
+def test_bounds_near_rest_hold_there(name):
+    """Of G̃, B̃, their slopes and that of the pull of ties, g T D̃, over an arc that is a small part of φ_cr."""
+    mechanism = (ALL | {"tied facade": BRACED.mechanism()})[name]
+    table = table_of(mechanism)
+    for k, side in enumerate(mechanism.sides):
+        arc, least, largest, push, slope, push_slope, speed, tie_slope = table.kernel.near[k]
+        assert 0 < arc < 0.1 * table.kernel.critical[k]
+        arcs = np.linspace(0.0, arc, 301)
+        gravity, ground = evaluated(table, k, arcs)
+        assert least <= gravity.min() and gravity.max() <= largest and np.abs(ground).max() <= push
+        for values, bound in ((gravity, slope), (ground, push_slope)):
+            assert np.abs(np.diff(values)).max() <= bound * arcs[1] + 1e-15
+        assert speed**2 / 2 == pytest.approx(GRAVITY * max(least, 0.0) * arc)
+        rotations = table.sides[k].rotation(arcs)
+        scale = np.sqrt(side.inertia(rotations) * side.at("inertia", 0.0))
+        for tie in side.ties:
+            pull = GRAVITY * tie.tie.tension(tie.stretch(rotations)) * tie.stretch_slope(rotations) / scale
+            assert np.abs(np.diff(pull)).max() <= tie_slope * arcs[1]
+
+
 def test_functions_with_a_kink_are_refused():
     def gravity(rotation):
         return 0.2 - rotation + 0.05 * np.abs(rotation - 0.1)
@@ -100,7 +124,6 @@ def test_rotations_of_arcs_are_those_of_the_integral_one_as_many(name):
 
 def test_the_frequency_of_a_taut_tie_is_that_of_a_spring_on_a_turning_block():
     """ω² = k z²/I about the toe, at rest, where the tie at height z is stretched fastest."""
-    facade = Facade((6.0,), (0.6,), 20e3, tie_heights=(5.0,), tie_stiffness=3e5, tie_strength=6e3)
     inertia = 20e3 / GRAVITY * 6.0 * 0.6 * (6.0**2 + 0.6**2) / 3
-    law = table_of(facade.mechanism()).kernel.ties.law[0, 0]
+    law = table_of(BRACED.mechanism()).kernel.ties.law[0, 0]
     assert law[nonlinear_kernel.SQUARE] == pytest.approx(3e5 * 5.0**2 / inertia, rel=1e-12)

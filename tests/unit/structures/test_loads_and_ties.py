@@ -108,6 +108,14 @@ def test_under_a_flat_slab_a_facade_is_a_column_of_a_frame():
             assert getattr(side, name) == pytest.approx(getattr(frame.positive, name), rel=1e-12)
 
 
+def test_the_beam_of_a_frame_is_drawn_over_all_columns_with_its_mass():
+    *columns, beam = Frame(Block.of_size(1.0, 8.0), 3, 0.3).outline()
+    sides = np.vstack(columns)[:, 0]
+    left, base, right, top = *beam.min(axis=0), *beam.max(axis=0)
+    assert (left, base, right) == pytest.approx((sides.min(), 8.0, sides.max()))
+    assert (right - left) * (top - base) == pytest.approx(0.3 * 3 * 8.0)
+
+
 @pytest.mark.parametrize("rotation", [0.0, 0.05, -0.05])
 def test_marks_point_as_forces_do(rotation):
     """Loads down on the wall, the thrust outwards against it, ties from behind it to its outer face."""

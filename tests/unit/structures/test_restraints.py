@@ -177,3 +177,14 @@ def test_a_tie_gets_no_more_than_the_wall_around_its_anchor_gives(below):
         assert said is None or said["grip_kN_m"] == pytest.approx(by_hand / 1e3, rel=1e-9)
     (top,) = WALL.restraints
     assert top.grip == math.inf and top.slides_out is None
+
+
+@pytest.mark.parametrize("courses", [2, 12])
+def test_a_floor_throws_a_storey_back_with_the_restitution_of_the_wall(courses):
+    """A mass on a spring and a dashpot keeps e^(−πζ/√(1−ζ²)) of its velocity, with c = 2 ζ √(k m)."""
+    wall = Facade((3.0, 4.0), (0.5, 0.4), 18e3, floor_loads=(20e3, 20e3), behind="floors", restitution=0.6)
+    stack = wall.stack(courses)
+    storey = sum(course.mass for course in stack.courses) / 2
+    for floor in stack.held[-2:]:
+        damping = floor.stop.damping / math.sqrt(floor.stop.stiffness * storey) / 2
+        assert math.exp(-math.pi * damping / math.sqrt(1 - damping**2)) == pytest.approx(0.6, rel=BY_HAND)
