@@ -224,7 +224,7 @@ def test_what_is_no_variant_is_refused_in_one_sentence(tmp_path, variants, sente
 
 
 def test_of_variants_each_that_is_none_is_told(tmp_path):
-    with pytest.raises(ConfigurationError, match="(?s)variant 1: it is 8, .*variant 2: it is 9, "):
+    with pytest.raises(ConfigurationError, match=r"(?s)variant 1: it is 8, .*variant 2: it is 9, "):
         listed(tmp_path, f"{FRONT}, variants: [8, 9]")
 
 
