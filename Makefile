@@ -20,7 +20,7 @@ ENGINE := openquake-engine==3.26.2
 # Tests start many processes, and each would compile the whole package again to bytecode.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: all run setup slurm openquake test test-runs test-both test-all bench trace check near check-research schema pages figures measured paper documentation wheel versions dist release lock clean
+.PHONY: all run setup slurm openquake test test-runs test-both sentences test-all bench trace check near check-research schema pages figures measured paper documentation wheel versions dist release lock clean
 
 all: run
 
@@ -63,6 +63,10 @@ test-runs: $(TOOLS)
 # a test of a process waits for it.
 test-both: $(TOOLS)
 	$(TESTS) -n $$(expr $$(getconf _NPROCESSORS_ONLN) + 1) --no-loadscope-reorder -m "not slow"
+
+# The sentences that refuse and warn, as the tests meet them: tests/sentences.txt, to which every later run is held.
+sentences: $(TOOLS)
+	ROCKING_SENTENCES=1 $(MAKE) test-both
 
 # The slow ones too: research, every page, ten thousand damaged files, and twenty runs that are killed and go on.
 test-all: check-research openquake

@@ -54,6 +54,11 @@ def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
         _running.pop()
 
 
+def pytest_configure(config: pytest.Config) -> None:
+    """Hold what is refused and warned of to its list, which needs the package and therefore comes after the options."""
+    config.pluginmanager.import_plugin("tests.sentences")
+
+
 def pytest_sessionstart(session: pytest.Session) -> None:
     """Compile once for all workers, or fetch what was compiled of the same kernels before."""
     if not hasattr(session.config, "workerinput") and not session.config.option.collectonly:
