@@ -651,23 +651,20 @@ class _Following:
                 if (own := self.store.find(_Outcome, keys[name])) is not None:
                     kept[name] = own
         wanted = {name: scene for name, scene in scenes.items() if name not in kept}
+        if not wanted:
+            return kept
         # No pulse is searched for: no closed form is asked for.
         component = Component(record, None, HorizontalMotion(), None, ())
-        result = Assessor(self.settings).integrate("", (component,), wanted, {}) if wanted else None
-        for name in wanted:
-            of_scene = result.scenes.get(name) if result else None
-            if of_scene is None:
-                kept[name] = _Outcome(math.nan)
-            else:
-                worst = of_scene.worst
-                decision = worst.decision
-                undecided = decision.verdict is Verdict.CANNOT_BE_TOLD
-                kept[name] = _Outcome(
-                    share=decision.share,
-                    governing=worst.ensembles.governing.description if worst.ensembles else "",
-                    slides=undecided
-                    and any(warning.kind is AssessmentKind.FRICTION for warning in decision.would_settle),
-                )
+        for name, of_scene in Assessor(self.settings).integrate("", (component,), wanted, {}).scenes.items():
+            worst = of_scene.worst
+            decision = worst.decision
+            undecided = decision.verdict is Verdict.CANNOT_BE_TOLD
+            kept[name] = _Outcome(
+                share=decision.share,
+                governing=worst.ensembles.governing.description if worst.ensembles else "",
+                slides=undecided
+                and any(warning.kind is AssessmentKind.FRICTION for warning in decision.would_settle),
+            )
             if self.store is not None:
                 self.store.keep(keys[name], kept[name], {})
         return kept

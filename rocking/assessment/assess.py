@@ -9,7 +9,7 @@ import numpy as np
 
 from rocking.assessment.assessor import Assessor
 from rocking.assessment.case import PeriodResult
-from rocking.assessment.cracks import FollowedCrack, cracked, cracks
+from rocking.assessment.cracks import FollowedCrack, cracked
 from rocking.assessment.methods import Method, ratio_in_words
 from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
@@ -59,11 +59,6 @@ class StructureAssessment(PeriodResult, Drawn):
     def mechanism(self) -> Mechanism:
         """The mechanism with the crack that governs."""
         return cracked(self.body, self.worst.crack if self.worst else "").mechanism()
-
-    @property
-    def static_multiplier(self) -> float:
-        """Least λ of the cracks that may form, the acceleration in g at which statics lets it rock."""
-        return cracks(self.body)[0].mechanism.uplift_multiplier
 
     @property
     def body(self) -> Structure:

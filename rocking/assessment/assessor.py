@@ -460,7 +460,10 @@ class Assessor:
             support_loss=loss,
             share=period_result.ensemble.overturning_share if isnan(share) else share,
         )
-        return period_result.with_reserve(self._remembered(Reserve, inputs, compute_reserve))
+        with_it = replace(case, reserve=self._remembered(Reserve, inputs, compute_reserve))
+        if case is period_result.directions:
+            return replace(period_result, directions=with_it)
+        return replace(period_result, cases={**period_result.cases, case.component: with_it})
 
     # What is kept ---------------------------------------------------------------------------------------
 

@@ -354,16 +354,6 @@ class PeriodResult:
         """The factors on the record at which 5, 50 and 95 % of the members overturn; None where it was not computed."""
         return self.decisive.reserve if self.decisive else None
 
-    def with_reserve(self, reserve: Reserve | None) -> "PeriodResult":
-        """Return the result with the reserve of the case that decides."""
-        case = self.decisive
-        if case is None:
-            return self
-        with_it = replace(case, reserve=reserve)
-        if case is self.directions:
-            return replace(self, directions=with_it)
-        return replace(self, cases={**self.cases, case.component: with_it})
-
     @property
     def reserve_warnings(self) -> tuple[RockingWarning, ...]:
         """Why the reserve may be too high: what neither its members nor its contact dynamics follow."""
@@ -386,9 +376,7 @@ class PeriodResult:
 
     @property
     def reserve_in_words(self) -> str:
-        """The reserve, and why it may be too high; "" where it was not computed."""
-        if self.reserve is None:
-            return ""
+        """The reserve, where it was computed, and why it may be too high."""
         words = str(self.reserve)
         if self.reserve_warnings:
             reasons = " and ".join(map(str, self.reserve_warnings))
@@ -404,8 +392,6 @@ class PeriodResult:
     @cached_property
     def _fallen_crack(self) -> str:
         """A crack that overturns in a single run, where there is no ensemble; "" where none does."""
-        if self.ensembles is not None:
-            return ""
         variations = (
             variation for case in self.cases.values() for variation in case.variations if variation.counts
         )

@@ -80,7 +80,7 @@ class FollowedCrack:
         )
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False)
 class CrackEnsembles:
     """The ensemble of every crack that was followed, the one that is known or that statics chooses first.
 
@@ -91,9 +91,6 @@ class CrackEnsembles:
 
     followed: tuple[FollowedCrack, ...]
     left_out: tuple[FollowedCrack, ...] = ()
-
-    def __repr__(self) -> str:
-        return f"<CrackEnsembles: {len(self.followed)} followed, {self.governing.ensemble!r}>"
 
     @cached_property
     def facts(self) -> Facts:

@@ -6,7 +6,7 @@ What a store may keep is computed from its inputs (`inputs.py`) and nothing else
 import math
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
 from time import process_time
@@ -254,11 +254,8 @@ def _rotation_ratio(
 ) -> float:
     """The largest rotation ratio of a single run, nan where it cannot be followed."""
     tolerance = strict(settings.tolerance)
-    with suppress(RockingError):
-        return float(
-            integrate_members(structure, record, Members(), tolerance, vertical=vertical).rotation_ratio[0]
-        )
-    return math.nan
+    followed = integrate_members(structure, record, Members(), tolerance, vertical=vertical)
+    return float(followed.rotation_ratio[0])
 
 
 def _with_variations(case: CaseResult, inputs: CaseInputs) -> CaseResult:

@@ -258,9 +258,7 @@ class Opening:
         return (*bulge, (self.hold, turn * back)) if self.upright and self.hold else bulge
 
     def body_at(self, height: float) -> int:
-        """Return the body, from 0, to which what acts at `height` [m] belongs: at a joint the one below; or STILL."""
-        if height <= self.foot:
-            return STILL
+        """Return the body, from 0, on which what acts at `height` [m] above its foot acts: at a joint the lower one."""
         tops = [top for top in (self.hinge, self.hold if self.upright else None) if top is not None]
         return sum(height > top for top in tops)
 

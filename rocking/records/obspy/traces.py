@@ -256,13 +256,11 @@ def _check_gain(gain: float, response: Any, name: str, removal: str) -> tuple[Ro
     others = [stage.stage_gain_frequency for stage in staged if stage.stage_gain_frequency is not None]
     if at is not None and any(other > 0 and abs(other / at - 1) > _SAME_FREQUENCY for other in others if at):
         return (RockingWarning.of(RecordKind.SENSITIVITY_ELSEWHERE, name, at_hz=float(at), off=off),)
-    if staged:
-        raise RecordError(
-            f"the overall sensitivity is {gain:g}, but the gains of its stages multiply to {product:g}, more than 5 % "
-            "off: the StationXML contradicts itself; ask the network which one holds.",
-            sensitivity=gain,
-        )
-    return ()
+    raise RecordError(
+        f"the overall sensitivity is {gain:g}, but the gains of its stages multiply to {product:g}, more than 5 % "
+        "off: the StationXML contradicts itself; ask the network which one holds.",
+        sensitivity=gain,
+    )
 
 
 STEEP = 45.0
