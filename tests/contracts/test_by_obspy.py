@@ -128,6 +128,9 @@ def test_a_file_of_win_without_a_second_is_refused() -> None:
         read_content(whole[:block] + whole[2 * block :], "f", Options(unit="mm/s2"))
     with refused(RecordError, "seconds", 4):
         read_content(whole[: 3 * block + 20], "f", Options(unit="mm/s2"))
+    of_another_channel = whole[: block + 10] + b"\xb1" + whole[block + 11 :]
+    with refused(RecordError, "samples"):
+        read_content(of_another_channel, "f", Options(unit="mm/s2"))
 
 
 def test_where_a_channel_of_win_points_is_in_doubt() -> None:

@@ -61,6 +61,8 @@ def results() -> dict[str, object]:
     one_sided = rocking.Block.of_size(0.5, 3.0, 0.4, True)
     sides = (mechanism.positive, mechanism, unlike.mechanism(), one_sided.mechanism())
     shown = [record, pulse, analysis, *sides, maximum, response, rocking.integrate(arch, record.scaled(1e-3))]
+    shown.append(rocking.Response(rotation_ratio=math.nan, outcome=rocking.Outcome.FAILED, reason="no room"))
+    shown += [rocking.Frame(rocking.Block.of_size(1.1, 8.0), 4, 0.3), rocking.Facade([3.0], [0.5], 2e4)]
     return {f"{type(value).__name__} {place}": value for place, value in enumerate(shown)}
 
 

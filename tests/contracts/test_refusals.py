@@ -38,6 +38,7 @@ from tests.refusals import refused
 
 BLOCK = rocking.Block(2.0, 0.2)
 SIDE = BLOCK.mechanism().positive
+BROKEN = replace(SIDE, inertia=lambda rotation: np.where(abs(rotation - 0.1) < 0.01, np.nan, 1.0))
 LINEAR = BLOCK.mechanism().equivalent_block()
 STACK = rocking.Block.of_size(0.6, 2.0).stack()
 (COURSE,) = STACK.courses
@@ -111,6 +112,10 @@ def test_the_ends_of_a_range_are_allowed_and_nothing_beyond(
     (lambda: process(RECORD, Processing(high_pass=50.0)), RecordError, "highpass"),
     (lambda: process(RECORD, Processing(time_step=2.0)), RecordError, "time_step"),
     (lambda: process(RECORD, Processing(time_step=1e-7)), RecordError, "time_step"),
+    (lambda: process(rocking.Accelerogram(STILL, 0.1), Processing(time_step=1.0)), RecordError, "time_step"),
+    (lambda: rocking.assess([RECORD, replace(RECORD, time_step=0.02)], BLOCK), RecordError, ""),
+    (lambda: rocking.integrate(BLOCK, replace(PULSE, amplitude=1e200)), MotionError, "acceleration"),
+    (lambda: rocking.integrate(rocking.Mechanism(BROKEN), RECORD), MotionError, ""),
     (lambda: aligned(replace(RECORD, time_step=0.02), RECORD), RecordError, "time_step"),
     (lambda: sides_under(BLOCK, PULSE), StructureError, "equivalent_block"),
     (lambda: sides_under(LINEAR, RECORD), PulseError, "pulse"),

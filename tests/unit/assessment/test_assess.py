@@ -3,12 +3,14 @@
 import math
 from dataclasses import replace
 from time import process_time
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
 from motion_cases import noise
 from scipy.constants import g
 
+import rocking
 from rocking.assessment.assessor import Assessor, with_histories
 from rocking.assessment.case import CaseResult, PeriodResult
 from rocking.assessment.inputs import CaseInputs
@@ -133,6 +135,13 @@ def test_a_record_without_a_pulse_is_integrated_all_the_same():
     rested = assessed(still)
     assert rested.prediction is None
     assert rested.responses[Method.MECHANISM_ON_RECORD].outcome is Outcome.NO_UPLIFT
+
+
+def test_what_fails_over_all_directions_is_raised_in_python(monkeypatch):
+    failing = Mock(side_effect=rocking.MotionError("it has no room."))
+    monkeypatch.setattr("rocking.assessment.one_case.ensemble_over_cracks", failing)
+    with pytest.raises(rocking.RockingError, match="it has no room"):
+        rocking.assess([RECORD, RECORD.scaled(0.5)], BLOCK)
 
 
 def test_what_is_timed_adds_up_to_no_more_than_was_spent(case):

@@ -65,6 +65,8 @@ def test_a_contact_that_slides_is_told_by_what_it_needs_as_it_lifts_and_at_most(
     # What was followed on the friction that it has needs no word on it.
     followed = replace(made, case=slides, row=replace(made.row, stack_falls=0, stack_runs=18))
     assert followed.warning.kind is AssessmentKind.NOTHING_TO_DO
+    moves = replace(compared("EW", 0.5), bearing_displacement_m=0.1)
+    assert replace(made, case=moves).warning == RockingWarning.of(AssessmentKind.FLOORS_MOVE, moved_m=0.1)
     lost = replace(slides, required_friction=math.inf)
     assert replace(made, case=lost).warning.kind is AssessmentKind.CONTACTS_OPEN
 

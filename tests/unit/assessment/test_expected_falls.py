@@ -71,6 +71,9 @@ def test_a_made_record_is_no_earthquake() -> None:
     assert of_all is not None
     assert (of_all.expected_falls, of_all.stations, of_all.earthquakes) == (0.375, 2, 2)
     assert falls_in_words([*falls, of_all]) == falls_in_words([falls[0], falls[2], of_all])
+    of_one = falls_over(falls, names | {"b": ("b", "Kobe")})
+    assert of_one is not None
+    assert "(no interval: all 2 stations are of one earthquake)" in falls_in_words([*falls, of_one])
     alone = falls_over(falls[1:2], names)
     assert alone is not None and (alone.expected_falls, alone.earthquakes) == (1.0, 1)
 

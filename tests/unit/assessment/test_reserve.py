@@ -8,6 +8,7 @@ import pytest
 from scipy.optimize import isotonic_regression
 
 import rocking
+from rocking.assessment import reserve
 from rocking.assessment.assessor import Assessor
 from rocking.assessment.case import PeriodResult
 from rocking.assessment.ensemble import CAUSES, lattice
@@ -175,6 +176,9 @@ def test_on_a_support_it_is_sought_on_the_ground_and_at_the_worst_period_alone(t
 
 def test_what_falls_as_soon_as_it_lifts_has_the_factors_at_which_it_lifts():
     """Under an acceleration that stays it never comes back: the least factor is that of the largest amplitude."""
+    logs = np.linspace(0.0, 1.0, 50)
+    all_fall = reserve._crossings(logs, np.ones(50), -1.0, 0.05, logs[10:])
+    assert all_fall == pytest.approx([math.exp(logs[10])] * 3)
     record = Accelerogram(np.where(TIMES < 19.5, 1.0, 0.0), STEP)
     lifts = np.tan(BLOCK.slenderness) * 9.80665
     for spread in (0.05, 0.2):

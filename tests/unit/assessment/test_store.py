@@ -196,6 +196,7 @@ def test_numbers_of_every_kind_come_back():
     ):
         assert store.decoded(kind, store.encoded(value)) == value
     assert math.isnan(store.decoded(float, store.encoded(math.nan)))
+    assert type(store.encoded(np.int64(3))) is int
     for kind, value in ((int | str, 0.5), (tuple[int, str], [1])):
         with pytest.raises(ValueError):
             store.decoded(kind, value)

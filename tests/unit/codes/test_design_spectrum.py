@@ -117,6 +117,7 @@ def write(folder, text):
 def test_points_of_a_file_and_the_lines_between_them(tmp_path):
     spectrum = DesignSpectrum.read(write(tmp_path, "period_s,acceleration_g\n0,0.2\n0.1,0.5\n2,0.1\n"))
     assert spectrum.level == pytest.approx(0.2 * GRAVITY, rel=ROUNDING)
+    assert spectrum.words == "3 points from 0 to 2 s, first ordinate 0.2 g, damping 0.05"
     np.testing.assert_allclose(
         spectrum.acceleration([0.05, 1.05]), [0.35 * GRAVITY, 0.3 * GRAVITY], rtol=ROUNDING
     )

@@ -279,6 +279,10 @@ def test_it_is_called_met_from_the_least_share_of_other_sets_on(records, least, 
         assert found.dynamic.refusal["needed"] == needed
 
 
-def test_a_pool_of_one_earthquake_says_nothing_of_others():
-    pool = Pool(tuple(map(str, range(30))), ("one",) * 30, 5)
-    assert dynamic_check._interval(np.zeros((1, 30)), np.zeros((1, 30), dtype=int), pool, 1.0) == (0.0, 1.0)
+def test_a_pool_of_one_earthquake_says_nothing_of_others(monkeypatch):
+    names, falls = tuple(map(str, range(30))), np.zeros((1, 30), dtype=int)
+    assert dynamic_check._interval(np.zeros((1, 30)), falls, Pool(names, ("one",) * 30, 5), 1.0) == (0.0, 1.0)
+    unanswered = np.full((1, 30), np.nan)
+    assert dynamic_check._interval(unanswered, falls, Pool(names, names, 5), 1.0) == (0.0, 1.0)
+    monkeypatch.setattr(dynamic_check, "_MOST_STATIONS", 12)
+    assert dynamic_check.stations_for(1.0, 10) == 12, "as many as are reported"

@@ -107,6 +107,8 @@ def test_factors_stay_within_their_limits_and_scale_what_is_followed(pool):
     assert narrow.factors.min() >= 0.8 and narrow.factors.max() <= 1.25
     every = np.ones(narrow.sample.count, dtype=int)
     assert len(narrow.redrawn(every, np.random.default_rng(0), tries=3000, most=2500)) == 2500
+    few = np.where(np.arange(every.size) < 9, every, 0)
+    assert narrow.redrawn(few, np.random.default_rng(0)).shape == (0, 10)
     place = int(narrow.chosen[0])
     first = narrow.scaled(place)[0]
     np.testing.assert_allclose(

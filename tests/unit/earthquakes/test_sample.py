@@ -154,6 +154,8 @@ def test_the_interval_of_few_earthquakes_is_that_of_student_on_their_logarithms(
         [statistic(np.array(own)) for own in ([1, 1, 0, 0, 0, 0], [0, 0, 1, 1, 0, 0], [0, 0, 0, 0, 1, 1])]
     )
     assert np.isnan(sample_of(8, 5).interval(lambda _weights: np.nan)).all()
+    alone = ClusterSample.scattered("a").spread(np.ones(1))
+    assert alone.reach() == np.inf and np.isnan(alone.error)
     reach = t.ppf(0.95, 2) * logs.std(ddof=1) / 3**0.5
     middle = np.log(statistic(np.ones(6)))
     assert sample.interval(statistic) == pytest.approx(np.exp([middle - reach, middle + reach]), rel=1e-9)

@@ -8,7 +8,7 @@ import pytest
 from rocking.errors import RecordError
 from rocking.floors.spectrum import floor_spectrum, spectrum_of
 from rocking.floors.support import Mode, Support
-from rocking.records import read
+from rocking.records import Accelerogram, read
 from rocking.signal.measures import damping_factor, response_spectrum
 from tests.refusals import refused
 
@@ -44,6 +44,8 @@ def test_modes_add_as_squares_and_the_ground_is_the_least():
     squares = sum(floor_spectrum(case, periods, 0.05, flat) ** 2 for case in (ONE, other))
     assert floor_spectrum(both, periods, 0.05, flat) == pytest.approx(np.sqrt(squares))
     assert floor_spectrum(ONE, np.array([30.0]), 0.05, flat) == pytest.approx([2.0])
+    record = Accelerogram([0.0, 1.5, -2.5], 0.01)
+    assert spectrum_of(record)(0.0, 0.05) == 2.5
     rigid = Support((*ONE.modes, Mode(period=0.0, damping_ratio=0.05, participation=3.0)))
     assert floor_spectrum(rigid, periods, 0.05, flat) == pytest.approx(
         floor_spectrum(ONE, periods, 0.05, flat)

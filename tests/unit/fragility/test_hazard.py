@@ -67,6 +67,8 @@ def test_a_curve_of_openquake_gives_rates_in_our_unit_with_its_quantiles(tmp_pat
     ]
     hazard = Hazard.read(mean, *halves)
     assert hazard.measure == "PGV"
+    with refused(ConfigurationError, "quantile", "mean"):
+        Hazard.read(mean, mean)
     assert hazard.levels.tolist() == pytest.approx([0.05, 0.2, 1.0], rel=1e-12)
     # the file prints seven digits of a probability, of which the rarest has lost none
     assert hazard.annual_rates.tolist() == pytest.approx([2e-2, 1e-3, 5e-5], rel=1e-5)

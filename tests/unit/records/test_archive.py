@@ -194,6 +194,14 @@ def test_what_swells_or_is_damaged_is_refused_member_by_member(tmp_path):
         read(archive / "quake/RSN1_MADE_ST180.AT2")
 
 
+@pytest.mark.parametrize(("limit", "name"), [("_LARGEST_WHOLE", "a.zip"), ("_LARGEST_TAR", "a.tar.gz")])
+def test_an_archive_that_unpacks_to_too_much_is_refused(tmp_path, monkeypatch, limit, name):
+    path = packed(tmp_path / name) if name.endswith("zip") else tarred(tmp_path / name, PLAIN, "w:gz")
+    monkeypatch.setattr(f"rocking.records.archive.{limit}", 500)
+    with refused(RecordError, "size"):
+        members(path)
+
+
 def test_a_row_that_names_the_archive_alone_is_told_what_to_write(tmp_path):
     packed(tmp_path / "peer.zip")
     (tmp_path / "c.csv").write_text("id,file\nA,peer.zip\n", encoding="utf-8")

@@ -99,3 +99,4 @@ def test_a_velocity_that_strays_in_one_place_is_told(size: int, is_told: bool, o
         series[1900 : 1900 + 2 * size] = np.roll(series[1900 : 1900 + 2 * size], size)
     told_of = agree_with_velocity(Accelerogram(acceleration, 0.01), velocity).warnings
     assert [warning.kind for warning in told_of] == [RecordKind.VELOCITY_UNLIKE_THERE] * is_told
+    assert not agree_with_velocity(Accelerogram(acceleration, 0.01), velocity[:-1]).warnings, "of other times"

@@ -203,6 +203,21 @@ def test_a_trace_that_gmprocess_rejects_says_so(path: Path) -> None:
         assert warning.kind is RecordKind.FAILED_IN_GMPROCESS and warning["reason"] == "Failed SNR"
 
 
+def test_notes_that_nobody_can_read_are_left_out_and_what_is_too_large_is_refused(
+    path: Path, monkeypatch
+) -> None:
+    with h5py.File(path, "a") as file:
+        add_station(file, "ODD", "default", 100 * TRUE, PROCESSED, corner_frequencies=3)
+        file["QuakeML"][:9] = 0
+        with refused(RecordError, "size"):
+            workspace.station_content(file, f"{EVENT}_default/NZ.ODD", TRUE.nbytes)
+    for record in read(path / f"{EVENT}_default" / "NZ.ODD"):
+        assert (record.high_pass_frequency, record.event_time, record.magnitude) == (None, "", None)
+    monkeypatch.setattr(workspace, "_LARGEST_TEXT", 5)
+    with refused(RecordError, "size"):
+        read(path / f"{EVENT}_default" / "NZ.HSES")
+
+
 def test_a_workspace_without_labels_of_gmprocess_is_of_raw_counts(tmp_path: Path) -> None:
     """As pyasdf calls what data centres serve; and counts without a response are asked for it."""
     with h5py.File(tmp_path / "a.asdf", "w") as file:

@@ -13,7 +13,8 @@ from rocking.reports.explore import drawings
 from rocking.reports.record import ground_strip, structure_row
 from rocking.reports.style import COMMON, glyphs
 from rocking.signal.measures import record_measures
-from rocking.structures import Arch, Block, Facade, LoadedWall, Wall
+from rocking.structures import Arch, Block, Facade, LoadedWall, Wall, structure_from_config
+from rocking.structures.building_parts import FreeWall
 
 STRUCTURES = [Block.of_size(1.0, 4.0), Wall(1.6, 1.4, 0.4), Arch(10, 1.5, 2.75)]
 
@@ -34,6 +35,17 @@ def test_a_structure_is_drawn_as_its_outline():
     for points, outline in zip(drawn, [*STRUCTURES[1].outline(0.1), *STRUCTURES[1].outline()], strict=True):
         assert np.array_equal(points, outline)
     assert [patch.get_fill() for patch in axes.patches] == [True, True, False, False]
+
+
+def test_a_figure_draws_leaves_the_rest_of_a_wall_a_front_and_an_arc():
+    axes, front, arch = Figure().subplots(3)
+    leaves = FreeWall.of_size(0.5, 3.0, leaves=(0.25, 0.25), bonders=(0.8,))
+    draw_structure(axes, leaves, rest=[np.eye(3, 2)])
+    assert len(axes.lines) == sum("<polyline" in shape for shape in sketch(leaves, 0.0, 12, 14)) == 3
+    assert len(axes.patches) == 2
+    gable = structure_from_config({"type": "gable", "height_m": 3.0, "thickness_m": 0.5})
+    assert len(gable.plot(axes=front, dimensions=True).patches) == 2
+    assert STRUCTURES[2].plot(axes=arch, dimensions=True).texts
 
 
 def _lines(svg):

@@ -60,6 +60,8 @@ def test_each_variant_has_its_difference_to_the_first(made):
     assert thicker.share_difference == pytest.approx(16 / 64 - 48 / 64)
     assert thicker.reserve_ratio == pytest.approx(0.9 / 0.5)
     assert issubclass(VariantRow, Row)
+    _, unknown = variants(GROUPS, [first.conclusion])["wall"]
+    assert (unknown.record, unknown.conclusion) == ("", None) and math.isnan(unknown.overturning_share)
 
 
 def test_the_strip_says_it_in_words(made):

@@ -352,6 +352,7 @@ def test_critical_rotation_of_a_candidate():
         assert bodies[name].critical_rotation == pytest.approx(np.arctan(0.4 / height), rel=1e-12)
     pushed = Candidate("", 0.0, PLAIN.opened(Opening(foot=0.0, hinge=1.2, hold=3.2, outwards=False)))
     assert "must be positive" in pushed.refusal and np.isnan(pushed.critical_rotation)
+    assert not pushed.is_own_of(PLAIN)
 
 
 def test_floors_and_cross_walls_stop_the_wall_inwards():

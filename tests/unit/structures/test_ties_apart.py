@@ -202,7 +202,7 @@ def test_the_front_between_two_ties_shows_the_triangle_and_what_stands_above_it(
     assert bay.outline[:, 0].min() > max(path[:, 0].max() for path in wall.outline())
     assert bay_of(triangle(wall).structure).falls[0] == pytest.approx(falls)
     held = replace(wall, held_between="floor")
-    assert bay_of(held) is None
+    assert bay_of(held) is bay_of(wall.opened(Opening(foot=0.0, hinge=1.5, hold=2.9))) is None
     for shown, crosses in (({"dimensions": True}, [bay.ties.tolist()]), ({}, [])):
         axes = wall.plot(axes=Figure().subplots(), **shown)
         assert [line.get_xydata().tolist() for line in axes.lines if line.get_marker() == "x"] == crosses

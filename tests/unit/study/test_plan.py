@@ -131,6 +131,7 @@ def test_a_job_on_another_machine_needs_files_next_to_the_catalogue_and_their_ha
     Path("layouts.csv").write_text("answer\n")
     assert plan.files_of(a) == [str(tmp_path / "a.AT2")]
     assert plan.files_of(replace(a, inventory="a.xml")) == [str(tmp_path / "a.AT2"), str(tmp_path / "a.xml")]
+    assert plan.files_of(replace(a, file="obspy:a")) == [], "what is fetched or installed lies nowhere"
     assert plan.answers_of(a) == {str(tmp_path / "layouts.csv"): hashlib.sha256(b"answer\n").hexdigest()}
     mirrored = make_plan(_write(tmp_path, known, mirror=str(tmp_path)), by_name=True)
     for of, record in ((plan, b), (mirrored, a)):

@@ -42,6 +42,7 @@ def test_a_table_of_the_summary_is_an_attribute(folder: Path) -> None:
     results = rocking.open_results(folder)
     assert tuple(results.structures) == StructureRow.table.column_names
     assert {"comparison", "variations", "trade"} <= set(dir(results))
+    assert repr(results).startswith(f"Results('{folder}'): record, pulses, ")
 
 
 @pytest.mark.parametrize(

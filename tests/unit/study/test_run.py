@@ -61,6 +61,17 @@ def test_the_status_of_snakemake_is_handed_on(monkeypatch, ended):
     assert module._snakemake([]) == (ended or 0)
 
 
+def test_two_runs_at_once_are_refused_and_what_was_killed_is_unlocked(tmp_path):
+    left = tmp_path / ".snakemake" / "locks" / "0.input.lock"
+    left.parent.mkdir(parents=True)
+    for path in (left, tmp_path / module._LOCK):
+        path.touch()
+    with module._alone(tmp_path):
+        assert not left.exists()
+        with pytest.raises(module.RockingError, match="another run works"), module._alone(tmp_path):
+            pass
+
+
 @pytest.mark.parametrize("number", [errno.ENOLCK, errno.ENOSYS])
 def test_a_file_system_without_locks_is_a_warning(study, monkeypatch, capsys, number):
     def refuse(*_):
