@@ -83,8 +83,8 @@ class _Shaking:
     """
 
     grounds: tuple[Component, ...]
-    support: MovingSupport | None = None
-    floor: tuple[ComponentPulses, ...] = ()
+    support: MovingSupport | None
+    floor: tuple[ComponentPulses, ...]
     pair: Motion | None = None
 
     @property

@@ -59,7 +59,7 @@ class Prediction:
     pulse: Pulse
     pulse_rank: int
     maximum: Maximum
-    printed: AsPrinted | None = None
+    printed: AsPrinted | None
 
     @property
     def side(self) -> EquivalentBlock:

@@ -175,8 +175,8 @@ class NtcSpectrum(DesignSpectrum):
     ag: float
     f0: float
     tc_star: float
-    soil: str = "A"
-    topography: float = 1.0
+    soil: str
+    topography: float
 
     def __post_init__(self) -> None:
         numbers = {

@@ -666,7 +666,7 @@ class _Scaling:
     intensities: np.ndarray
     stations: tuple[str, ...]
     largest_factor: float
-    power: int = 1
+    power: int
 
     def factors(self, levels: np.ndarray) -> np.ndarray:
         """Return the factors (r, k) that take every record to each level; nan beyond the largest."""

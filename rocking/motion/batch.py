@@ -131,9 +131,7 @@ def _shared_out(structures: int, factors: int, workers: int) -> list[list[tuple[
     As many calls as are worth a thread, and jobs as keep all of them busy.
     """
     # Two calls for each worker, so that none waits long for the last.
-    parts = 1
-    if workers > 1:
-        parts = max(1, math.ceil(2 * workers / max(structures, 1)))
+    parts = math.ceil(2 * workers / max(structures, 1)) if workers > 1 else 1
     chunk = max(_SMALLEST_CHUNK, math.ceil(factors / parts))
     slices = [slice(start, start + chunk) for start in range(0, factors, chunk)]
     calls = list(product(range(structures), slices))

@@ -82,7 +82,7 @@ class BuildingPart(Form):
     """
 
     arguments: Callable[[Sizes], Mapping[str, object]] = field(kw_only=True)
-    front: Literal["rectangle", "triangle"] = field(default="rectangle", kw_only=True)
+    front: Literal["rectangle", "triangle"] = field(kw_only=True)
 
     def construct(self, **values: Any) -> Structure:
         """Return the structure of sizes and options by name, in SI; raises StructureError where it cannot stand."""

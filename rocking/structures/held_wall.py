@@ -84,19 +84,6 @@ class Chain(Linkage):
         # The lower one may start as flat as it likes: only where it ends it must not lie flat.
         lying = np.arccos(np.clip(lean, *((-1.0, _MARGIN) if forwards else (-_MARGIN, 1.0))))
         self.end_rotation = float(min(abs(lying - np.angle(self._lower)), np.pi / 2))
-        middles = self._foot + self._lower / 2, self._hinge + self._upper / 2
-        if self._are_halves(middles):
-            self.critical = float(abs(np.angle(self._lower) - np.pi / 2))
-
-    def _are_halves(self, middles: tuple[complex, complex]) -> bool:
-        """Whether it is two blocks alone that turn about their corners, from one edge to the other and back.
-
-        Both are then upright at once, at the slenderness of the lower one.
-        """
-        if self.hung or self.rest.shape != (2,) or not self._is_held:
-            return False
-        asides = [*(self.rest - middles), (self._lower + self._upper).real]
-        return bool(np.abs(asides).max() < _SAME * abs(self._lower))
 
     @keeps_last
     def motion(self, rotation: np.ndarray) -> Kinematics:
@@ -121,25 +108,25 @@ class Chain(Linkage):
 
         hinge = self._foot + lower
         held = hinge + upper
-        one = np.ones_like(up)
+        still = np.zeros_like(up)
         turning = 1j * self._turn
         rolling = 1j * bend - spin**2
-        turns = np.array([self._turn * rotation * one, angle, 0 * one])
-        spins = np.array([self._turn * one, spin, 0 * one])
-        slopes = np.array([0 * one, bend, 0 * one])
-        moved = np.array([0 * lower, hinge - self._hinge, 1j * (held - self._held).imag])
-        velocities = np.array([0 * lower, turning * lower, 1j * (turning * lower + 1j * spin * upper).imag])
-        accelerations = np.array([0 * lower, -lower, 1j * (-lower + rolling * upper).imag])
+        turns = np.array([self._turn * rotation, angle, still])
+        spins = np.array([self._turn + still, spin, still])
+        slopes = np.array([still, bend, still])
+        moved = np.array([still, hinge - self._hinge, 1j * (held - self._held).imag])
+        velocities = np.array([still, turning * lower, 1j * (turning * lower + 1j * spin * upper).imag])
+        accelerations = np.array([still, -lower, 1j * (-lower + rolling * upper).imag])
 
         of = self._bodies
         fixed = np.array([self._foot, self._hinge, self._held])[of]
-        arms = (self.rest - fixed).reshape(-1, *(1,) * one.ndim) * np.exp(1j * turns[of])
+        arms = (self.rest - fixed).reshape(-1, *(1,) * up.ndim) * np.exp(1j * turns[of])
         motion = Kinematics(
-            hinges=np.array([self._foot + 0 * lower, hinge, held]),
+            hinges=np.array([self._foot + still, hinge, held]),
             angles=turns[of],
             spins=spins[of],
             spin_slopes=slopes[of],
-            centroids=fixed.reshape(-1, *(1,) * one.ndim) + moved[of] + arms,
+            centroids=fixed.reshape(-1, *(1,) * up.ndim) + moved[of] + arms,
             velocities=velocities[of] + 1j * spins[of] * arms,
             accelerations=accelerations[of] + (1j * slopes[of] - spins[of] ** 2) * arms,
         )

@@ -430,7 +430,7 @@ class Turning(Linkage):
             hinges=np.full((1, *rotation.shape), self.corner),
             angles=spins * rotation,
             spins=spins,
-            spin_slopes=0 * spins,
+            spin_slopes=np.zeros_like(spins),
             centroids=self.corner + arms,
             velocities=-1j * arms,
             accelerations=-arms,
@@ -555,12 +555,12 @@ class Restraint:
     height: float
     holds: str
     needed: float
-    friction: float = 0.0
-    coefficient: float = 0.0
-    ties: float = 0.0
-    weight: float = 1.0
-    grip: float = float("inf")
-    spacing: float | None = None
+    friction: float
+    coefficient: float
+    ties: float
+    weight: float
+    grip: float
+    spacing: float | None
 
     @property
     def gives(self) -> float:
