@@ -92,13 +92,11 @@ class Reserve:
         """
         if math.isnan(share):
             return self
-        factors = []
-        for reached, factor in zip(SHARES, (self.low, self.median, self.high), strict=True):
-            if share >= reached:
-                factors.append(1.0 if math.isnan(factor) else min(factor, 1.0))
-            else:
-                factors.append(factor if math.isnan(factor) else max(factor, 1.0))
-        low, median, high = factors
+        # Of a factor beyond the limit, which is nan, fmin gives 1 and maximum nan.
+        low, median, high = (
+            float(np.fmin(factor, 1.0) if share >= reached else np.maximum(factor, 1.0))
+            for reached, factor in zip(SHARES, (self.low, self.median, self.high), strict=True)
+        )
         return Reserve(low=low, median=median, high=high, limit=self.limit)
 
     @property

@@ -246,7 +246,7 @@ def _interval(use: np.ndarray, falls: np.ndarray, records: Selection, share: flo
         )
         lows.append(share * worst / here if here else 0.0)
         highs.append(share * best / here if here else best)
-    return float(np.clip(min(lows), 0, share)), float(np.clip(max(highs), share, 1))
+    return max(float(min(lows)), 0.0), min(float(max(highs)), 1.0)
 
 
 def _elsewhere(groups: np.ndarray, alone: np.ndarray, fails: np.ndarray) -> tuple[float, float]:

@@ -126,7 +126,7 @@ class RotationMap:
 
     def slope(self, arc: np.ndarray) -> np.ndarray:
         """Return dφ/dq at `arc`, any shape; that of the end beyond it."""
-        arc = np.clip(np.asarray(arc, dtype=float), 0.0, self.end)
+        arc = np.minimum(arc, self.end)
         ratio = _evaluated(self.coefficients, arc / self.end)
         slope = _evaluated(chebyshev.chebder(self.coefficients), arc / self.end)
         result: np.ndarray = ratio + arc * slope * 2 * self.coefficients.shape[1] / self.end

@@ -1,6 +1,7 @@
 """extract_pulses: identities of its results, and the sentences it answers bad input with."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -47,6 +48,7 @@ def test_every_alternative_has_the_gain_it_states(record, found):
     for evidence in found.ranked:
         assert evidence.gain == pytest.approx(energy - energy_left(record, evidence.pulse), rel=1e-9)
     assert found.gain_ratio == found.alternatives[0].gain / found.evidence.gain
+    assert replace(found, ranked=found.ranked[:1]).gain_ratio == 0.0
     assert found.explained_energy == pytest.approx(found.evidence.gain / energy, rel=1e-9)
     assert np.sum(found.residual**2) * STEP == pytest.approx(energy_left(record, found.dominant), rel=1e-9)
 
