@@ -125,10 +125,27 @@ def test_points_of_a_file_and_the_lines_between_them(tmp_path):
         0.3 * GRAVITY * math.sqrt(10 / 13), rel=ROUNDING
     )
     assert spectrum.acceleration(0.0, 0.08) == spectrum.level
+    half_damped = 0.35 * GRAVITY * (1 + math.sqrt(10 / 13)) / 2
+    assert spectrum.acceleration(0.05, 0.08) == pytest.approx(half_damped, rel=ROUNDING)
     doubled = spectrum.at(2 * spectrum.level)
     assert doubled.acceleration(1.0) == pytest.approx(2 * spectrum.acceleration(1.0), rel=ROUNDING)
     in_metres = DesignSpectrum.read(write(tmp_path, "period_s,acceleration_m_s2\n0,2\n1,3\n"))
     assert in_metres.acceleration(0.5) == pytest.approx(2.5, rel=ROUNDING)
+
+
+@pytest.mark.parametrize("kind", ["code", "points"])
+def test_the_largest_displacement_is_that_at_some_period_of_the_range(tmp_path, kind):
+    """Of the points it is the largest at 1 s, and so of all that begin before and end behind it."""
+    points = write(tmp_path, "period_s,acceleration_g\n0,0.2\n0.1,0.5\n1,0.4\n1.5,0.1\n4,0.01\n")
+    spectrum = DesignSpectrum.read(points) if kind == "points" else DesignSpectrum.ntc(2.0, 2.5, 0.35)
+    for shortest, level in ((0.1, 1.0), (1.2, 2.0)):
+        longest = np.array([0.05, 0.7, 1.3, 3.0])
+        found = spectrum.largest_displacement(shortest, longest, level, 0.08)
+        for end, largest in zip(longest, found, strict=True):
+            periods = np.linspace(min(shortest, end), end, 5001)
+            assert largest == pytest.approx(spectrum.at(level).displacement(periods, 0.08).max(), rel=1e-4)
+            alone = spectrum.largest_displacement(shortest, end, level, 0.08)
+            assert alone == pytest.approx(largest, rel=ROUNDING)
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,7 @@
 """The front door: what it accepts, what it says, what it refuses."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from motion_cases import MECHANISMS, bisected, noise
@@ -129,6 +131,20 @@ def test_a_tie_that_has_yielded_gives_back_no_more_than_its_elastic_energy(veloc
         told = integrate(TIED, still, 1e-11, history=True, **start)
         arrivals.append(told.angular_velocity[(told.rotation == 0) & (told.angular_velocity != 0)][0])
     assert arrivals[0] == pytest.approx(arrivals[1], rel=1e-8)
+
+
+@pytest.mark.parametrize("pretension", [0.0, 2e3])
+def test_a_flight_back_against_ties_that_do_not_yield_lands_with_the_energy_it_had(pretension):
+    """I ω²/2 = g ∫ G dφ from where it starts at rest, G with the pull of the ties."""
+    wall = replace(TIED, tie_pretension=pretension, behind="cross_walls")
+    side = wall.mechanism().positive
+    start = 0.9 * min(tie.rotation(tie.tie.yield_stretch, side.end_rotation) for tie in side.ties)
+    told = integrate(wall, STILL, 1e-11, history=True, initial_rotation=start)
+    landing = told.angular_velocity[(told.rotation == 0) & (told.angular_velocity != 0)][0]
+    nodes, weights = np.polynomial.legendre.leggauss(30)
+    rotations = start * (nodes + 1) / 2
+    fallen = start / 2 * weights @ side.gravity(rotations)
+    assert side.at("inertia", 0.0) * landing**2 / 2 == pytest.approx(g * fallen, rel=1e-8)
 
 
 def test_where_gravity_is_taken_away_the_response_says_that_bodies_would_fly():

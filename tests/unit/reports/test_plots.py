@@ -263,9 +263,13 @@ def test_frames_hold_the_numbers_under_names_with_units():
     assert list(RECORD.frame().columns) == ["time_s", "acceleration_m_s2"]
     assert RECORD.frame().acceleration_m_s2.abs().max() == RECORD.peak_acceleration
     history = WHOLE.frame()
-    assert np.array_equal(history.rotation_rad, WHOLE.rotation) and len(history.columns) == 3
+    assert np.array_equal(history.rotation_rad, WHOLE.rotation)
+    assert list(history.columns) == ["time_s", "rotation_rad", "angular_velocity_rad_s"]
     pulses = PLOTTED["analysis"].frame()
-    assert len(pulses) == len(PLOTTED["analysis"].ranked)
+    assert np.array_equal(pulses.gain_m2_s3, [found.gain for found in PLOTTED["analysis"].ranked])
+    assert pulses.explained_energy[0] == PLOTTED["analysis"].explained_energy
+    main = PLOTTED["analysis"].dominant
+    assert (pulses.amplitude_m_s2[0], pulses.start_time_s[0]) == (main.amplitude, main.start_time)
     assert pulses.period_s[0] == pytest.approx(0.9, rel=1e-6)
     blocks = SPECTRUM.frame()
     assert len(blocks) == SPECTRUM.size
@@ -277,6 +281,8 @@ def test_frames_hold_the_numbers_under_names_with_units():
         SPECTRUM[3:].frame()
     oscillators = PLOTTED["response spectrum"]
     assert np.array_equal(oscillators.frame().pseudo_acceleration_m_s2, oscillators.pseudo_acceleration)
+    assert np.array_equal(oscillators.frame().period_s, oscillators.periods)
+    assert np.array_equal(oscillators.frame().displacement_m, oscillators.displacement)
 
 
 def test_a_response_is_drawn_over_the_critical_rotation_where_that_is_asked():

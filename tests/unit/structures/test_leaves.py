@@ -217,6 +217,9 @@ def test_leaves_that_are_thrown_back_fall_away_from_each_other():
     freely = described("facade", leaves_m=[0.15, 0.3], behind="cross_walls", restitution=0.6)
     outer, inner = (structure for _, structure in freely.leaves_alone)
     assert not outer.one_sided and inner.one_sided and inner.mechanism().positive.restitution == 0.6
+    free = FreeWall.of_size(0.5, 4.0, 0.6, True, leaves=(0.2, 0.2))
+    outer, inner = (structure for _, structure in free.leaves_alone)
+    assert not outer.one_sided and inner.one_sided and inner.mechanism().positive.restitution == 0.6
     # A typed restitution is that of the wall: each leaf has the one of its own geometry.
     squat = FreeWall.of_size(0.5, 2.0, 0.5, leaves=(0.2, 0.2))
     leaf = squat.leaves_alone[0].structure
