@@ -204,10 +204,10 @@ def geonet(stated: float = 1.0) -> str:
     return (
         "Uncorrected accelerogram 1 GNS Science\nSite WTMC      42 37 10S\n"
         + "x\n" * 7 + f"Number of points  {N}    Duration\n"
-        f"Raw readings in units of 1.00 mm/s/s  at intervals of {STEP:.3f} s\nData is unfiltered\nComponent N45E\n"
+        f"Raw readings in units of 0.50 mm/s/s  at intervals of {STEP:.3f} s\nData is unfiltered\nComponent N45E\n"
         f"Acceleration:  Peak {stated * np.abs(TRUE).max() * 1000:.1f} mm/s/s at {peak_time():.2f} s\n"
         "Velocity\nDisplacement\n"
-        + columns(np.zeros(40, int), 10, "8d") + columns(np.zeros(60), 10, "8.3f") + columns(1000 * TRUE, 10, "8.1f")
+        + columns(np.zeros(40, int), 10, "8d") + columns(np.zeros(60), 10, "8.3f") + columns(2000 * TRUE, 10, "8.1f")
     )  # fmt: skip
 
 
