@@ -5,7 +5,6 @@ import fcntl
 import subprocess
 import sys
 import time
-from collections.abc import Callable
 from importlib.metadata import version
 from pathlib import Path
 
@@ -27,25 +26,15 @@ from rocking.structures import Block, Spire
 
 PARTS = ("contacts", "motion", "pulses", "sine_pulse")
 """The folders of the kernels."""
-USUAL = "about 20 s on two idle cores"
-"""How long compiling takes: the figure first_compilation of docs/measured, which a test compares."""
 _PATIENCE = 3.0
-"""Seconds after which something is said, as what is compiled already is loaded in less."""
-_EVERY = 1.0
-"""Seconds between two words."""
+"""Seconds from which on it is said how long it took, as what is compiled already is loaded in less."""
 
 
-def _print_last(line: str, is_last: bool) -> None:
-    if is_last:
-        print(line)
-
-
-def compile_all(say: Callable[[str, bool], None] = _print_last) -> None:
+def compile_all() -> None:
     """Compile what filters, finds pulses, predicts, integrates and makes spectra, where that is not done already.
 
     Next to what numba keeps, a file for each processor names what was compiled; who finds it locked waits for the other
-    process. say: is called each second with how long it has taken, in a line that replaces the one before it, and
-    whether it is the last. Raises RockingError when it fails.
+    process. Prints how long it took. Raises RockingError when it fails.
     """
     folder = Path(rock.stats.cache_path)
     folder.mkdir(parents=True, exist_ok=True)
@@ -54,7 +43,7 @@ def compile_all(say: Callable[[str, bool], None] = _print_last) -> None:
             fcntl.flock(stamp, fcntl.LOCK_EX)
         stamp.seek(0)
         if stamp.read() != (source := _source()):
-            _compile(say)
+            _compile()
             stamp.truncate(0)
             stamp.write(source)
 
@@ -82,26 +71,19 @@ def _source() -> str:
     return sha256_of_sources(package, files, version("numba"))
 
 
-def _compile(say: Callable[[str, bool], None]) -> None:
+def _compile() -> None:
     started = time.monotonic()
     command = "from rocking.assessment import compilation; compilation.{}()"
     calls = [
         [sys.executable, "-c", command.format(part)] for part in ("compile_mechanisms", "compile_blocks")
     ]
     running = [subprocess.Popen(call, stderr=subprocess.PIPE, text=True) for call in calls]
-    next_word = _PATIENCE
-    while any(worker.poll() is None for worker in running):
-        spent = time.monotonic() - started
-        if spent >= next_word:
-            next_word = spent + _EVERY
-            say(f"Compiling for this machine, once, {USUAL}: {spent:.0f} s", False)
-        time.sleep(0.1)
-    for worker in running:
-        _, errors = worker.communicate()
+    said = [worker.communicate()[1] for worker in running]
+    for worker, errors in zip(running, said, strict=True):
         if worker.returncode:
             raise RockingError(f"the numerical parts do not compile: {errors.strip().splitlines()[-1:]}")
-    if next_word > _PATIENCE:
-        say(f"Compiled in {time.monotonic() - started:.0f} s; it is cached for every later run.", True)
+    if (spent := time.monotonic() - started) >= _PATIENCE:
+        print(f"Compiled in {spent:.0f} s; it is cached for every later run.")
 
 
 def compile_mechanisms() -> None:
