@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from rocking.assessment.conclusion import Conclusion, conclusion_in_words, conclusions
+from rocking.assessment.conclusion import Conclusion, conclusion_in_words, conclusions, fallen_in_one_run
 from rocking.assessment.decide import Decision, Verdict
 from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.reserve import Reserve
@@ -153,3 +153,16 @@ def test_without_an_ensemble_what_falls_in_its_one_run_is_counted():
     assert conclusion_in_words(words | {"a": Verdict.OVERTURNS}, fallen={"b"}).startswith(
         "1 of 5 structures overturns"
     )
+    one_run = (RockingWarning(AssessmentKind.ENSEMBLE),)
+    made = [
+        Conclusion(
+            decided(Decision(word, share, (share, share), "", (), settled), structure=name),
+            compared("EW", 2.0),
+        )
+        for name, word, share, settled in (
+            ("falls", Verdict.UNCERTAIN, 1.0, one_run),
+            ("stands", Verdict.UNCERTAIN, 0.0, one_run),
+            ("all fall", Verdict.OVERTURNS, 1.0, ()),
+        )
+    ]
+    assert fallen_in_one_run(made) == {"falls"}

@@ -18,6 +18,7 @@ from rocking.assessment.falls import (
     STONES_DRAWS,
     Falls,
     Model,
+    _Rising,
     _Stones,
     falls_along,
     reserve,
@@ -176,6 +177,13 @@ def test_openquake_gets_the_safe_end_with_its_reason(slider_curve, tmp_path):
         slider_curve.upper.probability.tolist(), abs=1e-9
     )
     assert "upper ends, in which what cannot be told falls" in root.find(".//n:description", space).text
+
+
+def test_a_question_whose_answer_rises_is_asked_between_its_answers_alone():
+    asked = []
+    rising = _Rising(lambda factor: asked.append(factor) or factor >= 0.05)
+    assert [rising(factor) for factor in (0.04, 0.06, 0.03, 7.0, 0.05)] == [False, True, False, True, True]
+    assert asked == [0.04, 0.06, 0.05]
 
 
 def test_the_reserve_of_a_spire_is_where_its_stacks_fall():

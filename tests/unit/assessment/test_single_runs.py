@@ -35,3 +35,11 @@ def test_a_bulge_of_statics_is_followed_without_an_ensemble():
     assert [item.integrated_rotation_ratio for item in fallen] == [math.inf]
     assert station.decision.verdict is rocking.Verdict.UNCERTAIN
     assert station.decision.share == 1.0
+
+
+def test_other_processings_are_followed_where_they_are_asked_for():
+    for is_asked in (False, True):
+        assessor = Assessor(ONE_RUN, processing_variants=is_asked)
+        result = assessor.assess("r", [sine(3.0)], on_the_ground({"pier": rocking.Block(2.0, 0.2)}))
+        (case,) = result.periods[0].cases.values()
+        assert any(variation.processing for variation in case.variations) is is_asked
