@@ -52,13 +52,16 @@ RockingWarning.__post_init__ = _noted(RockingWarning.__post_init__, str)
 @pytest.fixture(autouse=True)
 def held_to_the_list(request: pytest.FixtureRequest) -> Iterator[None]:
     """Fail a test in which a sentence is said that the list does not hold."""
+    _of_run.update(_of_test)  # of what a module makes when it is imported
     _of_test.clear()
     yield
+    said = set(_of_test)
+    _of_test.clear()
     if hasattr(getattr(request.node, "obj", None), "hypothesis") or request.module.__name__ in DRAWN:
         return
-    _of_run.update(_of_test)
-    if RENEW not in os.environ and not _of_test <= _listed:
-        new = sorted(_of_test - _listed)
+    _of_run.update(said)
+    if RENEW not in os.environ and not said <= _listed:
+        new = sorted(said - _listed)
         pytest.fail(
             f"{LISTED.name} does not list: {new}; where they are meant, run make sentences.", pytrace=False
         )

@@ -25,6 +25,7 @@ from rocking.floors.support import Mode, Support
 from rocking.motion.batch import rocking_spectrum
 from rocking.pulses import predicting_pulse
 from rocking.quantities import GRAVITY
+from rocking.records.formats.format import Options
 from rocking.records.formats.text import even_step
 from rocking.signal.processing import Processing, process
 from rocking.signal.rotation import aligned, rotd
@@ -82,6 +83,7 @@ STOREYS = {"name": "tower", "period_s": 0.3, "damping_ratio": 0.05, "storeys": 2
     (lambda value: CodeTerms(least_others=value), ConfigurationError, "least_others", 0.0, 1.0),
     (lambda value: sensitive(fragile_change=value), MotionError, "fragile_change", 0.0, 0.5),
     (lambda value: rotd(RECORD, RECORD, step=value), RecordError, "step", math.ulp(0.0), 90.0),
+    (lambda value: Options().time_step_of(value), RecordError, "time_step", 1e-6, 10.0),
 ])  # fmt: skip
 def test_the_ends_of_a_range_are_allowed_and_nothing_beyond(
     make: Callable[[Any], object], error: type[RockingError], field: str, low: float, high: float

@@ -1,14 +1,16 @@
 """Joining: which files of a folder are one station's, on files made in the shape of those that were joined wrongly."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+import rocking
 from rocking.catalogue import CatalogueRecord, load_catalogue, open_station
 from rocking.catalogue.catalogue import catalogue_text
 from rocking.catalogue.folder import catalogue_of_folder
-from rocking.catalogue.listing import listing_text, warnings_of
+from rocking.catalogue.listing import listing_text, reading_of, warnings_of
 from rocking.records.claims import direction_in_name
 from rocking.records.kinds import RecordKind
 from rocking.warnings import RockingWarning
@@ -166,6 +168,18 @@ def test_a_vertical_by_its_name_acts_upwards(tmp_path: Path) -> None:
     assert len(station.horizontal) == 2 and station.vertical.component == "UP"
     kinds = {warning.kind for file in catalogue_of_folder(tmp_path).files for warning in warnings_of(file)}
     assert not kinds & {RecordKind.DIRECTION_UNKNOWN, RecordKind.DIRECTION_IN_NAME}
+
+
+def test_a_warning_of_some_channels_names_them() -> None:
+    """A warning that names what it is about is left as it is, and so is one of all channels."""
+    of_two = RockingWarning.of(RecordKind.PEAK_RARE, peak_g=4.0)
+    of_all = RockingWarning.of(RecordKind.HALF_REPEATED, samples=3)
+    named = RockingWarning(RecordKind.LONE_MAY_BE_VERTICAL, "A")
+    channels = [
+        rocking.Accelerogram(VALUES, 0.01, name, warnings=(*own, of_all))
+        for name, own in (("A", (of_two, named)), ("B", (of_two,)), ("C", ()))
+    ]
+    assert set(reading_of(channels).warnings) == {replace(of_two, about="A, B"), of_all, named}
 
 
 @pytest.mark.parametrize("names", [
