@@ -20,7 +20,7 @@ ENGINE := openquake-engine==3.26.2
 # Tests start many processes, and each would compile the whole package again to bytecode.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: all run setup slurm openquake test test-runs test-both sentences test-all bench trace check near check-research schema pages figures measured paper documentation wheel versions dist release lock clean
+.PHONY: all run setup slurm openquake test test-runs test-both sentences test-all bench trace check near expected check-research schema pages figures measured paper documentation wheel versions dist release lock clean
 
 all: run
 
@@ -90,6 +90,10 @@ check: $(TOOLS)
 SINCE ?= HEAD
 near: $(TOOLS)
 	tests=$$($(BIN)/python -m tests.near $(SINCE)) && { [ -z "$$tests" ] || $(BIN)/python -m pytest -q -n 0 $$tests; }
+
+# What a study says now, which the commit that changes it explains.
+expected: $(TOOLS)
+	ROCKING_EXPECTED=1 $(BIN)/python -m pytest -q -n 0 -m process tests/workflow/test_expected.py
 
 # The scripts of the research, which are no part of the package.
 check-research: $(TOOLS)
