@@ -206,19 +206,13 @@ class Motion:
     @cached_property
     def fingerprint(self) -> str:
         """Hash of the samples and of all that is known of them; where the file lies is left out."""
-        attributes = [
-            attribute.name
-            for attribute in fields(Accelerogram)
-            if attribute.name not in ("acceleration", "source")
-        ]
-        contents: list[object] = []
-        for motion in (*self.components, self.vertical):
-            if motion is None:
-                contents.append(None)
-                continue
-            # The samples by their hash; whether it came from a file, not from which.
-            facts = {name: getattr(motion, name) for name in sorted(attributes)}
-            contents.append((motion.sha256, bool(motion.source.path), facts))
+        names = sorted({attribute.name for attribute in fields(Accelerogram)} - {"acceleration", "source"})
+
+        def content(motion: Accelerogram) -> tuple[object, ...]:
+            """The samples by their hash; whether it came from a file, not from which."""
+            return motion.sha256, bool(motion.source.path), {name: getattr(motion, name) for name in names}
+
+        contents = [motion and content(motion) for motion in (*self.components, self.vertical)]
         return sha256_of(*contents, self.support)
 
 
