@@ -133,7 +133,9 @@ def _dynamic_check(
     falls = np.zeros(use.shape, dtype=int)
     motions = np.zeros(len(records.names), dtype=int)
     for place in places:
-        felt = [_felt(record, support) for record in records.scaled(int(place))]
+        felt = records.scaled(int(place))
+        if support is not None:
+            felt = tuple(map(support.motion, felt))
         for row, body in enumerate(bodies):
             use[row, place], falls[row, place] = body.answer(felt)
             motions[place] = max(motions[place], len(felt) * len(body.polarities))
@@ -321,10 +323,6 @@ class _Body:
                 uses.append(math.inf if ends else moved / self.limits[place])
                 exceeded += not moved <= side.ultimate_displacement or math.isinf(moved)
         return float(np.mean(uses)), exceeded
-
-
-def _felt(record: Accelerogram, support: Support | None) -> Accelerogram:
-    return record if support is None else support.motion(record)
 
 
 def with_confidence(sides: Sequence[CodeCapacity]) -> Mechanism:

@@ -96,33 +96,21 @@ def _kinematic_check(structure: Structure, spectrum: DesignSpectrum, terms: Code
         warning=next((restraint.warning for restraint in restraints if restraint.ties == math.inf), None),
     )
     if terms.limit_state == "SLD":
-        return replace(made, linear=_onset_check(made, spectrum))
+        clause = "C8.7.1.9" if made.governing.elastic_period else "C8.7.1.8"
+        return replace(made, linear=_level_check(made, spectrum, clause, made.damage_level))
     if terms.limit_state == "SLV":
-        made = replace(made, linear=_linear_check(made, spectrum, terms.behaviour_factor))
+        # Of the mechanism that starts first: a_g,SLV = q a_g,SLD.
+        level = terms.behaviour_factor * made.damage_level
+        made = replace(made, linear=_level_check(made, spectrum, "C8.7.1.2.1.7", level))
     mechanisms = _on_the_better_branch(mechanisms, floor, LIMIT_STATES[terms.limit_state])
     made = replace(made, mechanisms=mechanisms)
     collapses = _collapses(mechanisms, floor, LIMIT_STATES[terms.limit_state])
     weakest, level = _weakest(starts, collapses)
     if math.isinf(level):
-        return replace(made, warning=_not_made(mechanisms[first]))
+        why = mechanisms[first].candidate.mechanism.never_overturns_because
+        return replace(made, warning=RockingWarning.of(CheckKind.NO_DISPLACEMENT, why=why))
     made = replace(made, governing=mechanisms[weakest])
-    return replace(made, nonlinear=_nonlinear_check(made, spectrum, level))
-
-
-def _onset_check(made: StructureCheck, spectrum: DesignSpectrum) -> Check:
-    """The check of SLD."""
-    clause = "C8.7.1.9" if made.governing.elastic_period else "C8.7.1.8"
-    return _level_check(made, spectrum, clause, made.damage_level)
-
-
-def _linear_check(made: StructureCheck, spectrum: DesignSpectrum, behaviour: float) -> Check:
-    """The linear check of SLV, of the mechanism that starts first: a_g,SLV = q a_g,SLD."""
-    return _level_check(made, spectrum, "C8.7.1.2.1.7", behaviour * made.damage_level)
-
-
-def _nonlinear_check(made: StructureCheck, spectrum: DesignSpectrum, level: float) -> Check:
-    """The nonlinear check, of the mechanism that governs."""
-    return _level_check(made, spectrum, "C8.7.1.2.1.8", level)
+    return replace(made, nonlinear=_level_check(made, spectrum, "C8.7.1.2.1.8", level))
 
 
 def _level_check(made: StructureCheck, spectrum: DesignSpectrum, clause: str, capacity: float) -> Check:
@@ -133,13 +121,6 @@ def _level_check(made: StructureCheck, spectrum: DesignSpectrum, clause: str, ca
         capacity=capacity,
         demand=spectrum.level,
         mechanism=made.governing.description,
-    )
-
-
-def _not_made(mechanism: CodeCapacity) -> RockingWarning:
-    """Why checks that need d_0 were not made."""
-    return RockingWarning.of(
-        CheckKind.NO_DISPLACEMENT, why=mechanism.candidate.mechanism.never_overturns_because
     )
 
 

@@ -381,7 +381,7 @@ def _from_structure(stem: str, mechanism: Mechanism | None) -> IntensityMeasure:
         )
     period = 2 * math.pi / mechanism.equivalent_block("exact_at_rest").frequency_parameter
     shares = RANGE_BY_PERIOD if stem == "AvgSA" else (FIV3_BY_PERIOD,)
-    return made(*(_three_digits(share * period) for share in shares))
+    return made(*(float(f"{share * period:.3g}") for share in shares))
 
 
 def _is_one_swing(mechanism: Mechanism) -> bool:
@@ -389,10 +389,6 @@ def _is_one_swing(mechanism: Mechanism) -> bool:
         mechanism.uplift_multiplier <= ONE_SWING_MULTIPLIER and mechanism.restitution < ONE_SWING_RESTITUTION
     )
     return mechanism.one_sided or loses_much
-
-
-def _three_digits(value: float) -> float:
-    return float(f"{value:.3g}")
 
 
 def compared(mechanism: Mechanism) -> tuple[IntensityMeasure, ...]:

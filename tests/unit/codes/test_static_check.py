@@ -14,10 +14,13 @@ from scipy.optimize import brentq
 
 import rocking
 from rocking import Arch, Block, DesignSpectrum, Facade, LoadedWall, Mode, Spire, Support, Wall
+from rocking.codes import static_check
 from rocking.codes.check import Check, CodeTerms
+from rocking.codes.kinds import CheckKind
 from rocking.codes.static_check import elastic_period, kinematic_check
 from rocking.errors import ConfigurationError, RecordError, StructureError
 from rocking.products.checks.rows import code_check_rows
+from tests.made_structures import HELD
 from tests.refusals import refused
 
 G = 9.80665
@@ -456,3 +459,11 @@ def test_the_linear_check_is_never_below_the_onset_and_the_nonlinear_neither():
             check = kinematic_check(structure, DesignSpectrum.ntc(3.0, 2.4, 0.4, soil))
             assert check.linear.capacity >= check.damage_level
             assert check.nonlinear.capacity >= check.damage_level
+
+
+def test_what_no_mechanism_overturns_is_checked_by_forces_alone(monkeypatch):
+    first, *_ = static_check._opening(HELD)
+    monkeypatch.setattr(static_check, "_opening", lambda structure: [first])
+    found = kinematic_check(HELD, SPECTRUM)
+    assert found.linear is not None and found.nonlinear is None
+    assert found.warning.kind is CheckKind.NO_DISPLACEMENT and str(found.warning) in repr(found)
