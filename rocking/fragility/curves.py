@@ -384,7 +384,7 @@ def explanation(
     )
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False)
 class IncrementalDynamicAnalysis:
     """The largest rotations of a structure under records at levels of an intensity measure.
 
@@ -400,11 +400,6 @@ class IncrementalDynamicAnalysis:
     intensities: np.ndarray
     sample: ClusterSample
     falls: Sequence[Sequence[Falls | None]] = ()
-
-    def __repr__(self) -> str:
-        records, levels, members = self.rotation_ratios.shape
-        shape = f"{records} records at {levels} levels of {self.measure.name}, {members} members each"
-        return f"<IncrementalDynamicAnalysis: {shape}>"
 
     @property
     def stations(self) -> tuple[str, ...]:
