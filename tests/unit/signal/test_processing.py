@@ -52,27 +52,6 @@ def test_a_line_is_removed_exactly_and_only_a_line() -> None:
     assert np.allclose(level, wave - np.polynomial.Polynomial.fit(t, wave, 1)(t), atol=1e-12)
 
 
-@pytest.mark.parametrize(("setting", "passed", "stopped"), [
-    ({"high_pass": 0.5}, 4.0, 0.05), ({"low_pass": 5.0}, 0.5, 40.0),
-])  # fmt: skip
-def test_filters_pass_without_shift_and_halve_at_the_corner(setting, passed: float, stopped: float) -> None:
-    """Run both ways a Butterworth filter has gain 1/(1 + (f/f_c)^2n) and no phase: a half at its corner."""
-    middle = slice(1500, 2500)
-    corner = next(iter(setting.values()))
-    order, nyquist = 4, 0.5 / DT
-
-    def warped(f: float) -> float:
-        return np.tan(np.pi * f / (2 * nyquist))  # the bilinear transform bends frequencies so
-
-    for frequency in (passed, corner, stopped):
-        wave = sine(frequency)
-        got = process(record(wave), Processing(**setting)).acceleration[middle]
-        ratio = warped(frequency) / warped(corner)
-        gain = 1 / (1 + (ratio if "low_pass" in setting else 1 / ratio) ** (2 * order))
-        # what the ends of the record leave in its middle after five cycles of the corner
-        assert np.abs(got - gain * wave[middle]).max() < 2e-3
-
-
 def test_the_zeros_of_a_filter_are_stripped() -> None:
     values = sine(1.0)
     assert process(record(values), Processing(high_pass=0.1)).acceleration.size == values.size
@@ -138,7 +117,8 @@ def test_a_filter_is_that_of_scipy_run_both_ways(kind: str, corner: float, order
     pad = int(np.ceil(1.5 * order / corner / DT))
     sections = butter(order, corner, kind.replace("_", ""), fs=1 / DT, output="sos")
     expected = sosfiltfilt(sections, np.pad(values, pad), padlen=0)[pad:-pad]
-    filtered = process(record(values), Processing(**{kind: corner}, order=order)).acceleration
+    settings = {kind: corner} | ({} if order == 4 else {"order": order})  # 4 is the usual one
+    filtered = process(record(values), Processing(**settings)).acceleration
     assert filtered == pytest.approx(expected, abs=1e-11)
 
 
