@@ -126,6 +126,17 @@ def test_the_interval_holds_the_mean_of_records_that_are_drawn(records, median) 
     assert len(inside) == 500 and np.mean(inside) > 0.9 - 0.022
 
 
+def test_the_upper_end_of_few_that_fall_is_that_of_a_shared_normal_variable() -> None:
+    """Φ(μ/√(1 + σ²)) over draws of the μ and σ of a normal sample (Krishnamoorthy & Mathew 2003)."""
+    shaking = np.linspace(-2.2, -1.0, 5)
+    drawn = np.random.default_rng(5)
+    deviations = shaking.std(ddof=1) * np.sqrt(4 / drawn.chisquare(4, 400_000))
+    means = shaking.mean() + deviations * drawn.standard_normal(400_000) / math.sqrt(5)
+    high = np.quantile(norm.cdf(means / np.sqrt(1 + deviations**2)), 0.95)
+    found = interval_of_mean(50 * norm.cdf(shaking), 50, ClusterSample.scattered("abcde"))
+    assert found[1] == pytest.approx(50 * high, rel=0.01)
+
+
 def test_a_class_is_told_in_one_sentence() -> None:
     of_all = {
         "expected_falls_low": 33.2,
