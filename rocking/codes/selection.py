@@ -153,15 +153,13 @@ class Selection(ScaledPool, Drawn):
         if np.unique(labels).size < self.chosen.size:
             return np.empty((0, self.chosen.size), dtype=int)
         ratios = self.spectra / self.target
-        found = []
-        number = 0
+        found: list[np.ndarray] = []
         for own in random_sets(labels, self.chosen.size, tries, rng):
             sets = places[own]
             means = ratios[sets].mean(axis=1)
             allowed = (means.min(axis=1) >= 1 - self.below) & (means.max(axis=1) <= 1 + self.above)
             found.append(sets[allowed])
-            number += int(allowed.sum())
-            if number >= most:
+            if sum(map(len, found)) >= most:
                 break
         return np.concatenate(found)[:most]
 

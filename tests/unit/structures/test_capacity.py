@@ -99,3 +99,12 @@ def test_it_collapses_where_what_does_not_break_until_then_lets_go(heights, elon
     assert capacity.ruptures == pytest.approx((rupture,), rel=1e-9)
     assert capacity.collapse_rotation == pytest.approx(collapse, rel=1e-9)
     assert capacity.static.side.critical_rotation == pytest.approx(max(rupture, collapse), rel=1e-9)
+
+
+def test_what_stands_at_rest_by_a_tie_that_breaks_bears_nothing_without_it():
+    """The thrust of 3 kN/m at 3.5 m overturns 36 kN/m on half a thickness of 0.25 m."""
+    ties = {"tie_heights": (3.8,), "tie_stiffness": 5e6, "tie_strength": 6e3, "tie_pretension": 4e3}
+    front = Facade((4.0,), (0.5,), 18e3, behind="cross_walls", restitution=0.8, thrust=3e3, thrust_height=3.5,
+                   tie_plastic_elongation=0.6, crack="known", crack_storey=1, **ties)  # fmt: skip
+    capacity = CodeCapacity(front.candidates()[0], front.static_capacity(), confidence_factor=1.0)
+    assert len(capacity.ruptures) == 1 and capacity.collapse_rotation == 0.0
