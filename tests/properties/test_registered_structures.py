@@ -214,6 +214,8 @@ def test_a_drawing_is_finite_closed_and_measured(structure):
     lengths = [d for d in dimensions if d.text.endswith(" m") and len(d.line) == 2]
     for dimension in lengths:
         measured = np.linalg.norm(np.subtract(*dimension.feet))
+        shift, along = np.subtract(dimension.line[0], dimension.feet[0]), np.subtract(*dimension.line)
+        assert shift @ along == pytest.approx(0.0, abs=1e-9) and np.hypot(*along) == pytest.approx(measured)
         assert measured == pytest.approx(float(dimension.text.removesuffix(" m")), rel=1e-5)
 
 
