@@ -216,6 +216,7 @@ def test_a_drawing_is_finite_closed_and_measured(structure):
         measured = np.linalg.norm(np.subtract(*dimension.feet))
         shift, along = np.subtract(dimension.line[0], dimension.feet[0]), np.subtract(*dimension.line)
         assert shift @ along == pytest.approx(0.0, abs=1e-9) and np.hypot(*along) == pytest.approx(measured)
+        assert not shift.any() or 0.01 * size < np.hypot(*shift) < 0.2 * size
         assert measured == pytest.approx(float(dimension.text.removesuffix(" m")), rel=1e-5)
 
 

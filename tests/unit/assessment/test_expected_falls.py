@@ -78,6 +78,17 @@ def test_a_made_record_is_no_earthquake() -> None:
     assert alone is not None and (alone.expected_falls, alone.earthquakes) == (1.0, 1)
 
 
+def test_a_station_is_still_where_no_record_of_it_lifts_anything() -> None:
+    ratios = {"a": 0.0, "b": 0.4, "c": 0.0, "d": 0.2}
+    rows = [
+        falls_under(verdicts([station(case("EW", ratio, "pier", falls=0))], name))
+        for name, ratio in ratios.items()
+    ]
+    stations = {"a": "one", "b": "one", "c": "two", "d": "three"}
+    of_all = falls_over(filter(None, rows), {name: (place, "Kobe") for name, place in stations.items()})
+    assert of_all is not None and of_all.still == 1
+
+
 @pytest.mark.parametrize("records", [3, 10])
 def test_what_no_record_has_shown_is_bounded_by_their_number(records) -> None:
     """What befalls a part q of all records is met by none of n in (1 - q)^n: 5 % of studies at the end stated.
