@@ -69,6 +69,7 @@ def test_a_gable_is_drawn_as_a_triangle_beside_its_section():
     assert np.ptp(np.vstack(gable.outline()), axis=0) == pytest.approx([0.6, 3.0])
     without = rocking.structure_from_config({"type": "gable", "height_m": 3.0, "thickness_m": 0.6})
     assert len(without.described.front) == 3
+    assert np.ptp(without.described.front, axis=0) == pytest.approx([6.0, 3.0])  # under a roof of 45°
     wall = rocking.structure_from_config({"type": "free_wall", "height_m": 3.0, "thickness_m": 0.6})
     assert len(wall.described.front) == 0
     assert {path.letter for path in part("free_wall").dimensions()} == {"h", "t", "b"}
