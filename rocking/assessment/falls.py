@@ -149,8 +149,7 @@ class _Stones:
     @property
     def _lifts(self) -> float:
         """The factor at which the first mechanism lifts."""
-        least = cracks(self.structure).counting.least_multiplier
-        return least / GroundMotions.of(self.record).excitation
+        return GroundMotions.of(self.record).lift_at(cracks(self.structure).counting.least_multiplier)
 
     @cached_property
     def _rungs(self) -> np.ndarray:
@@ -217,7 +216,8 @@ def reserve(
     """
     falls_beyond = loses_seat_at(crack.structure, support_loss)
     of_members = reserve_of_members(crack.mechanism, motions, settings.ensemble, falls_beyond=falls_beyond)
-    if not stackable(structure) or not motions.excitation > 0:
+    least = motions.lift_at(cracks(structure).counting.least_multiplier) / AMPLITUDES[1]
+    if not stackable(structure) or math.isinf(least):
         return of_members.held_to(share)
 
     @_Rising
@@ -235,8 +235,6 @@ def reserve(
     def reaches(factor: float, number: int) -> bool:
         return is_asked(factor) and any(_as_many(draws, factor, number) for draws in parts)
 
-    first = cracks(structure).counting.least_multiplier
-    least = first / motions.excitation / AMPLITUDES[1]
     factors = []
     for reached, factor in zip(SHARES, (of_members.low, of_members.median, of_members.high), strict=True):
         last = of_members.limit if math.isnan(factor) else factor

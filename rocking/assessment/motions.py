@@ -3,6 +3,7 @@
 A motion stands for several: its directions, its processings, with the vertical motion, on the ground or on a support.
 """
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, fields, replace
@@ -24,6 +25,7 @@ from rocking.pulses import (
     extract_pulses,
     velocity_pulse,
 )
+from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.signal import RotD, rotd
 from rocking.signal.processing import process, variants
@@ -159,6 +161,18 @@ class GroundMotions:
     def excitation(self) -> float:
         """The largest acceleration in all of them, over gravity with the vertical motion; inf where nothing presses."""
         return max(forcing_of(motion, self.vertical).excitation for motion in self.horizontal.values())
+
+    def lift_at(self, multiplier: float) -> float:
+        """Return the factor on all of them, the vertical one as well, at which what a multiplier λ lifts may lift.
+
+        f |ü_g| = λ (g + f ü_v) with the largest |ü_g| and the least ü_v, whatever their phase; inf where ü_g is zero.
+        """
+        forcings = [forcing_of(motion, self.vertical).ground for motion in self.horizontal.values()]
+        strongest = max(float(ground.strongest[0]) for ground in forcings)
+        unloading = max(-float(ground.lightest[0]) for ground in forcings)
+        if not strongest > 0 or math.isinf(multiplier):
+            return math.inf
+        return multiplier / (strongest / GRAVITY + multiplier * max(unloading, 0.0) / GRAVITY)
 
     @property
     def directions(self) -> tuple[str, ...]:

@@ -148,11 +148,7 @@ def reserve_of_members(
     )  # which compile; a table has no need
 
     settings = settings or EnsembleSettings()
-    strongest = motions.excitation
-    lowest = (
-        mechanism.uplift_multiplier / strongest if strongest > 0 else math.inf
-    )  # below which nothing lifts
-    lowest = lowest or settings.reserve / 100
+    lowest = motions.lift_at(mechanism.uplift_multiplier) or settings.reserve / 100
     if not lowest < settings.reserve:
         return Reserve(low=math.nan, median=math.nan, high=math.nan, limit=settings.reserve)
     moved = np.zeros(len(CAUSES)) if shift is None else shift

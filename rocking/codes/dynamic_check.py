@@ -274,10 +274,10 @@ def _none_of(stations: int, failing: float, size: int) -> float:
 
 
 def _sides_together(mechanisms: Sequence[CodeCapacity]) -> list[tuple[CodeCapacity, ...]]:
-    """The mechanisms of each crack together: one to a side, positive first."""
+    """The mechanisms of each crack together: one to a side, positive first; a bulge, to either side, is one alone."""
     bodies: list[tuple[CodeCapacity, ...]] = []
     for capacity in mechanisms:
-        if capacity.candidate.sign < 0:
+        if bodies and bodies[-1][-1].candidate.structure is capacity.candidate.structure:
             bodies[-1] = (*bodies[-1], capacity)
         else:
             bodies.append((capacity,))

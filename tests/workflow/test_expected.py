@@ -246,7 +246,7 @@ def test_numbers_and_words_of_every_product_are_those_of_before(tmp_path, capsys
                 if (
                     lines not in made.values()
                 ):  # as the description of the tables, which is the same of all studies
-                    made[f"{name}/{path.parent.name}/{path.name}"] = lines
+                    made[f"{name}/{path.parent.name}/{path.name}".replace("/results/", "/")] = lines
                 if path.suffix == ".csv":
                     heads, *rows = csv.reader(path.read_text(encoding="utf-8").splitlines())
                     columns |= {(path.name, head) for head in heads}

@@ -19,8 +19,9 @@ from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.store import RecordStore
 from rocking.errors import ConfigurationError
 from rocking.floors.place import place_from_config
+from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
-from rocking.structures import Block
+from rocking.structures import Block, Outcome
 from tests.refusals import refused
 
 STEP = 0.01
@@ -233,3 +234,25 @@ def test_at_the_reserve_so_many_members_of_the_ensemble_overturn():
     median = rocking.assess(record.scaled(found.median), BLOCK).overturning_share
     high = rocking.assess(record.scaled(1.3 * found.high), BLOCK).overturning_share
     assert low <= 0.1 and 0.2 <= median <= 0.8 and high >= 0.9
+
+
+@pytest.mark.parametrize("unloading", [0.0, 0.5, 1.2])
+def test_the_reserve_begins_where_the_motion_lifts_also_with_a_vertical_one(unloading: float) -> None:
+    """Both are scaled: at 3 times 0.5 g nothing presses, while 0.1 g alone lifts the block at 2.03 times only."""
+    horizontal, vertical = _record(0.1 * GRAVITY), _record(1.0, seed=1)
+    vertical = vertical.scaled(-unloading * GRAVITY / vertical.acceleration.min()) if unloading else None
+    motions = GroundMotions.of(horizontal, vertical=vertical)
+    multiplier = BLOCK.mechanism().uplift_multiplier
+    lift = motions.lift_at(multiplier)
+    assert lift == pytest.approx(multiplier / (0.1 + multiplier * unloading))
+    assert motions.scaled(0.999 * lift).excitation < multiplier < motions.scaled(1.001 * lift).excitation
+    found = reserve_of_members(BLOCK.mechanism(), motions, EnsembleSettings(reserve=8.0))
+    levels = [factor for factor in lift * 1.03 ** np.arange(60) if factor < 8]
+    falls = [
+        rocking.integrate(
+            BLOCK, horizontal.scaled(factor), vertical=vertical and vertical.scaled(factor)
+        ).outcome
+        is Outcome.OVERTURNS
+        for factor in levels
+    ]
+    assert lift / 1.05 <= found.low <= 1.02 * levels[falls.index(True)]

@@ -71,6 +71,18 @@ def test_a_block_under_the_set_as_its_integrations_say(records):
     assert low <= found.share <= high
 
 
+def test_a_bulge_inwards_is_followed_alone_and_is_no_side_of_another_crack(records):
+    wall = Facade(
+        (3.5, 3.0), (0.6, 0.5), 20e3, floor_loads=(12e3, 6e3), tie_heights=(3.4,), tie_stiffness=1e6,
+        tie_strength=4e3, behind="floors", restitution=0.5,
+    )  # fmt: skip
+    found = rocking.check(wall, SPECTRUM, records=records)
+    together = dynamic_check._sides_together(found.mechanisms)
+    assert any(sides[0].candidate.sign < 0 for sides in together)
+    assert sum(map(len, together)) == len(found.mechanisms) == len(together)
+    assert found.dynamic is not None
+
+
 def test_the_confidence_factor_weakens_what_restores(records):
     """The mechanism of a block with FC is the block whose gravity is g/FC: λ and p² fall by FC, φ_cr stays."""
     from rocking.codes.check import CodeTerms
