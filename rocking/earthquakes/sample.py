@@ -296,8 +296,10 @@ class ClusterSample:
         warnings = []
         unnamed = [place for place, event in enumerate(of_records) if not event]
         if unnamed and not each_unnamed:
+            of_rows = rows or range(len(records))  # the components of a row are one record
+            count = len({of_rows[place] for place in unnamed})
             warnings.append(
-                RockingWarning.of(SampleKind.EARTHQUAKES_UNNAMED, records=len(unnamed), all=len(records))
+                RockingWarning.of(SampleKind.EARTHQUAKES_UNNAMED, records=count, all=len(set(of_rows)))
             )
         filled = [
             event or (own[place] if each_unnamed else UNNAMED) for place, event in enumerate(of_records)

@@ -66,7 +66,7 @@ def _in_words(worst: Sequence[Conclusion], most: int) -> str:
 def record_line(verdicts: Iterable[VerdictRow], failures: Iterable[FailureRow]) -> str:
     """Say in one line what came of a record; what could not be assessed comes first."""
     reasons = [": ".join(filter(None, (failure.structure, failure.message))) for failure in failures]
-    failed = f"failed: {' '.join(reasons)}" if reasons else ""
+    failed = f"failed: {' '.join(dict.fromkeys(reasons))}" if reasons else ""
     return "; ".join(filter(None, (failed, verdicts_in_words(verdicts))))
 
 

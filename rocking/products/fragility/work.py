@@ -211,7 +211,7 @@ def _opened(
             with net("the fragility", record=record.id):
                 opened[record.id] = list(study.open(record)[0])
         except RockingError as error:
-            reasons.append(f"{record.id}: {error}")
+            reasons.append(f"{record.id}: {error.without_place(record.id)}")
     return opened, reasons
 
 
