@@ -18,8 +18,8 @@ from rocking.warnings import RockingWarning
 LISTED = Path(__file__).with_suffix(".txt")
 RENEW = "ROCKING_SENTENCES"
 """The variable of the environment with which the sentences of a whole run are listed anew: `make sentences`."""
-DRAWN = {"test_formats_mutation", "tests.workflow.test_expected"}
-"""The modules whose input is drawn, as that of hypothesis is, and with it what they refuse; and one of its own list."""
+DRAWN = {"test_formats_mutation"}
+"""The modules whose input is drawn, as that of hypothesis is, and with it what they refuse."""
 _LONGEST = 300
 _SHAPES = (
     (re.compile(r"'[^']*'|\"[^\"]*\"|“[^”]*”"), "'…'"),
