@@ -216,8 +216,10 @@ def reserve(
     """
     falls_beyond = loses_seat_at(crack.structure, support_loss)
     of_members = reserve_of_members(crack.mechanism, motions, settings.ensemble, falls_beyond=falls_beyond)
-    least = motions.lift_at(cracks(structure).counting.least_multiplier) / AMPLITUDES[1]
-    if not stackable(structure) or math.isinf(least):
+    least = math.inf
+    if stackable(structure):
+        least = motions.lift_at(cracks(structure).counting.least_multiplier) / AMPLITUDES[1]
+    if math.isinf(least):
         return of_members.held_to(share)
 
     @_Rising
