@@ -84,6 +84,19 @@ class Chain(Linkage):
         # The lower one may start as flat as it likes: only where it ends it must not lie flat.
         lying = np.arccos(np.clip(lean, *((-1.0, _MARGIN) if forwards else (-_MARGIN, 1.0))))
         self.end_rotation = float(min(abs(lying - np.angle(self._lower)), np.pi / 2))
+        middles = self._foot + self._lower / 2, self._hinge + self._upper / 2
+        if self._are_halves(middles):
+            self.critical = float(abs(np.angle(self._lower) - np.pi / 2))
+
+    def _are_halves(self, middles: tuple[complex, complex]) -> bool:
+        """Whether it is two blocks alone that turn about their corners, from one edge to the other and back.
+
+        Both are then upright at once, at the slenderness of the lower one, where no search leaves a rest of rounding.
+        """
+        if self.hung or self.rest.shape != (2,) or not self._is_held:
+            return False
+        asides = [*(self.rest - middles), (self._lower + self._upper).real]
+        return bool(np.abs(asides).max() < _SAME * abs(self._lower))
 
     @keeps_last
     def motion(self, rotation: np.ndarray) -> Kinematics:

@@ -300,7 +300,7 @@ def test_the_map_has_the_stations_of_the_earthquake_in_the_colour_of_the_chosen_
     cell = moving(page)
     assert page("#map")[0].is_displayed() and not page("#map circle"), "it is drawn when it is opened"
     page("#map summary")[0].click()
-    (circle,) = page("#map circle")
+    (circle,) = WebDriverWait(browser, 5).until(lambda _: page("#map circle"))
     assert cell.get_attribute("data-verdict").replace(" ", "-") in circle.get_attribute("class").split()
     fill = "return getComputedStyle(arguments[0])."
     assert browser.execute_script(f"{fill}fill", circle) == browser.execute_script(
