@@ -255,7 +255,7 @@ Made(number="one")
 """
 
 
-@pytest.mark.process
+@pytest.mark.slow
 def test_mypy_refuses_a_cell_of_another_type(tmp_path: Path) -> None:
     from mypy import api
 

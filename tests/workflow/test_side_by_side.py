@@ -19,7 +19,7 @@ from rocking.reports.explore import RECORD_SCRIPT
 from rocking.structures.kinds import StructureKind
 from tests.workflow.conftest import ROOT, SmallStudy, new_study
 
-pytestmark = pytest.mark.process
+pytestmark = pytest.mark.slow  # test_expected.py sees each of these pages with every commit
 
 STEP = 0.005
 SINES = {"weak": (2.0, 0.4), "strong": (4.1, 0.5)}
