@@ -35,7 +35,7 @@ _HASH = re.compile(r"(?<=settings and structures )[0-9a-f]{16}")
 _NUMBER = re.compile(r"(?<![\w.#])[-−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w])")
 
 
-def told(path: Path) -> list[str]:
+def lines_of(path: Path) -> list[str]:
     """The lines of a file of the results."""
     if path.suffix == ".csv":
         return list(_table(path))

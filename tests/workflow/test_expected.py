@@ -22,7 +22,7 @@ from rocking.study import cli
 from rocking.study.jobs import run
 from rocking.study.outputs import STEPS
 from rocking.study.plan import make_plan
-from tests.in_lines import differences, draw_in_lines, page_in_json, told
+from tests.in_lines import differences, draw_in_lines, lines_of, page_in_json
 from tests.made_pools import made_pool
 from tests.synthetic import SyntheticRecord, synthetic_record
 from tests.workflow.conftest import ROOT
@@ -242,7 +242,7 @@ def test_numbers_and_words_of_every_product_are_those_of_before(tmp_path, capsys
             _run_study()
             assert not any(cli.main(command) for command in COMMANDS.get(name, ()))
             for path in [*_products(Path("results")), *Path().glob("records/selected.csv")]:
-                lines = told(path)
+                lines = lines_of(path)
                 if (
                     lines not in made.values()
                 ):  # as the description of the tables, which is the same of all studies
