@@ -148,7 +148,7 @@ def reserve_of_members(
     )  # which compile; a table has no need
 
     settings = settings or EnsembleSettings()
-    lowest = motions.lift_at(mechanism.uplift_multiplier) or settings.reserve / 100
+    lowest = motions.lift_at(mechanism.uplift_multiplier)  # below which nothing lifts
     if not lowest < settings.reserve:
         return Reserve(low=math.nan, median=math.nan, high=math.nan, limit=settings.reserve)
     moved = np.zeros(len(CAUSES)) if shift is None else shift
